@@ -324,7 +324,7 @@ void App::Parts::watch_hotplug() {
   }
   hotplug.emplace(std::move(*watched));
   loop.on_readable(hotplug->descriptor(), [this] {
-    if (!hotplug->take_arrivals()) return;
+    if (!hotplug->read_arrivals()) return;
     for (auto& station : stations) station->wake_devices();
   });
 }
@@ -333,7 +333,7 @@ App::App(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 App::~App() = default;
 
 Result<std::unique_ptr<App>> App::create(Config config) {
-  sqlite::survive_cut_shm();
+  sqlite::survive_truncated_shm();
   auto parts = std::make_unique<Parts>(std::move(config));
   parts->handle_signals();
   MDOF_CHECK(parts->open_store());

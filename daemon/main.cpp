@@ -94,7 +94,7 @@ int run(const Options& options) {
   app->reset();
   // A thread still waits for a file whose file system does not respond. It would use objects that
   // the normal exit destroys.
-  if (mdof::daemon::Replayer::was_left_behind()) std::_Exit(0);
+  if (mdof::daemon::Replayer::was_abandoned()) std::_Exit(0);
   return 0;
 }
 

@@ -70,7 +70,7 @@ std::string header_item(const RunHeader& header, std::optional<std::int64_t> sup
 namespace {
 
 // The run at the end of a chain of superseding runs.
-Result<std::optional<std::int64_t>> last_that_supersedes(store::Store& store, std::int64_t run) {
+Result<std::optional<std::int64_t>> final_superseding_run(store::Store& store, std::int64_t run) {
   std::optional<std::int64_t> last;
   for (;;) {
     MDOF_TRY(const auto by, store.superseded_by(last.value_or(run)));
@@ -90,7 +90,7 @@ Result<std::string> run_list_document(store::Store& store, const RunListRequest&
   MDOF_TRY(const auto total, store.count_runs(request.axis, listed));
   std::vector<std::string> items;
   for (RunHeader& header : headers) {
-    MDOF_TRY(const auto by, last_that_supersedes(store, header.id));
+    MDOF_TRY(const auto by, final_superseding_run(store, header.id));
     if (explain) explain(header);
     items.push_back(header_item(header, by));
   }

@@ -43,8 +43,8 @@ struct DriverSpec {
   std::map<std::string, EncoderOrigin> further_encoders = {};  // of further axes, by channel
   // The channels of this axis, if the device serves several axes. Empty: it serves this axis only.
   ChannelPart part = {};
-  bool of_other_axis = false;  // `same_as`: the table of another axis holds its keys
-  std::string source_path;     // of a replayed file
+  bool is_declared_elsewhere = false;  // `same_as`: the table of another axis holds its keys
+  std::string source_path;             // of a replayed file
   // Identity of the device, independent of its name in the configuration (io/device_lock.h). While
   // a driver that make() created has the device open, no other driver can open it. Empty: the bus
   // of the device ensures this.

@@ -91,7 +91,7 @@ bool redundant(const MeasuredPoint& p) {
 
 }  // namespace
 
-bool lost_is_known(const RunHeader& h) {
+bool is_lost_known(const RunHeader& h) {
   return (h.provenance.recording_kind != "csv" && !is_imported(h)) || h.scans_lost > 0;
 }
 
@@ -191,7 +191,7 @@ void write_header_members(JsonWriter& json, const RunHeader& h, NoticeWords word
   json.key("supersedes");
   h.supersedes ? json.value(*h.supersedes) : json.null();
   json.field("scans", h.scans).key("scans_lost");
-  lost_is_known(h) ? json.value(h.scans_lost) : json.null();
+  is_lost_known(h) ? json.value(h.scans_lost) : json.null();
   write_temperature(json, h.temperature);
   json.key("recording")
       .begin_object()

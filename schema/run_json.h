@@ -20,7 +20,7 @@ void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint
 
 // False if lost scans cannot be detected: the scans of a CSV log have no numbers, and an imported
 // run has no scans.
-bool lost_is_known(const RunHeader& header);
+bool is_lost_known(const RunHeader& header);
 
 // Writes "key": ["text", ...] into an open object.
 void write_strings(JsonWriter& json, const char* key, const std::vector<std::string>& texts);

@@ -16,7 +16,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr int kMaxIterations = 100;
-// Number of steps that may choose the seen combinations. A singular value near kSeenFrom can be
+// Number of steps that may choose the seen combinations. A singular value near kSeenFactor can be
 // above it at one step and below it at the next, and then the steps never end.
 constexpr int kChoosingSteps = 10;
 constexpr double kLeastShare = 1e-3, kRounding = 1e-12;
@@ -44,7 +44,7 @@ struct PoseSpace {
 
 MountingView view_of(const SingularValues& svd) {
   const Eigen::VectorXd& all = svd.values;
-  const auto n = std::count_if(all.begin(), all.end(), [](double s) { return s >= kSeenFrom; });
+  const auto n = std::count_if(all.begin(), all.end(), [](double s) { return s >= kSeenFactor; });
   const Eigen::MatrixXd& v = svd.V;
   return {v.leftCols(n), v.rightCols(v.cols() - n), all.head(n)};
 }

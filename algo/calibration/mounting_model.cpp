@@ -11,7 +11,7 @@ namespace mdof::algo {
 namespace {
 
 // Typical uncertainty of clamping by hand, used if the rig does not declare it.
-constexpr double kByHand_m = 50e-6, kByHand_rad = 2e-3;
+constexpr double kHandClamping_m = 50e-6, kHandClamping_rad = 2e-3;
 constexpr double kAngleUnit_rad = 0.01;
 constexpr double kExactReading_m = 1e-10;  // an exact log has no noise for the weights
 
@@ -92,8 +92,8 @@ void MountingModel::set_scales(const Rig& rig) {
           part += axes[m][l] * along_[k][j](static_cast<Eigen::Index>(l));
         squared += part * part * u.position.u[m] * u.position.u[m];
       }
-      set(unknown_of(k, j == 0 ? kPlace1 : kPlace2), std::sqrt(squared), kByHand_m);
-      set(unknown_of(k, j == 0 ? kTowards1 : kTowards2), u.direction.u, kByHand_rad);
+      set(unknown_of(k, j == 0 ? kPlace1 : kPlace2), std::sqrt(squared), kHandClamping_m);
+      set(unknown_of(k, j == 0 ? kTowards1 : kTowards2), u.direction.u, kHandClamping_rad);
     }
     set(unknown_of(k, kZero), 0, rig.probes[k].range_m / 2);
     set(unknown_of(k, kScale), u.sensitivity.u, 0);
@@ -201,7 +201,7 @@ void MountingModel::widen_by_encoder(const Eigen::VectorXd& pose, double u_encod
     const FixtureProbe& p = nominal_.probes[seen.probe];
     const Eigen::Vector3d n_M =
         local_rotation(nominal_.axis, clamping_angles(pose, seen.clamping)).R_MC * p.n_C;
-    const double slope = n_M.dot(seen.way_M) / n_M.dot(p.u_M);
+    const double slope = n_M.dot(seen.axis_direction_M) / n_M.dot(p.u_M);
     seen.u_m = std::hypot(seen.u_m, slope * u_encoder_m);
   }
 }

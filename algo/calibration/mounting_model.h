@@ -20,11 +20,11 @@ inline Eigen::Index unknown_of(std::size_t probe, MountingUnknown which) {
 struct TraverseReading {
   std::size_t clamping, traverse;  // traverse: index over all clampings
   std::size_t probe;
-  Eigen::Vector3d way_M;  // unit vector of the axis, local frame
+  Eigen::Vector3d axis_direction_M;  // unit vector of the axis, local frame
   double travel_m;
   double reading_m, u_m;
 
-  Eigen::Vector3d travel_M() const { return travel_m * way_M; }
+  Eigen::Vector3d travel_M() const { return travel_m * axis_direction_M; }
 };
 
 class MountingModel {

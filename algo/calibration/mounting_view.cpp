@@ -10,9 +10,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kWhole = 0.99;       // share of a combination in the unseen space
-constexpr double kSamePlane = 1e-9;   // 1 - cosine
-constexpr double kIndependent = 0.1;  // remainder of a combination outside others
+constexpr double kEntirelyUnseen = 0.99;  // share of a combination in the unseen space
+constexpr double kSamePlane = 1e-9;       // 1 - cosine
+constexpr double kIndependent = 0.1;      // remainder of a combination outside others
 
 using Group = std::vector<std::size_t>;  // probes that measure one plane of the target
 
@@ -58,10 +58,10 @@ class Naming {
   Naming(const MountingModel& model, const MountingView& view) : model_(model), view_(view) {
     together_ = Eigen::MatrixXd(model.unknowns(), 0);
     for (const Group& group : groups_of(model.nominal())) {
-      for (std::size_t j = 0; j < 2; ++j) together_along(group, j);
-      together_zero(group);
+      for (std::size_t j = 0; j < 2; ++j) add_common_shift(group, j);
+      add_common_zero(group);
     }
-    find_apart();
+    find_other_unseen();
     for (std::size_t k = 0; k < model.probes(); ++k) single(k);
   }
   Unseen take() { return std::move(out_); }
@@ -75,7 +75,7 @@ class Naming {
       scaled(i) = v(i) == 0 ? 0 : v(i) / model_.scale()(i);
     length = scaled.norm();
     scaled /= length;
-    if ((view_.unseen.transpose() * scaled).squaredNorm() < kWhole) return false;
+    if ((view_.unseen.transpose() * scaled).squaredNorm() < kEntirelyUnseen) return false;
     scaled -= together_ * (together_.transpose() * scaled);
     if (scaled.norm() < kIndependent) return true;
     together_.conservativeResize(Eigen::NoChange, together_.cols() + 1);
@@ -83,7 +83,7 @@ class Naming {
     return true;
   }
 
-  void together_along(const Group& group, std::size_t which) {
+  void add_common_shift(const Group& group, std::size_t which) {
     const Eigen::Vector3d way = model_.along(group[0], which);
     Eigen::VectorXd shift = Eigen::VectorXd::Zero(model_.unknowns());
     bool declared = true;
@@ -107,7 +107,7 @@ class Naming {
                                   : "the rig does not declare the u of this mean (u_position_mm)"));
   }
 
-  void together_zero(const Group& group) {
+  void add_common_zero(const Group& group) {
     Eigen::VectorXd zero = Eigen::VectorXd::Zero(model_.unknowns());
     for (const std::size_t k : group) {
       const FixtureProbe& p = model_.nominal().probes[k];
@@ -120,8 +120,8 @@ class Naming {
                                "; the mean of offset_um in the rig is not changed");
   }
 
-  void find_apart() {
-    // Within the precision of kWhole, what remains of a column is all of it or nothing.
+  void find_other_unseen() {
+    // Within the precision of kEntirelyUnseen, what remains of a column is all of it or nothing.
     const Eigen::MatrixXd left =
         view_.unseen - together_ * (together_.transpose() * view_.unseen).eval();
     const SingularValues svd = singular_values(left);

@@ -17,7 +17,7 @@ struct MountingView {
   Eigen::MatrixXd projector() const { return seen * seen.transpose(); }
 };
 // A combination is seen if the logs determine it at least this many times as well as the rig.
-inline constexpr double kSeenFrom = 2;
+inline constexpr double kSeenFactor = 2;
 
 struct Unseen {
   // Unseen, without common shifts of the probes of a plane; orthonormal columns.

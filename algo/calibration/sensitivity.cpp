@@ -14,9 +14,9 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kFewest = 3;
-constexpr double kShortest = 0.05;         // share of the range
-constexpr double kLeast = 0.5, kMost = 2;  // sensitivities that a probe can have
-constexpr double kOnePlace = 1e-3;         // share of the range; nearer stops are one position
+constexpr double kShortest = 0.05;           // share of the range
+constexpr double kLeast = 0.5, kMost = 2;    // sensitivities that a probe can have
+constexpr double kSamePositionShare = 1e-3;  // share of the range; nearer stops are one position
 
 // Displacement along the probe's direction for a travel along the axis.
 Result<double> facing(const Rig& rig, std::size_t probe, Axis axis) {
@@ -184,7 +184,7 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
   for (const TraverseStop& stop : traverse.stops)
     if (std::isfinite(stop.reading_m[probe]))
       all.push_back({stop.travel_m * along, stop.reading_m[probe], stop.u_reading_m[probe]});
-  const auto places = places_of(all, kOnePlace * own.range_m);
+  const auto places = places_of(all, kSamePositionShare * own.range_m);
   const double way_m = places.empty() ? 0 : places.back().read_m - places.front().read_m;
   if (places.size() < kFewest || way_m < kShortest * own.range_m)
     return fail(ErrorCode::check,
@@ -205,7 +205,7 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
   found.id = own.id;
   found.sensitivity_1 = line.slope;
   const SlopeUncertainty u =
-      slope_uncertainty(group_by_position(all, kOnePlace * own.range_m), line.slope,
+      slope_uncertainty(group_by_position(all, kSamePositionShare * own.range_m), line.slope,
                         std::abs(along) * rig.uncertainty.encoder.u);
   found.u_sensitivity_1 = u.u;
   found.freedom = u.freedom;

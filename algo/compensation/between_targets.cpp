@@ -11,11 +11,11 @@ namespace {
 
 constexpr double kRoughest = 4;
 // Three second differences over two steps need this many values.
-constexpr std::size_t kFewestOfRoughness = 7;
+constexpr std::size_t kLeastRoughnessValues = 7;
 constexpr std::size_t kFew = 5;  // with fewer the scatter of the curvature is unknown
 constexpr double kFactorOfFew = 2;
 // Weight of the mean square of all, as a number of nearby second differences.
-constexpr double kWeightOfAll = 6;
+constexpr double kOverallWeight = 6;
 
 struct Finite {
   std::vector<double> x, y, u;
@@ -62,8 +62,8 @@ SquareSum squares(const Finite& f, std::size_t first, std::size_t last, std::siz
 }
 
 // The ratio R of the curvature at half a step to the curvature at one step.
-double of_half_a_step(const Finite& f) {
-  if (f.x.size() < kFewestOfRoughness) return f.x.size() < kFew ? kRoughest : kFactorOfFew;
+double curvature_ratio(const Finite& f) {
+  if (f.x.size() < kLeastRoughnessValues) return f.x.size() < kFew ? kRoughest : kFactorOfFew;
   const double one = squares(f, 0, f.x.size() - 1, 1).mean(),
                two = squares(f, 0, f.x.size() - 1, 2).mean();
   const double q = two > 0 ? std::clamp(std::sqrt(one / two), 1.0, kRoughest) : kRoughest;
@@ -77,13 +77,13 @@ std::vector<double> curvatures(const std::vector<double>& position_m,
   std::vector<double> all(std::max<std::size_t>(position_m.size(), 1) - 1, kNaN);
   const Finite f = finite_of(position_m, values, u);
   if (f.x.size() < 3) return all;
-  const double factor = of_half_a_step(f), everywhere = squares(f, 0, f.x.size() - 1, 1).mean();
+  const double factor = curvature_ratio(f), everywhere = squares(f, 0, f.x.size() - 1, 1).mean();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto above = std::upper_bound(f.x.begin(), f.x.end(), position_m[i]) - f.x.begin();
     const auto right = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1));
     const SquareSum near = squares(f, right < 2 ? 0 : right - 2, right + 1, 1);
-    all[i] = factor * std::sqrt(std::max(0.0, kWeightOfAll * everywhere + near.sum) /
-                                (kWeightOfAll + near.count));
+    all[i] = factor * std::sqrt(std::max(0.0, kOverallWeight * everywhere + near.sum) /
+                                (kOverallWeight + near.count));
   }
   return all;
 }

@@ -178,9 +178,9 @@ Status add_sources(const std::vector<Run>& runs, CompensationTable& table) {
 
 }  // namespace
 
-Result<TableOfMeans> table_of_means(const std::vector<Run>& measured, const TableOptions& options) {
+Result<MeanTable> mean_table(const std::vector<Run>& measured, const TableOptions& options) {
   if (measured.empty()) return bad_input("a compensation table needs at least one run");
-  TableOfMeans out;
+  MeanTable out;
   CompensationTable& table = out.table;
   table.axis = measured.front().header.axis;
   table.sides = measured.front().header.sides;
@@ -223,7 +223,7 @@ std::array<std::vector<Reference>, kErrorCount> references_of(const Compensation
 
 Result<CompensationTable> build_table(const std::vector<Run>& measured,
                                       const TableOptions& options) {
-  MDOF_TRY(TableOfMeans of, table_of_means(measured, options));
+  MDOF_TRY(MeanTable of, mean_table(measured, options));
   const auto what = references_of(of.table, options);
   const MovingAxis moving{of.table.axis, of.table.sides};
   of.table.u_forward = table_uncertainty(moving, of.points, of.grid, Approach::forward, what);
@@ -270,17 +270,17 @@ Neighbours neighbours(const std::vector<double>& x, const std::vector<double>& y
 }
 
 // One error of one approach; NaN if it has no value.
-struct ValueOfSide {
+struct SideValue {
   double error = kNaN, u = kNaN, u_interpolation = kNaN;
 };
 
-ValueOfSide value_of(const CompensationTable& table, const Side& side, std::size_t k, double at,
-                     const Place& place) {
+SideValue value_of(const CompensationTable& table, const Side& side, std::size_t k, double at,
+                   const Place& place) {
   const auto& x = table.position_m;
   const auto& y = side.values[k];
   const Neighbours near = neighbours(x, y, at, place);
   if (!std::isfinite(y[near.below])) return {};
-  ValueOfSide value{interpolate(x, y, at, place), 0, 0};
+  SideValue value{interpolate(x, y, at, place), 0, 0};
   const double curvature = near.below == near.above    ? 0
                            : side.curvature[k].empty() ? curvatures(x, y, side.u[k])[place.below]
                                                        : side.curvature[k][place.below];
@@ -309,16 +309,16 @@ TableValue table_at(const CompensationTable& table, double position_m, TableSide
   const Side reverse{table.reverse, table.u_reverse, table.curvature_reverse};
   for (std::size_t k = 0; k < 5; ++k) {
     const auto f =
-        side == TableSide::reverse ? ValueOfSide{} : value_of(table, forward, k, position_m, place);
+        side == TableSide::reverse ? SideValue{} : value_of(table, forward, k, position_m, place);
     const auto r =
-        side == TableSide::forward ? ValueOfSide{} : value_of(table, reverse, k, position_m, place);
+        side == TableSide::forward ? SideValue{} : value_of(table, reverse, k, position_m, place);
     double u_random = 0;
     if (std::isfinite(f.error) && std::isfinite(r.error)) {
       value.error[k] = 0.5 * (f.error + r.error);
       value.u_interpolation[k] = 0.5 * (f.u_interpolation + r.u_interpolation);
       u_random = 0.5 * std::sqrt(f.u * f.u + r.u * r.u);
     } else {
-      const ValueOfSide& one = std::isfinite(f.error) ? f : r;
+      const SideValue& one = std::isfinite(f.error) ? f : r;
       value.error[k] = one.error;
       value.u_interpolation[k] = one.u_interpolation;
       u_random = one.u;

@@ -29,13 +29,13 @@ struct TableOptions {
 };
 Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options);
 // A table without u, and the points and means that it is made of.
-struct TableOfMeans {
+struct MeanTable {
   CompensationTable table;
   // Points of all runs; targets and repeats numbered through all runs.
   std::vector<MeasuredPoint> points;
   std::vector<TargetMean> grid;  // means of both approaches
 };
-Result<TableOfMeans> table_of_means(const std::vector<Run>& runs, const TableOptions& options);
+Result<MeanTable> mean_table(const std::vector<Run>& runs, const TableOptions& options);
 // The references of a table with these options, as shares of the means at its positions: for each
 // named error and position the share of each position.
 std::array<std::vector<std::vector<double>>, kErrorCount> references_of(

@@ -112,7 +112,7 @@ Result<DeclaredCovariance> declared_covariance(const CompensationTable& table,
     for (const std::vector<PointShifts>& part : parts) {
       std::vector<Run> shifted = runs;
       for (std::size_t r = 0; r < runs.size(); ++r) shift(shifted[r].points, part[r]);
-      MDOF_TRY(const TableOfMeans built, table_of_means(shifted, options));
+      MDOF_TRY(const MeanTable built, mean_table(shifted, options));
       add_products(built.table.forward, table.forward, sum.forward);
       add_products(built.table.reverse, table.reverse, sum.reverse);
     }

@@ -50,7 +50,7 @@ Result<std::map<std::string, std::vector<InRun>>> quantities_of(
 }
 
 Result<std::vector<Errors5>> table_changes(const BuiltFrom& of, const std::vector<Run>& shifted) {
-  MDOF_TRY(const TableOfMeans built, table_of_means(shifted, of.options));
+  MDOF_TRY(const MeanTable built, mean_table(shifted, of.options));
   std::vector<Errors5> changes(of.table.position_m.size());
   for (std::size_t row = 0; row < changes.size(); ++row)
     for (std::size_t k = 0; k < kErrorCount; ++k) {

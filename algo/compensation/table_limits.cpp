@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMostOfAny_um = 1e5, kSteepestOfAny_um_per_mm = 500;
+constexpr double kAbsoluteLimit_um = 1e5, kAbsoluteSlopeLimit_um_per_mm = 500;
 
 std::string mm_of(double position_m) {
   return plain_number(to_mm(position_m), 7) + " mm";
@@ -35,12 +35,12 @@ Result<double> asked_number(const char* key, double x, double most, const char* 
 Result<TableLimits> TableLimits::asked(const double* um, const double* um_per_mm) {
   TableLimits limits;
   if (um) {
-    MDOF_TRY(const double x, asked_number("limit_um", *um, kMostOfAny_um, "um"));
+    MDOF_TRY(const double x, asked_number("limit_um", *um, kAbsoluteLimit_um, "um"));
     limits.length_m = limits.angle_rad = x * 1e-6;
   }
   if (um_per_mm) {
     MDOF_TRY(const double x,
-             asked_number("limit_um_per_mm", *um_per_mm, kSteepestOfAny_um_per_mm, "um/mm"));
+             asked_number("limit_um_per_mm", *um_per_mm, kAbsoluteSlopeLimit_um_per_mm, "um/mm"));
     limits.length_slope = limits.angle_slope_rad_per_m = x * 1e-3;
   }
   return limits;

@@ -14,24 +14,25 @@
 namespace mdof::algo {
 namespace {
 
-bool is_of(const MeasuredPoint& p, Approach approach) {
+bool has_approach(const MeasuredPoint& p, Approach approach) {
   return counts_in_means(p) && (p.point.direction > 0) == (approach == Approach::forward);
 }
 
 // Variances of the means of one approach, on the grid of the table.
-struct OfApproach {
+struct ApproachVariances {
   std::vector<Errors5> variance;  // 0: the approach has no mean here
   std::vector<bool> has;
   Errors5 shift{};    // common shift of all means
   Errors5 u_visit{};  // u of one visit, pooled
 };
 
-OfApproach of_approach(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
-                       const std::vector<TargetMean>& grid, Approach approach) {
-  OfApproach out{std::vector<Errors5>(grid.size()), std::vector<bool>(grid.size()), {}, {}};
+ApproachVariances approach_variances(const MovingAxis& moving,
+                                     const std::vector<MeasuredPoint>& points,
+                                     const std::vector<TargetMean>& grid, Approach approach) {
+  ApproachVariances out{std::vector<Errors5>(grid.size()), std::vector<bool>(grid.size()), {}, {}};
   std::vector<MeasuredPoint> own;
   std::copy_if(points.begin(), points.end(), std::back_inserter(own),
-               [&](const MeasuredPoint& p) { return is_of(p, approach); });
+               [&](const MeasuredPoint& p) { return has_approach(p, approach); });
   if (own.empty()) return out;
   const auto means = target_means(moving, own, approach);
   const Repeatability random = repeatability(moving, own, means);
@@ -76,7 +77,7 @@ class SharedShifts {
   }
 
  private:
-  std::vector<double> on_grid(Approach approach, const std::map<TargetAndWay, double>& part,
+  std::vector<double> on_grid(Approach approach, const std::map<TargetAndApproach, double>& part,
                               double u) const {
     std::vector<double> changes;
     for (const TargetMean& mean : grid_) {
@@ -88,7 +89,7 @@ class SharedShifts {
 
   const std::vector<TargetMean>& grid_;
   Errors5 u_visit_, run_level_{};  // u of the means due to the levels of runs
-  std::vector<std::map<TargetAndWay, double>> by_noise_;
+  std::vector<std::map<TargetAndApproach, double>> by_noise_;
   PassLevels levels_;
 };
 
@@ -188,8 +189,8 @@ SeriesOfErrors table_uncertainty(
     const std::vector<TargetMean>& grid, Approach approach,
     const std::array<std::vector<Reference>, kErrorCount>& references) {
   const Approach back = approach == Approach::forward ? Approach::reverse : Approach::forward;
-  const OfApproach own = of_approach(moving, points, grid, approach);
-  const OfApproach other = of_approach(moving, points, grid, back);
+  const ApproachVariances own = approach_variances(moving, points, grid, approach);
+  const ApproachVariances other = approach_variances(moving, points, grid, back);
   const Errors5 apart = half_difference(moving, points);
   const SharedShifts shared(moving, points, grid, own.u_visit);
   SeriesOfErrors u;

@@ -14,8 +14,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLogLikelihoodRatio = 5;  // required for a drift instead of steps
-constexpr std::size_t kFewestOfPass = 3;   // points, on average
+constexpr double kLogLikelihoodRatio = 5;       // required for a drift instead of steps
+constexpr std::size_t kLeastPointsPerPass = 3;  // points, on average
 constexpr double kLeastScatter_m = 1e-12;
 
 using Points = std::vector<const MeasuredPoint*>;
@@ -73,7 +73,7 @@ std::vector<SeriesDrift> probe_drifts(const Points& points) {
   return DriftFit(design_of(whole), y, noise2).series();
 }
 
-std::vector<Closure> closures_of(const Points& points) {
+std::vector<Closure> find_closures(const Points& points) {
   std::vector<Closure> closures;
   std::set<int> begun;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -100,7 +100,7 @@ std::vector<Closure> closures_of(const Points& points) {
 // For each value the group whose unknown mean it shares.
 using Groups = std::vector<std::size_t>;
 
-void take_means(const Groups& groups, Eigen::MatrixXd& columns) {
+void subtract_group_means(const Groups& groups, Eigen::MatrixXd& columns) {
   const std::size_t n = 1 + *std::max_element(groups.begin(), groups.end());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), columns.cols());
   Eigen::VectorXd count = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
@@ -117,8 +117,8 @@ void take_means(const Groups& groups, Eigen::MatrixXd& columns) {
 
 // Sum of squares of y that the columns and a mean of each group do not explain.
 double residual_square(Eigen::MatrixXd columns, Eigen::MatrixXd y, const Groups& groups) {
-  take_means(groups, columns);
-  take_means(groups, y);
+  subtract_group_means(groups, columns);
+  subtract_group_means(groups, y);
   const Eigen::MatrixXd fitted = columns * LeastNorm(columns).solve(y);
   return (y - fitted).squaredNorm();
 }
@@ -148,7 +148,7 @@ Grouping grouping_of(const Points& points) {
 bool may_be_steps(const Points& points, const DriftFit& fit, std::size_t k) {
   const Grouping groups = grouping_of(points);
   const auto n = static_cast<Eigen::Index>(points.size());
-  if (kFewestOfPass * groups.passes > points.size()) return true;
+  if (kLeastPointsPerPass * groups.passes > points.size()) return true;
   const int order = fit.series()[k].order;
   Eigen::MatrixXd y(n, 1), drift(n, order + 1);
   Eigen::MatrixXd steps = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(groups.passes));
@@ -165,7 +165,7 @@ bool may_be_steps(const Points& points, const DriftFit& fit, std::size_t k) {
   return 0.5 * static_cast<double>(n) * natural_log(of_steps / of_drift) < kLogLikelihoodRatio;
 }
 
-std::string why_not_seen(const DriftDesign& design) {
+std::string unseen_reason(const DriftDesign& design) {
   if (design.visits().empty())
     return "the approach direction is unknown at all points with calculated errors";
   return "too few targets were approached twice or more from the same direction, so a drift cannot "
@@ -190,20 +190,20 @@ bool RunDrift::removable() const {
 
 DriftOfRun::DriftOfRun(const std::vector<MeasuredPoint>& points) {
   const Points report = usable_for_drift(points);
-  found_.closures = closures_of(report);
+  found_.closures = find_closures(report);
   if (report.empty()) {
-    found_.not_seen = why_not_seen(design_of(report));
+    found_.not_seen = unseen_reason(design_of(report));
     return;
   }
   found_.length_s = middle_time_s(*report.back()) - middle_time_s(*report.front());
   fit_.emplace(errors_fit(report));
   if (fit_->design().orders() == 0) {
-    found_.not_seen = why_not_seen(fit_->design());
+    found_.not_seen = unseen_reason(fit_->design());
     fit_.reset();
     return;
   }
   for (std::size_t k = 0; k < kErrorCount; ++k)
-    if (fit_->series()[k].significant() && may_be_steps(report, *fit_, k)) fit_->take_for_steps(k);
+    if (fit_->series()[k].significant() && may_be_steps(report, *fit_, k)) fit_->mark_as_steps(k);
   std::copy_n(fit_->series().begin(), kErrorCount, found_.errors.begin());
   found_.probes = probe_drifts(report);
 }

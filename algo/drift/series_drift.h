@@ -36,7 +36,7 @@ class DriftFit {
   const DriftDesign& design() const { return design_; }
   double freedom() const { return freedom_; }
   const std::vector<SeriesDrift>& series() const { return series_; }
-  void take_for_steps(std::size_t series) { series_[series].steps = true; }
+  void mark_as_steps(std::size_t series) { series_[series].steps = true; }
   // For each series the drift since the first visit, to be subtracted from a reading at this time;
   // 0 if no drift is significant, or if steps are as likely.
   Eigen::VectorXd drift(double time_s) const;

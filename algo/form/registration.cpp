@@ -109,14 +109,14 @@ class Registration {
     const PoseFit moved = fit_at(search_places_, b_, pose),
                   at_rest = fit_at(search_places_, b_, {});
     const double before_m = left(at_rest, common(at_rest, moved)).size_m;
-    if (before_m > 0) left_by_movement_ = left(moved, common(moved, at_rest)).size_m / before_m;
+    if (before_m > 0) residual_ratio_ = left(moved, common(moved, at_rest)).size_m / before_m;
     moved_m_ =
         std::hypot(pose.shift_x_m, pose.shift_y_m) +
         std::abs(std::remainder(pose.turn_rad, 2 * std::numbers::pi)) * search_places_.size_m / 2;
     return about_origin(pose, search_places_);
   }
   std::size_t undetermined() const { return undetermined_; }
-  double residual_ratio() const { return left_by_movement_; }
+  double residual_ratio() const { return residual_ratio_; }
   double moved_m() const { return moved_m_; }
 
  private:
@@ -145,18 +145,18 @@ class Registration {
     return pose;
   }
 
-  PoseFit fitted_few(const MapPose& start, const Eigen::MatrixXd& directions) const {
+  PoseFit fitted_at_search_places(const MapPose& start, const Eigen::MatrixXd& directions) const {
     return fitted_from(search_places_, b_, start, directions, pixel_m_, 30);
   }
   // Fit from another start; directions that the shape does not determine at its end are taken as 0.
   PoseFit fitted_from_other_start(const MapPose& start) const {
-    PoseFit fit = fitted_few(start, Eigen::MatrixXd::Identity(3, 3));
+    PoseFit fit = fitted_at_search_places(start, Eigen::MatrixXd::Identity(3, 3));
     const Eigen::MatrixXd directions = evidence_.determined(b_, fit.pose);
     if (directions.cols() == 3) return fit;
     const double turn = std::remainder(fit.pose.turn_rad, 2 * std::numbers::pi);
     const Eigen::Vector3d at(fit.pose.shift_x_m, fit.pose.shift_y_m, turn * search_places_.size_m);
     const Eigen::Vector3d held = directions * (directions.transpose() * at);
-    return fitted_few({held(0), held(1), held(2) / search_places_.size_m}, directions);
+    return fitted_at_search_places({held(0), held(1), held(2) / search_places_.size_m}, directions);
   }
 
   double overlap(const PoseFit& fit) const {
@@ -235,7 +235,7 @@ class Registration {
   PoseFit own_;  // A itself at `search_places_`
   double most_m_ = 0;
   std::size_t undetermined_ = 0;
-  double left_by_movement_ = 1, moved_m_ = 0;
+  double residual_ratio_ = 1, moved_m_ = 0;
 };
 
 SurfaceMap difference_at(const SurfaceMap& a, const Surface& b, const MapPose& pose) {

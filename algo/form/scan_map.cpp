@@ -14,7 +14,7 @@ constexpr double kLeastReach = 1.5, kFarthestReach = 6, kReachStep = 1.5;  // in
 constexpr double kMostOneSided = 0.3;  // largest offset of the points' mean, relative to the reach
 constexpr double kRankTolerance = 0.02;
 constexpr int kParabolaTerms = 6, kLeastCells = 9;
-constexpr std::size_t kCellsOfPixel = 4;
+constexpr std::size_t kCellsPerPixel = 4;
 
 // Mean place and height of the points of a quarter of a pixel.
 struct Cell {
@@ -24,11 +24,11 @@ struct Cell {
 class Cells {
  public:
   Cells(const ScanPoints& points, const SurfaceMap& map)
-      : size_m_(map.dx_m / static_cast<double>(kCellsOfPixel)),
+      : size_m_(map.dx_m / static_cast<double>(kCellsPerPixel)),
         x0_m_(map.x0_m),
         y0_m_(map.y0_m),
-        nx_(map.nx * kCellsOfPixel),
-        ny_(map.ny * kCellsOfPixel),
+        nx_(map.nx * kCellsPerPixel),
+        ny_(map.ny * kCellsPerPixel),
         cells_(nx_ * ny_) {
     for (std::size_t i = 0; i < points.z_m.size(); ++i) {
       Cell& cell = cells_[row(points.y_m[i], y0_m_, ny_) * nx_ + row(points.x_m[i], x0_m_, nx_)];
@@ -163,7 +163,7 @@ Result<ScanMap> scan_map(const ScanPoints& points, double pixel_m) {
   double nx = 0, ny = 0;
   set_range(points.x_m, pixel_m, map.x0_m, nx);
   set_range(points.y_m, pixel_m, map.y0_m, ny);
-  constexpr std::size_t kMostScanPixels = kMostPixels / (kCellsOfPixel * kCellsOfPixel);
+  constexpr std::size_t kMostScanPixels = kMostPixels / (kCellsPerPixel * kCellsPerPixel);
   if (!(nx * ny <= static_cast<double>(kMostScanPixels)))
     return bad_input("pixels of " + std::to_string(pixel_m * 1e3) +
                      " mm divide this scan into more than " + std::to_string(kMostScanPixels) +

@@ -116,7 +116,7 @@ double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint
                        std::size_t named) {
   std::map<int, double> travel_m;  // key: target
   for (const MeasuredPoint& p : points)
-    travel_m.emplace(p.target, moving.sides.own_travel_m(p.point.position_m));
+    travel_m.emplace(p.target, moving.sides.moving_body_travel_m(p.point.position_m));
   std::vector<double> slopes;
   for (const auto& [run, targets] : off_the_mean(moving, points, named)) {
     std::vector<double> x, y;

@@ -16,8 +16,8 @@ Result<ReferenceLines> lines_along(const Run& measured, Axis other) {
   return lines;
 }
 
-SquarenessLine squareness_by(const ReferenceLine& a, const ReferenceLine& b,
-                             const Squareness& fitted) {
+SquarenessLine lines_squareness(const ReferenceLine& a, const ReferenceLine& b,
+                                const Squareness& fitted) {
   return {a.slope_rad, b.slope_rad,
           squareness_of(fitted.axes, a.slope_rad, b.slope_rad, fitted.artefact)};
 }
@@ -28,9 +28,9 @@ Result<SquarenessLines> squareness_lines(const Run& run_a, const Run& run_b,
                                          const Squareness& fitted) {
   MDOF_TRY(const ReferenceLines a, lines_along(run_a, fitted.axes.b));
   MDOF_TRY(const ReferenceLines b, lines_along(run_b, fitted.axes.a));
-  return SquarenessLines{squareness_by(a.end_point, b.end_point, fitted),
+  return SquarenessLines{lines_squareness(a.end_point, b.end_point, fitted),
                          {fitted.slope_a_rad, fitted.slope_b_rad, fitted.error_rad},
-                         squareness_by(a.minimum_zone, b.minimum_zone, fitted)};
+                         lines_squareness(a.minimum_zone, b.minimum_zone, fitted)};
 }
 
 }  // namespace mdof::algo

@@ -189,7 +189,7 @@ std::vector<double> positions(const std::vector<TargetMean>& means) {
 
 std::vector<double> own_travels(const Sides& sides, const std::vector<TargetMean>& means) {
   std::vector<double> x;
-  for (const TargetMean& m : means) x.push_back(sides.own_travel_m(m.position_m));
+  for (const TargetMean& m : means) x.push_back(sides.moving_body_travel_m(m.position_m));
   return x;
 }
 

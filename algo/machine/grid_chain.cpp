@@ -9,7 +9,7 @@ namespace mdof::algo {
 namespace {
 
 // Part of the largest variance; smaller values are rounding of a parabola.
-constexpr double kRoundingOfParabola = 2e-15;
+constexpr double kParabolaRounding = 2e-15;
 
 bool moves_along(const MachineFrame& frame, std::size_t direction) {
   const char axis = "XYZ"[direction];
@@ -145,7 +145,7 @@ GridVariances::Parabola GridVariances::parabola(Command command, std::size_t alo
   const Eigen::Vector3d begin = at(range.front()), end = at(range.back());
   const Eigen::Vector3d middle = at((range.front() + range.back()) / 2);
   const double largest = begin.cwiseMax(middle).cwiseMax(end).maxCoeff();
-  return {middle, (end - begin) / 2, (end + begin) / 2 - middle, kRoundingOfParabola * largest};
+  return {middle, (end - begin) / 2, (end + begin) / 2 - middle, kParabolaRounding * largest};
 }
 
 GridVariances::GridVariances(const Machine& machine, const GridPlan& plan)

@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kPassesBy = 1e-4;  // share of the travel: 100 um in one metre
+constexpr double kParallelShare = 1e-4;  // share of the travel: 100 um in one metre
 
 // Motion of the surface along the probe's line, per travel of the target in + of a machine axis.
 double approach_of(const FixtureProbe& probe, const Vec3& along) {
@@ -19,7 +19,7 @@ double approach_of(const FixtureProbe& probe, const Vec3& along) {
   return probe.n_C.dot(v) / probe.n_C.dot(probe.u_M);
 }
 
-ProbeInTheWay in_the_way(const Rig& rig, std::size_t k, double approach) {
+ProbeInTheWay probe_clearance(const Rig& rig, std::size_t k, double approach) {
   const Probe& probe = rig.probes[k];
   ProbeInTheWay out{probe.id, probe.range_m / 2 / std::abs(approach), {}, 0};
   double standoff_m = rig.physics ? rig.physics->probes.at(k).standoff_m : 0;
@@ -47,7 +47,8 @@ Result<std::array<MotionClearance, 3>> motion_clearances(const Rig& rig) {
     along = to_local(rig.axis, along);
     for (std::size_t k = 0; k < fixture.probes.size(); ++k) {
       const double approach = approach_of(fixture.probes[k], along);
-      if (std::abs(approach) > kPassesBy) all[a].probes.push_back(in_the_way(rig, k, approach));
+      if (std::abs(approach) > kParallelShare)
+        all[a].probes.push_back(probe_clearance(rig, k, approach));
     }
   }
   return all;

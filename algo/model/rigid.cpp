@@ -45,7 +45,7 @@ Surface meet(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC, const Eigen
 }  // namespace
 
 Eigen::VectorXd rigid_readings(const Fixture& fixture, double travel_m, const Errors5& local) {
-  const Eigen::Matrix3d R_MC = local_rotation_alone(fixture.axis, local);
+  const Eigen::Matrix3d R_MC = local_rotation_matrix(fixture.axis, local);
   const Eigen::Vector3d t = carriage_position(travel_m, local);
   Eigen::VectorXd readings(static_cast<Eigen::Index>(fixture.probes.size()));
   Eigen::Index i = 0;

@@ -65,7 +65,7 @@ Rotation local_rotation(Axis axis, const Errors5& local) {
   return r;
 }
 
-Eigen::Matrix3d local_rotation_alone(Axis axis, const Errors5& local) {
+Eigen::Matrix3d local_rotation_matrix(Axis axis, const Errors5& local) {
   const Eigen::Matrix3d L = columns_of(local_axes(axis));
   const Eigen::Vector3d e = L * Eigen::Vector3d(local[kEx], local[kEy], local[kEz]);
   const Turns by(small_sin_cos(e.x()), small_sin_cos(e.y()), small_sin_cos(e.z()));

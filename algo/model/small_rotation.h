@@ -28,6 +28,6 @@ Rotation rotation(double ex_rad, double ey_rad, double ez_rad);
 // coordinates and signs, so nothing is rounded.
 Rotation local_rotation(Axis axis, const Errors5& local);
 // Only R, with the same bits, in a third of the time.
-Eigen::Matrix3d local_rotation_alone(Axis axis, const Errors5& local);
+Eigen::Matrix3d local_rotation_matrix(Axis axis, const Errors5& local);
 
 }  // namespace mdof::algo

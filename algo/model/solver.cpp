@@ -53,15 +53,15 @@ Result<Solver> Solver::create(const Rig& rig, Model model) {
 
 AxisErrors Solver::solve(double travel_m, const std::vector<double>& readings_m,
                          const std::vector<double>& u_m) const {
-  AxisErrors errors = solve_alone(travel_m, readings_m, u_m);
+  AxisErrors errors = solve_without_covariance(travel_m, readings_m, u_m);
   if (!errors.valid || u_m.size() != readings_m.size()) return errors;
   const std::vector<bool> use = usable(readings_m);
   errors.covariance = covariance(travel_m, errors, use, make_weights(use, u_m), u_m);
   return errors;
 }
 
-AxisErrors Solver::solve_alone(double travel_m, const std::vector<double>& readings_m,
-                               const std::vector<double>& u_m) const {
+AxisErrors Solver::solve_without_covariance(double travel_m, const std::vector<double>& readings_m,
+                                            const std::vector<double>& u_m) const {
   assert(readings_m.size() == fixture_.probes.size());
   const std::vector<bool> use = usable(readings_m);
   const bool complete = std::all_of(use.begin(), use.end(), [](bool u) { return u; });

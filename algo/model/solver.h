@@ -26,8 +26,8 @@ class Solver {
                    const std::vector<double>& u_m) const;
 
   // The same without the covariance, in a quarter of the time.
-  AxisErrors solve_alone(double travel_m, const std::vector<double>& readings_m,
-                         const std::vector<double>& u_m) const;
+  AxisErrors solve_without_covariance(double travel_m, const std::vector<double>& readings_m,
+                                      const std::vector<double>& u_m) const;
 
   // Change of the local errors, stated at the carriage, per 1 m of each probe's reading: 5 x
   // probes, 0 for a lost probe. First order (GUM 5.1.3): the weighted pseudo-inverse of the

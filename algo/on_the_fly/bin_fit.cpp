@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kReject = 8.0, kTimesAlone = 12.0, kMadToSd = 1.4826;
+constexpr double kReject = 8.0, kStrictFactor = 12.0, kMadToSd = 1.4826;
 constexpr std::size_t kNeighbours = 5;
 // At the ends the neighbours are on one side and differ also by the bend.
 constexpr double kEnds = 0.5;
@@ -92,7 +92,7 @@ void keep_near(const Parabola& curve, double coarse, bool alone, std::vector<dou
                std::vector<double>& y) {
   std::vector<double> left(y);
   for (std::size_t i = 0; i < left.size(); ++i) left[i] -= curve.at(x[i]);
-  const double limit = (alone ? kTimesAlone : 1) * rejection_limit(left, coarse);
+  const double limit = (alone ? kStrictFactor : 1) * rejection_limit(left, coarse);
   const auto is_far = [&](double of) { return std::abs(of) > limit; };
   if (alone && (is_far(left.front()) || is_far(left.back()))) return;
   std::size_t kept = 0;
@@ -124,7 +124,7 @@ BinFit fit_bin(std::span<const double> place, std::span<const double> reading, d
                std::vector<double>& scratch) {
   BinFit fit;
   fit.used = reading.size();
-  if (fit.used < kFewestOfBin) return fit;
+  if (fit.used < kLeastReadingsPerBin) return fit;
   const std::vector<double> deviations = deviations_of(place, reading);
   const double limit = rejection_limit(deviations, coarse);
   std::vector<double> x;
@@ -136,12 +136,13 @@ BinFit fit_bin(std::span<const double> place, std::span<const double> reading, d
   }
   // If most of five neighbours are spikes, their median is a spike, and none of them was left out.
   const bool alone = x.size() == reading.size();
-  if (x.size() >= kFewestOfBin) keep_near(robust_line(place, reading), coarse, alone, x, scratch);
-  if (x.size() < reading.size() && x.size() >= kFewestOfBin)
+  if (x.size() >= kLeastReadingsPerBin)
+    keep_near(robust_line(place, reading), coarse, alone, x, scratch);
+  if (x.size() < reading.size() && x.size() >= kLeastReadingsPerBin)
     keep_near(parabola(x, scratch), coarse, false, x, scratch);
   fit.used = x.size();
   fit.rejected = reading.size() - x.size();
-  if (fit.used < kFewestOfBin) return fit;
+  if (fit.used < kLeastReadingsPerBin) return fit;
   const Parabola curve = parabola(x, scratch);
   fit.value = curve.value;
   fit.slope = curve.slope;

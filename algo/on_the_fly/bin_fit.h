@@ -14,7 +14,7 @@ struct BinFit {
   std::size_t used = 0, rejected = 0;
 };
 
-inline constexpr std::size_t kFewestOfBin = 8;  // readings
+inline constexpr std::size_t kLeastReadingsPerBin = 8;  // readings
 
 // Fits the least-squares parabola to the readings of a bin over `place`, their distances from the
 // target in half bins (-1 ... 1), in the order of time. The error of a plain mean would be the
@@ -29,7 +29,7 @@ inline constexpr std::size_t kFewestOfBin = 8;  // readings
 // distance from the line are left out. u is as mean_uncertainty() for correlated readings, times
 // the ratio of the u of a parabola to that of a mean (1.5 if the readings are evenly spread over
 // the bin). It covers changes within the bin, but a vibration with fewer than two periods in the
-// bin looks like form. If `used` is below kFewestOfBin, nothing is fitted.
+// bin looks like form. If `used` is below kLeastReadingsPerBin, nothing is fitted.
 BinFit fit_bin(std::span<const double> place, std::span<const double> reading, double coarse,
                std::vector<double>& scratch);
 

@@ -141,14 +141,14 @@ Status OnTheFly::check_has_points() const {
     bins += pass.left_out.size();
   }
   const double speed_m_s = way_m / passed_s, rate_hz = 1 / summary_.period_s;
-  const double needed_m = static_cast<double>(kFewestOfBin + 1) * speed_m_s / rate_hz;
+  const double needed_m = static_cast<double>(kLeastReadingsPerBin + 1) * speed_m_s / rate_hz;
   // If the axis stops between the bins, it passes the bins fast, and larger bins contain the stops.
   const bool too_small = needed_m > grid_.bin_m();
   if (too_small && (dense || count_left_out(passes_, BinFault::too_few) > 0)) {
     return bad_input("at " + mm_s(speed_m_s) + " and " + plain_number(rate_hz) + " Hz a bin of " +
                          plain_number(to_mm(grid_.bin_m())) + " mm has " +
                          plain_number(grid_.bin_m() / speed_m_s * rate_hz, 3) +
-                         " scans, but needs " + std::to_string(kFewestOfBin),
+                         " scans, but needs " + std::to_string(kLeastReadingsPerBin),
                      Remedy::larger_bins, plain_number(to_mm(needed_m), 3));
   }
   return bad_input("the axis does not move at a steady speed in any of the " +

@@ -37,7 +37,7 @@ class Binning {
         probes_(probes),
         period_ns_(period_ns) {
     for (std::size_t i = pass.first; i < pass.last; ++i)
-      place_m_.push_back(voted_place(frames_, i));
+      place_m_.push_back(median_position(frames_, i));
   }
 
   double place_m(std::size_t row) const { return place_m_[row - pass_.first]; }
@@ -78,7 +78,7 @@ class Binning {
   Way way_of(const Rows& rows) const {
     Way way;
     const std::size_t n = rows.last - rows.first;
-    if (n < kFewestOfBin) return way;
+    if (n < kLeastReadingsPerBin) return way;
     const std::int64_t middle_ns = frames_.time_ns[rows.first + n / 2];
     double st = 0, sx = 0, stt = 0, stx = 0, bend = 0;
     const double from_m = place_m(rows.first);
@@ -114,7 +114,7 @@ class Binning {
       return passed_ns - static_cast<std::int64_t>(n - 1) * period_ns_;
     };
     const bool hole = n > 1 && missing_ns() > static_cast<std::int64_t>(n - 1) * period_ns_;
-    if (n < kFewestOfBin) return hole ? BinFault::gap : BinFault::too_few;
+    if (n < kLeastReadingsPerBin) return hole ? BinFault::gap : BinFault::too_few;
     const double most_m = std::hypot(kMostUneven * 2 * half_m_, kNoises * way.noise_m);
     if (!(way.uneven_m <= most_m) || !(way.speed_m_s * pass_.direction > 0))
       return BinFault::speed_changes;
@@ -156,9 +156,9 @@ class Binning {
     const double coarse_m = std::max(kCoarseShare * probes_.range_m[probe], kCoarseSteps * step_m);
     const BinFit found = fit_bin(place_, reading_, coarse_m, scratch_);
     const bool lost =
-        usable_rows < kFewestOfBin || 2 * usable_rows < n ||
+        usable_rows < kLeastReadingsPerBin || 2 * usable_rows < n ||
         is_saturated(over_range, n, found.value, found.sd + std::abs(found.slope) / 6);
-    const bool few = found.used < kFewestOfBin || !std::isfinite(found.value);
+    const bool few = found.used < kLeastReadingsPerBin || !std::isfinite(found.value);
     if (over_range.count > 0) add_flag(bin.point, Flag::saturated, id);
     if (lost || few) add_flag(bin.point, lost ? Flag::lost : Flag::slow, id);
     if (!lost && usable_rows + over_range.count < n) add_flag(bin.point, Flag::missing, id);

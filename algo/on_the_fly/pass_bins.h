@@ -48,8 +48,8 @@ struct ProbesOfBins {
 // range. A bin is left out in three cases. (1) The axis changes its speed: the rms of the position
 // about a straight line over time, without the encoder's noise, is above 0.75 % of the bin, as with
 // a change of a fifth, or with a stop of a twentieth of the bin's time. (2) It has fewer than
-// kFewestOfBin scans. (3) More than half of its time has no scans. `period_ns`: time between two
-// scans.
+// kLeastReadingsPerBin scans. (3) More than half of its time has no scans. `period_ns`: time
+// between two scans.
 PassBins bins_of(const AxisPass& pass, const TargetGrid& grid, const ProbesOfBins& probes,
                  std::int64_t period_ns);
 

@@ -13,7 +13,7 @@ constexpr std::size_t kDropRows = 4096;
 
 }  // namespace
 
-double voted_place(const FrameBlock& frames, std::size_t row) {
+double median_position(const FrameBlock& frames, std::size_t row) {
   const double here = frames.encoder_m[row];
   if (row == 0 || row + 1 >= frames.size()) return here;
   const double before = frames.encoder_m[row - 1], after = frames.encoder_m[row + 1];
@@ -24,7 +24,7 @@ Status PassFinder::push(const FrameBlock& frames, std::size_t first, std::size_t
                         const Take& take) {
   if (rows_.probe_m.empty()) rows_ = empty_frames(frames.probe_m.size());
   append_rows(rows_, frames, first, last);
-  for (; next_ + 1 < rows_.size(); ++next_) follow(next_, voted_place(rows_, next_), take);
+  for (; next_ + 1 < rows_.size(); ++next_) follow(next_, median_position(rows_, next_), take);
   if (begin_ > kDropRows) {
     erase_rows(rows_, 0, begin_);
     low_.row -= std::min(low_.row, begin_);

@@ -53,6 +53,6 @@ class PassFinder {
 
 // The median of the encoder's reading and its two neighbours. It removes a single wrong count and
 // does not change a steady motion. At the ends of the rows it is the reading.
-double voted_place(const FrameBlock& frames, std::size_t row);
+double median_position(const FrameBlock& frames, std::size_t row);
 
 }  // namespace mdof::algo

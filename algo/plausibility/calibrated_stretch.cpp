@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLetPass = 0.1;  // allowed excess, as a share of the calibrated range
+constexpr double kAllowedExcess = 0.1;  // allowed excess, as a share of the calibrated range
 
 // Displacements at the ends of the calibrated range, um.
 std::array<double, 2> displacements_um(const Calibration& c) {
@@ -35,7 +35,7 @@ Notices stretch_notices(const Rig& rig, const std::vector<std::optional<ReadingS
     const Calibration& c = rig.probes[k].calibration;
     if (!c.calibrated_um || !spans[k]) continue;
     const auto [begin_um, end_um] = displacements_um(c);
-    const double let_pass_um = kLetPass * (end_um - begin_um);
+    const double let_pass_um = kAllowedExcess * (end_um - begin_um);
     const double least_um = to_um(spans[k]->least_m), most_um = to_um(spans[k]->most_m);
     if (least_um >= begin_um - let_pass_um && most_um <= end_um + let_pass_um) continue;
     found.push_back(notice(NoticeCode::beyond_calibration, rig.probes[k].id,

@@ -20,7 +20,7 @@ constexpr double kWideFixture_m = 0.15, kWideByTravel = 5;
 constexpr double kQuietest_m = 0.5e-9;  // sd; every amplifier has more
 constexpr double kNoisiest = 2.5e-3;    // sd as a part of the range
 constexpr double kNoisiest_m = 1e-6;
-constexpr double kOneOfThousand = 1e-3;
+constexpr double kThousandth = 1e-3;
 constexpr double kOffZero = 0.1;  // share of the range, for a gap without a stated offset
 
 double largest(const ProbeFigures& p) {
@@ -31,7 +31,7 @@ double largest(const ProbeFigures& p) {
 // of any amplifier. Constant readings are another case.
 bool looks_like_mm(const ProbeFigures& figures, const Probe& probe) {
   return figures.points > 0 && figures.travel_m > 0 && figures.sd_m < kQuietest_m &&
-         largest(figures) <= kOneOfThousand * probe.range_m / 2;
+         largest(figures) <= kThousandth * probe.range_m / 2;
 }
 
 bool looks_like_nm(const ProbeFigures& figures, const Probe& probe) {

@@ -51,9 +51,10 @@ Visits visits_of(const Sequence& sequence) {
   return visits;
 }
 
-class Holes {
+class MissingVisits {
  public:
-  explicit Holes(const RunToJudge& run) : sequence_(run.sequence), visits_(visits_of(sequence_)) {}
+  explicit MissingVisits(const RunToJudge& run)
+      : sequence_(run.sequence), visits_(visits_of(sequence_)) {}
 
   Notices found() {
     Notices out;
@@ -226,7 +227,7 @@ Notices visit_notices(const RunToJudge& run) {
   note_many_left_out(run, out);
   if (run.sequence.cycle == Cycle::pendulum && run.sequence.runs <= 1)
     out.push_back(notice(NoticeCode::pendulum_assumed));
-  append(out, Holes(run).found());
+  append(out, MissingVisits(run).found());
   note_uneven(run, out);
   note_found_late(run, out);
   note_lost_stops(run, out);

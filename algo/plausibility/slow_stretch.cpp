@@ -14,8 +14,8 @@ constexpr double kSlowTolerances = 25;  // per window: 1 mm/s with the defaults
 std::optional<DwellEvent> SlowStretch::take(const Window& window, double tolerance_m,
                                             double least_s, double most_m) {
   if (window.range_m <= kSlowTolerances * tolerance_m) {
-    if (!under_way_) {
-      under_way_ = true;
+    if (!is_slow_) {
+      is_slow_ = true;
       stood_ = false;
       begin_ns_ = window.begin_ns;
       begin_m_ = window.first_m;
@@ -23,8 +23,8 @@ std::optional<DwellEvent> SlowStretch::take(const Window& window, double toleran
     stood_ = stood_ || window.still;
     return std::nullopt;
   }
-  if (!under_way_) return std::nullopt;
-  under_way_ = false;
+  if (!is_slow_) return std::nullopt;
+  is_slow_ = false;
   const double length_s = ns_to_s(window.begin_ns - begin_ns_);
   const double size_m = window.first_m - begin_m_;
   if (stood_ || length_s < least_s || std::abs(size_m) > most_m) return std::nullopt;

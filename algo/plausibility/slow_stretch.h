@@ -23,7 +23,7 @@ class SlowStretch {
                                  double most_m);
 
  private:
-  bool under_way_ = false, stood_ = false;
+  bool is_slow_ = false, stood_ = false;
   std::int64_t begin_ns_ = 0;
   double begin_m_ = 0;
 };

@@ -16,9 +16,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kStepsOfScatter = 6, kLogRatioToSmooth = 10;
+constexpr double kLeastStepInScatter = 6, kLogRatioToSmooth = 10;
 constexpr double kLeastStep_m = 1e-9;
-constexpr double kFewestOfStep = 2;  // Σ before · after/all over the places: at least four places
+constexpr double kLeastStepWeight =
+    2;  // Σ before · after/all over the places: at least four places
 constexpr double kFewestFreedom = 4;  // least freedom of the residuals of places and a step
 constexpr Eigen::Index kSmooth = 6;   // orders of the smooth change
 constexpr std::size_t kFewestCopies = 6;
@@ -80,13 +81,14 @@ Jump largest_jump(const AtPlaces& at, const Eigen::VectorXd& y) {
     after(place) += 1;
     weight += after(place) * (n - after(place)) / n;
     sum += y(static_cast<Eigen::Index>(i));
-    if (weight < kFewestOfStep || sum * sum / weight <= best.explains) continue;
+    if (weight < kLeastStepWeight || sum * sum / weight <= best.explains) continue;
     best = {i, sum / weight, sum * sum / weight};
   }
   return best;
 }
 
-double left_by_smooth(const AtPlaces& at, const ProbeVisits& visits, const Eigen::VectorXd& y) {
+double smooth_residual_square(const AtPlaces& at, const ProbeVisits& visits,
+                              const Eigen::VectorXd& y) {
   const double begin = ns_to_s(visits.front()->point.begin_ns);
   const double length = ns_to_s(visits.back()->point.begin_ns) - begin;
   if (!(length > 0)) return 0;
@@ -155,11 +157,11 @@ std::vector<VisitStep> visit_steps(const Rig& rig, const std::vector<MeasuredPoi
       y(static_cast<Eigen::Index>(i)) = visits[i]->point.probe_m[k];
     y = at.centred(y);
     const double noise2 =
-        std::max(std::pow(kLeastStep_m / kStepsOfScatter, 2), usual_u2(visits, k));
+        std::max(std::pow(kLeastStep_m / kLeastStepInScatter, 2), usual_u2(visits, k));
     const Jump jump = largest_jump(at, y);
     const double sd2 = std::max((y.squaredNorm() - jump.explains) / freedom, noise2);
-    if (std::abs(jump.size) < kStepsOfScatter * std::sqrt(sd2)) continue;
-    const double smooth2 = left_by_smooth(at, visits, y) / freedom;
+    if (std::abs(jump.size) < kLeastStepInScatter * std::sqrt(sd2)) continue;
+    const double smooth2 = smooth_residual_square(at, visits, y) / freedom;
     if (!(smooth2 > sd2) || 0.5 * freedom * natural_log(smooth2 / sd2) < kLogRatioToSmooth)
       continue;
     const auto point = static_cast<std::size_t>(visits[jump.visit] - points.data());

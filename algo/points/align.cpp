@@ -107,7 +107,7 @@ void Aligner::take_whole(SampleBlock& block, FrameBlock& out) {
     if (before == 0) column.clear();
     if (!column.empty()) column.resize(before + n, 1);
   }
-  taint(out, before, block);
+  limit_probe_quality(out, before, block);
   append_or_take(out.encoder_m, block.value[static_cast<std::size_t>(channel_of_.back())],
                  before == 0);
   append_or_take(out.time_ns, block.time_ns, before == 0);
@@ -115,7 +115,8 @@ void Aligner::take_whole(SampleBlock& block, FrameBlock& out) {
 
 // If the quality of the encoder is neither good nor simulated (the probes are then simulated, too),
 // the quality of no probe is better.
-void Aligner::taint(FrameBlock& out, std::size_t before, const SampleBlock& block) const {
+void Aligner::limit_probe_quality(FrameBlock& out, std::size_t before,
+                                  const SampleBlock& block) const {
   const auto encoder = static_cast<std::size_t>(channel_of_.back());
   if (block.quality.empty() ||
       std::all_of(block.quality[encoder].begin(), block.quality[encoder].end(), usable))

@@ -81,7 +81,7 @@ class Aligner {
 
   bool whole(const SampleBlock& block);
   void take_whole(SampleBlock& block, FrameBlock& out);
-  void taint(FrameBlock& out, std::size_t before, const SampleBlock& block) const;
+  void limit_probe_quality(FrameBlock& out, std::size_t before, const SampleBlock& block) const;
   Status enqueue(const SampleBlock& block);
   Status enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track);
   void emit(FrameBlock& out, bool at_end);

@@ -93,7 +93,7 @@ void DwellDetector::start(std::vector<Point>& out) {
   places_.begin_at(early.time_ns.front() - static_cast<std::int64_t>(kRowsForPeriod) * period_ns_,
                    middle_m);
   const bool first = places_.is_placed(early.time_ns.front(), early.encoder_m.front());
-  begin_way(first ? early.encoder_m.front() : middle_m);
+  begin_travelled_range(first ? early.encoder_m.front() : middle_m);
   push_from(early, 0, out);
 }
 
@@ -150,10 +150,10 @@ void DwellDetector::learn_period(const FrameBlock& frames) {
   summary_.period_s = ns_to_s(period_ns_);
 }
 
-void DwellDetector::begin_way(double position_m) {
+void DwellDetector::begin_travelled_range(double position_m) {
   encoder_before_ = {position_m, position_m};
   summary_.encoder_min_m = summary_.encoder_max_m = position_m;
-  way_ = {position_m, position_m};
+  travelled_range_ = {position_m, position_m};
 }
 
 // Rows row_ ... to - 1 belong to the open slot.
@@ -203,11 +203,11 @@ void DwellDetector::remember_path(double position_m) {
   if (path_.size() > kPathLength) path_.pop_front();
 }
 
-void DwellDetector::remember_way(const Slot& slot) {
-  way_.min_m = std::min(way_.min_m, slot.min_m);
-  way_.max_m = std::max(way_.max_m, slot.max_m);
-  since_left_.min_m = std::min(since_left_.min_m, slot.min_m);
-  since_left_.max_m = std::max(since_left_.max_m, slot.max_m);
+void DwellDetector::extend_travelled_range(const Slot& slot) {
+  travelled_range_.min_m = std::min(travelled_range_.min_m, slot.min_m);
+  travelled_range_.max_m = std::max(travelled_range_.max_m, slot.max_m);
+  range_since_stop_.min_m = std::min(range_since_stop_.min_m, slot.min_m);
+  range_since_stop_.max_m = std::max(range_since_stop_.max_m, slot.max_m);
 }
 
 int DwellDetector::direction_to(double position_m) const {
@@ -233,7 +233,7 @@ void DwellDetector::close_slot(std::vector<Point>& out) {
   examine_window(still);
   if (still && !dwelling_) begin_dwell();
   if (!still && dwelling_) end_dwell(out);
-  if (!dwelling_) remember_way(slots_.back());
+  if (!dwelling_) extend_travelled_range(slots_.back());
   if (dwelling_) {
     truncated_ = truncated_ || slots_.back().first_row >= cut_row_;
   } else {
@@ -250,14 +250,14 @@ void DwellDetector::begin_dwell() {
   // are so long that the axis can move past an end target and return within them.
   const bool is_slow = slot_ns_ > static_cast<std::int64_t>(options_.window_s * 1e9) /
                                       static_cast<std::int64_t>(kSlotsPerWindow);
-  const bool went_off = is_slow && (left_m_ - since_left_.min_m > options_.approach_m ||
-                                    since_left_.max_m - left_m_ > options_.approach_m);
+  const bool went_off = is_slow && (left_m_ - range_since_stop_.min_m > options_.approach_m ||
+                                    range_since_stop_.max_m - left_m_ > options_.approach_m);
   const bool same_stop = left_ns_ != 0 && slots_.front().begin_ns - left_ns_ <= 2 * slot_ns_ &&
                          std::abs(slots_.back().middle() - left_m_) < options_.approach_m &&
                          !went_off;
   if (!same_stop) direction_ = direction_to(slots_.back().middle());
-  if (same_stop) way_ = gave_point_ ? Way{left_m_, left_m_} : way_in_;
-  way_in_ = way_;
+  if (same_stop) travelled_range_ = last_stop_is_point_ ? Way{left_m_, left_m_} : range_to_stop_;
+  range_to_stop_ = travelled_range_;
   drop_rows_before(slots_.front().first_row);
   cut_row_ = slots_.front().first_row + options_.max_scans;
 }
@@ -265,10 +265,10 @@ void DwellDetector::begin_dwell() {
 // The newest slot is outside the window; the slot before it may contain the start of the motion.
 void DwellDetector::end_dwell(std::vector<Point>& out) {
   dwelling_ = false;
-  gave_point_ = false;
+  last_stop_is_point_ = false;
   left_ns_ = slots_.back().begin_ns;
   left_m_ = slots_[slots_.size() - 3].middle();
-  since_left_ = {left_m_, left_m_};
+  range_since_stop_ = {left_m_, left_m_};
   const std::size_t end_row = std::min(find_rest_end(slots_[slots_.size() - 2]), cut_row_);
   const double still_s = ns_to_s(slots_[slots_.size() - 2].begin_ns - still_since_ns_);
   summary_.longest_still_s = std::max(summary_.longest_still_s, still_s);
@@ -280,17 +280,17 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
     Point point = average(first_row, end_row);
     if (slots_[slots_.size() - 2].unplaced > unplaced_before_)
       add_flag(point, Flag::missing, "encoder");
-    gave_point_ = keep_or_report(std::move(point), first_row, end_row, out);
+    last_stop_is_point_ = keep_or_report(std::move(point), first_row, end_row, out);
   } else if (still_s >= options_.min_length_s) {
     note({DwellEventKind::short_stop, still_since_ns_, left_m_, 0, still_s});
   }
-  if (gave_point_) {
-    way_seen_ = true;
-    way_ = {left_m_, left_m_};
+  if (last_stop_is_point_) {
+    travel_observed_ = true;
+    travelled_range_ = {left_m_, left_m_};
   } else if (summary_.passed_over.size() < kMaxPassedOver) {
     summary_.passed_over.push_back({left_m_, still_s, still_since_ns_, !long_enough});
   }
-  remember_way(slots_[slots_.size() - 2]);
+  extend_travelled_range(slots_[slots_.size() - 2]);
 }
 
 // The first row of a stop whose reading may contain the next motion; `last` may contain its start.
@@ -317,7 +317,8 @@ bool DwellDetector::keep_or_report(Point point, std::size_t first_row, std::size
     if (!kept) return false;
     add_flag(point, Flag::creep);
   }
-  if (way_seen_) point.travel_min_m = way_in_.min_m, point.travel_max_m = way_in_.max_m;
+  if (travel_observed_)
+    point.travel_min_m = range_to_stop_.min_m, point.travel_max_m = range_to_stop_.max_m;
   out.push_back(std::move(point));
   return true;
 }
@@ -364,7 +365,7 @@ void DwellDetector::pass_break(std::vector<Point>& out) {
   slots_.clear();
   path_.clear();
   left_ns_ = 0;
-  way_seen_ = false;
+  travel_observed_ = false;
   encoder_before_.fill(buffer_.encoder_m[row_]);
 }
 

@@ -114,7 +114,7 @@ class DwellDetector {
   void push_from(const FrameBlock& frames, std::size_t from, std::vector<Point>& out);
   void open_slot(std::int64_t index);
   void learn_period(const FrameBlock& frames);
-  void begin_way(double position_m);
+  void begin_travelled_range(double position_m);
   void add_rows(std::size_t to);
   void close_slot(std::vector<Point>& out);
   double window_range() const;
@@ -127,7 +127,7 @@ class DwellDetector {
   bool keep_or_report(Point point, std::size_t first_row, std::size_t end_row,
                       std::vector<Point>& out);
   void remember_path(double position_m);
-  void remember_way(const Slot& slot);
+  void extend_travelled_range(const Slot& slot);
   int direction_to(double position_m) const;
   void begin_dwell();
   void end_dwell(std::vector<Point>& out);
@@ -171,12 +171,12 @@ class DwellDetector {
     double min_m = 0, max_m = 0;
   };
   // Whether the axis was observed since the point before, or since the beginning.
-  bool way_seen_ = true;
+  bool travel_observed_ = true;
   // Since then; and up to the start of the last stop.
-  Way way_, way_in_;
-  Way since_left_;           // since the axis left the last stop
-  bool gave_point_ = false;  // for the last stop
-  int direction_ = 0;        // direction of approach, determined before the axis leaves again
+  Way travelled_range_, range_to_stop_;
+  Way range_since_stop_;             // since the axis left the last stop
+  bool last_stop_is_point_ = false;  // for the last stop
+  int direction_ = 0;  // direction of approach, determined before the axis leaves again
   std::vector<double> scratch_, finite_;
 
   std::vector<DwellEvent> events_;

@@ -41,7 +41,7 @@ Notice notice_of(const DwellEvent& n, double time_s, double needed_s) {
                 {{"jump_um", size_um}, {"position_mm", position_mm}, {"time_s", time_s}});
 }
 
-bool of_a_point(const DwellEvent& n, const std::vector<Point>& points) {
+bool is_beside_point(const DwellEvent& n, const std::vector<Point>& points) {
   const auto length_ns = static_cast<std::int64_t>(n.length_s * 1e9);
   return std::any_of(points.begin(), points.end(), [&](const Point& p) {
     return std::abs(p.position_m - n.position_m) < kSameStop_m &&
@@ -60,7 +60,7 @@ bool is_turn(const DwellEvent& n, const std::vector<Point>& points) {
 
 bool is_reported(const DwellEvent& n, const std::vector<Point>& points) {
   if (n.kind != DwellEventKind::creep && n.kind != DwellEventKind::short_stop) return true;
-  return !of_a_point(n, points) && !is_turn(n, points);
+  return !is_beside_point(n, points) && !is_turn(n, points);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kOneOf = 100;
+constexpr std::size_t kReadingsPerOverRange = 100;
 constexpr double kNear = 6;  // in standard deviations of the others
 constexpr double kBiasOfShare = 4;
 
@@ -24,7 +24,8 @@ bool OverRange::is_near(double mean_m, double spread_m) const {
 }
 
 bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, double spread_m) {
-  return over.count > 1 && kOneOf * over.count > readings && over.is_near(mean_m, spread_m);
+  return over.count > 1 && kReadingsPerOverRange * over.count > readings &&
+         over.is_near(mean_m, spread_m);
 }
 
 double with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,

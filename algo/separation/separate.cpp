@@ -147,7 +147,8 @@ DeterminedSeries seen_part(const Equations& e, const Solution& solution, Index f
   series.seen_m.assign(seen.begin(), seen.end());
   series.u_m.assign(u.begin(), u.end());
   for (Index i = 0; i < count; ++i) {
-    const double freedom = effective_freedom(square(i), fourth_by(scatter(i), reading.freedom));
+    const double freedom =
+        effective_freedom(square(i), fourth_over_freedom(scatter(i), reading.freedom));
     series.freedom.push_back(std::isfinite(u(i)) ? freedom : std::nan(""));
     series.k.push_back(std::isfinite(u(i)) ? coverage_factor(freedom) : std::nan(""));
   }

@@ -65,7 +65,7 @@ bool few(int n, std::size_t of) {
 }
 
 // Whether the axis moves in one direction from group to group.
-bool goes_along(const std::vector<Visit>& visits) {
+bool moves_in_one_direction(const std::vector<Visit>& visits) {
   int up = 0, down = 0;
   for (std::size_t i = 1; i < visits.size(); ++i) {
     up += visits[i].target > visits[i - 1].target;
@@ -76,7 +76,7 @@ bool goes_along(const std::vector<Visit>& visits) {
 
 bool is_pilgrim(const std::vector<Visit>& visits, int targets) {
   const int n = blocks(visits);
-  return n <= targets + std::max(1, targets / 4) && goes_along(visits) &&
+  return n <= targets + std::max(1, targets / 4) && moves_in_one_direction(visits) &&
          static_cast<double>(visits.size()) >= kLeastAtOnce * n;
 }
 

@@ -16,7 +16,7 @@ constexpr double kAsMany = 0.75;    // share of the typical number of visits
 constexpr double kTooNear = 0.6;    // in typical intervals, to what is surely a target
 constexpr double kTooFar = 1.6;     // in typical intervals, beyond the last target
 constexpr std::size_t kFewest = 4;  // places needed to judge one of a single pass
-constexpr int kSurelyNone = 3;      // typical visits, of which a target would not lack all but one
+constexpr int kCertainVisits = 3;   // typical visits, of which a target would not lack all but one
 
 // A place where the axis stopped.
 struct Place {
@@ -119,7 +119,7 @@ bool may_be_a_target(const Place& place, const Neighbours& n, const Typical& typ
   const bool inside = std::isfinite(n.below_m) && std::isfinite(n.above_m);
   if (inside) return true;
   const bool once = place.visits() == 1 && n.sure;
-  if (once && (place.parked || typical.visits >= kSurelyNone)) return false;
+  if (once && (place.parked || typical.visits >= kCertainVisits)) return false;
   return nearest_m <= kTooFar * typical.interval_m;
 }
 

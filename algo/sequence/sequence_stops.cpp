@@ -73,9 +73,9 @@ bool correct_overshot(Point& p) {
   const double above_m = p.travel_max_m - p.position_m, below_m = p.position_m - p.travel_min_m;
   // The last motion came from one side, the whole path from the other.
   const double overshot_m = p.direction < 0 ? above_m : below_m;
-  const double came_m = p.direction < 0 ? below_m : above_m;
+  const double approach_travel_m = p.direction < 0 ? below_m : above_m;
   const bool overshot = overshot_m > kLeastOvershoot_m && overshot_m <= kMostOvershoot_m;
-  if (p.direction == 0 || !overshot || !(came_m > 2 * overshot_m)) return false;
+  if (p.direction == 0 || !overshot || !(approach_travel_m > 2 * overshot_m)) return false;
   p.direction = -p.direction;
   add_flag(p, Flag::overshot);
   return true;

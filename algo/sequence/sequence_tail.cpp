@@ -54,7 +54,7 @@ bool SequenceTail::place(MeasuredPoint& p, Sequence& sequence) const {
 }
 
 // The last point gets the approach of the motion that followed.
-void SequenceTail::settle_last(const MeasuredPoint& next, Sequence& sequence) {
+void SequenceTail::set_last_direction(const MeasuredPoint& next, Sequence& sequence) {
   awaits_direction_ = false;
   MeasuredPoint& last = sequence.points.back();
   const int direction = next.target < last.target ? -1 : 1;
@@ -76,7 +76,7 @@ std::size_t SequenceTail::append(Point stop, Sequence& sequence) {
     return points.size();
   }
   const std::size_t first_changed = points.size() - (awaits_direction_ ? 1 : 0);
-  if (awaits_direction_) settle_last(p, sequence);
+  if (awaits_direction_) set_last_direction(p, sequence);
   if (p.point.direction == 0) {
     const bool stayed = !points.empty() && points.back().target == p.target;
     p.point.direction = stayed ? points.back().point.direction : 1;

@@ -25,7 +25,7 @@ class SequenceTail {
   using Visited = std::pair<double, int>;  // target, direction
   bool place(MeasuredPoint& p, Sequence& sequence) const;
   int number(const MeasuredPoint& p);
-  void settle_last(const MeasuredPoint& next, Sequence& sequence);
+  void set_last_direction(const MeasuredPoint& next, Sequence& sequence);
 
   SequenceOptions options_;
   bool by_passes_ = false;

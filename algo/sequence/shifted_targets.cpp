@@ -28,8 +28,8 @@ std::vector<std::size_t> last_visits(const Sequence& sequence) {
 
 // Targets whose last visit is before point `split`, and the other visited targets, ascending. If no
 // target has visits on both sides, these are the targets of the two sides.
-std::pair<Places, Places> parted(const Sequence& sequence, const std::vector<std::size_t>& last,
-                                 std::size_t split) {
+std::pair<Places, Places> split_targets(const Sequence& sequence,
+                                        const std::vector<std::size_t>& last, std::size_t split) {
   std::pair<Places, Places> places;
   for (std::size_t t = 0; t < last.size(); ++t)
     if (last[t] != kNever)
@@ -62,7 +62,7 @@ std::optional<ShiftedTargets> find_shifted_targets(const Sequence& sequence) {
     const MeasuredPoint& newest = sequence.points[split - 1];
     still_visited = std::max(still_visited, last[index_of(newest)]);
     if (still_visited >= split) continue;
-    const auto [before, after] = parted(sequence, last, split);
+    const auto [before, after] = split_targets(sequence, last, split);
     if (const auto shift = shift_between(before, after))
       return ShiftedTargets{newest.point.end_ns, *shift};
   }

@@ -39,7 +39,7 @@ std::vector<int> find_incomplete_runs(const std::vector<MeasuredPoint>& points) 
 }
 
 struct Approached {
-  std::vector<int> targets_from_one;  // ascending
+  std::vector<int> one_sided_targets;  // ascending
   bool any_from_both = false;
   std::set<int> directions;
 };
@@ -52,8 +52,8 @@ Approached approached(const std::vector<MeasuredPoint>& points) {
     sides.directions.insert(p.point.direction);
   }
   for (const auto& [target, directions] : of_target)
-    if (directions.size() == 1) sides.targets_from_one.push_back(target);
-  sides.any_from_both = sides.targets_from_one.size() < of_target.size();
+    if (directions.size() == 1) sides.one_sided_targets.push_back(target);
+  sides.any_from_both = sides.one_sided_targets.size() < of_target.size();
   return sides;
 }
 
@@ -90,7 +90,7 @@ Notices uneven_visits(const std::vector<MeasuredPoint>& points) {
   const auto counted = counted_points(points);
   const auto lacking = find_incomplete_runs(counted);
   const Approached from = approached(counted);
-  const auto& one_sided = from.targets_from_one;
+  const auto& one_sided = from.one_sided_targets;
   Notices found;
   if (!lacking.empty())
     found.push_back(notice(NoticeCode::run_lacks_visits, "", {{"runs", numbered("run", lacking)}}));

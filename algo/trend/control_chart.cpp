@@ -6,7 +6,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kRangeOfTwo = 1.128;  // d2: mean range of two values, in units of their sd
+constexpr double kMeanRangeBySd = 1.128;  // d2: mean range of two values, in units of their sd
 constexpr double kLimits = 3;
 
 struct Part {
@@ -25,7 +25,7 @@ Part part_of(const std::vector<ChartValue>& values, std::size_t begin, std::size
   return part;
 }
 
-Chart::Moved moved_of(const std::vector<ChartValue>& values, double sigma) {
+Chart::Moved find_moved_mean(const std::vector<ChartValue>& values, double sigma) {
   Chart::Moved moved;
   double least = 0;
   for (std::size_t at = 1; at < values.size(); ++at) {
@@ -45,12 +45,12 @@ Chart::Moved moved_of(const std::vector<ChartValue>& values, double sigma) {
 std::optional<Chart> control_chart(const std::vector<ChartValue>& values, std::size_t baseline) {
   Chart chart;
   chart.baseline = baseline > 0 ? baseline : values.size() - (values.empty() ? 0 : 1);
-  if (chart.baseline < kFewestOfBaseline || chart.baseline > values.size()) return std::nullopt;
+  if (chart.baseline < kLeastBaselineValues || chart.baseline > values.size()) return std::nullopt;
   chart.centre = part_of(values, 0, chart.baseline).mean;
   double ranges = 0;
   for (std::size_t i = 1; i < chart.baseline; ++i)
     ranges += std::abs(values[i].value - values[i - 1].value);
-  chart.sigma = ranges / static_cast<double>(chart.baseline - 1) / kRangeOfTwo;
+  chart.sigma = ranges / static_cast<double>(chart.baseline - 1) / kMeanRangeBySd;
   std::size_t in_a_row = 0;
   int side = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -62,13 +62,13 @@ std::optional<Chart> control_chart(const std::vector<ChartValue>& values, std::s
     const int here = off > 0 ? 1 : off < 0 ? -1 : 0;
     in_a_row = here != 0 && here == side ? in_a_row + 1 : (here != 0 ? 1 : 0);
     side = here;
-    if (in_a_row >= kRunOfOneSide) chart.one_side.push_back(i);
+    if (in_a_row >= kOneSideRunLength) chart.one_side.push_back(i);
   }
   const auto last_is = [&](const std::vector<std::size_t>& signals) {
     return !signals.empty() && signals.back() + 1 == values.size();
   };
   if (last_is(chart.outside) || last_is(chart.one_side))
-    chart.moved = moved_of(values, chart.sigma);
+    chart.moved = find_moved_mean(values, chart.sigma);
   return chart;
 }
 

@@ -29,9 +29,9 @@ struct Chart {
   std::optional<Moved> moved;
 };
 
-inline constexpr std::size_t kFewestOfBaseline = 4, kRunOfOneSide = 8;
+inline constexpr std::size_t kLeastBaselineValues = 4, kOneSideRunLength = 8;
 
-// `baseline`: number of first values; 0: all but the last. Empty: fewer than kFewestOfBaseline
+// `baseline`: number of first values; 0: all but the last. Empty: fewer than kLeastBaselineValues
 // values, so that no statement is possible.
 std::optional<Chart> control_chart(const std::vector<ChartValue>& values, std::size_t baseline = 0);
 

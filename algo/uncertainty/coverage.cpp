@@ -63,7 +63,7 @@ double quantile(double freedom, const Tail& tail) {
 
 }  // namespace
 
-double fourth_by(double u_square, double freedom) {
+double fourth_over_freedom(double u_square, double freedom) {
   return u_square * u_square / freedom;
 }
 
@@ -76,7 +76,7 @@ double effective_freedom(std::span<const UncertaintyPart> parts) {
   double square = 0, fourth = 0;
   for (const UncertaintyPart& part : parts) {
     square += part.u * part.u;
-    fourth += fourth_by(part.u * part.u, part.freedom);
+    fourth += fourth_over_freedom(part.u * part.u, part.freedom);
   }
   return effective_freedom(square, fourth);
 }

@@ -12,9 +12,9 @@ struct UncertaintyPart {
   double u = 0, freedom = 0;
 };
 double effective_freedom(std::span<const UncertaintyPart> parts);
-// The same from two sums: of u_i², and of fourth_by(u_i², ν_i).
+// The same from two sums: of u_i², and of fourth_over_freedom(u_i², ν_i).
 double effective_freedom(double sum_of_squares, double sum_of_fourths);
-double fourth_by(double u_square, double freedom);  // u⁴ / ν
+double fourth_over_freedom(double u_square, double freedom);  // u⁴ / ν
 
 // k such that ±k u covers 95 % of Student's t with `freedom` degrees of freedom (GUM G.3.2 and
 // table G.2, which truncates them to the next lower integer; this function does not). For infinite

@@ -167,7 +167,7 @@ class Physics {
   }
 
   void add_air() {
-    if (!physics().knows_air()) return;
+    if (!physics().has_known_air_effect()) return;
     const DeclaredAir& air = *physics().air;
     const double calibration = air_permittivity(air.calibration);
     // If only a log has a condition of the run, the condition of the calibration replaces it: the

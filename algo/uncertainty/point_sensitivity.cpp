@@ -23,7 +23,7 @@ class Differences {
     s.by_probe.resize(p_.point.probe_m.size());
     s.travel_m = run_.header.sides.target_travel_m(p_.point.position_m);
     const AxisErrors carriage =
-        solver_.solve_alone(s.travel_m, p_.point.probe_m, p_.point.probe_u_m);
+        solver_.solve_without_covariance(s.travel_m, p_.point.probe_m, p_.point.probe_u_m);
     s.valid = p_.errors.valid && carriage.valid;
     if (!s.valid) return s;
     s.carriage = carriage.local;
@@ -77,7 +77,8 @@ class Differences {
   // The gain of the other models is accurate to 1e-3 only, and their solution costs little.
   Errors5 by_travel(double travel_m) const {
     const auto solved = [&](double at_m) {
-      return stated(solver_.solve_alone(at_m, p_.point.probe_m, p_.point.probe_u_m), at_m);
+      return stated(solver_.solve_without_covariance(at_m, p_.point.probe_m, p_.point.probe_u_m),
+                    at_m);
     };
     return slope(solved(travel_m + kTravelStep_m), solved(travel_m - kTravelStep_m), kTravelStep_m);
   }

@@ -33,7 +33,7 @@ PointUncertainties::PointUncertainties(const Run& run)
     time_s.push_back(middle_time_s(run.points[j]));
   }
   seen_ = visits_.of(named);
-  steady_ = visits_.of_steady(named, time_s);
+  steady_ = visits_.without_trend(named, time_s);
   repeatability_.fill(visits_.has_repeats());
   if (visits_.has_repeats()) covered_ = VisitsCovered::repeated;
   if (sums_.size() > kRepeatabilityPointLimit) leave_out_repeatability();
@@ -56,7 +56,7 @@ void PointUncertainties::add(const Contributor& contributor,
     for (std::size_t k = 0; k < kErrorCount; ++k) {
       const double square = variance[j][names[k].local];
       sums_[j].square[k] += square;
-      sums_[j].fourth_by_freedom[k] += fourth_by(square, contributor.declared.freedom);
+      sums_[j].fourth_by_freedom[k] += fourth_over_freedom(square, contributor.declared.freedom);
       if (contributor.name.kind == ContributorKind::removed_drift && square > 0)
         repeatability_[k] = false;
     }
@@ -79,7 +79,7 @@ std::vector<ErrorsUncertainty> PointUncertainties::stated() const {
     ErrorsUncertainty& out = points.emplace_back();
     const auto scans = static_cast<double>(run_.points[j].point.samples);
     for (std::size_t k = 0; k < kErrorCount; ++k) {
-      double random = sums.noise[k], fourth = fourth_by(random, std::max(1.0, scans - 1));
+      double random = sums.noise[k], fourth = fourth_over_freedom(random, std::max(1.0, scans - 1));
       const double by_time = seen_.variance[k] - steady_.variance[k];
       const bool is_declared = explained_[k] > 0 && by_time <= kDriftChiSquareLimit * explained_[k];
       const VisitScatter::Pooled& scatter = is_declared ? steady_ : seen_;
@@ -87,7 +87,7 @@ std::vector<ErrorsUncertainty> PointUncertainties::stated() const {
           is_declared ? steady_.variance[k] : seen_.variance[k] - explained_[k];
       if (repeatability_[k] && repeatability > random) {
         random = repeatability;
-        fourth = fourth_by(scatter.variance[k], scatter.freedom[k]);
+        fourth = fourth_over_freedom(scatter.variance[k], scatter.freedom[k]);
       }
       const double square = random + sums.square[k];
       out.u[k] = std::sqrt(square);

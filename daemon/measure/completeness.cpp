@@ -27,7 +27,7 @@ std::vector<Visits> count_visits(std::size_t targets, const std::vector<Measured
   return visits;
 }
 
-Visits still_to_come(const Visits& visits, int repeats) {
+Visits missing_visits(const Visits& visits, int repeats) {
   if (repeats == 0) return {visits.forward + visits.reverse > 0 ? 0 : 1, 0};
   return {std::max(0, repeats - visits.forward), std::max(0, repeats - visits.reverse)};
 }
@@ -47,7 +47,7 @@ std::string visits_text(const Visits& missing) {
 }
 
 // The most frequent reason of the unsolved points.
-std::string commonest_reason(const std::vector<MeasuredPoint>& points) {
+std::string most_frequent_reason(const std::vector<MeasuredPoint>& points) {
   std::map<std::string, int> count;
   for (const MeasuredPoint& p : points)
     if (!p.errors.valid) ++count[p.errors.reason];
@@ -84,7 +84,7 @@ std::optional<Notice> not_measured(const std::vector<double>& targets_m, int rep
   std::vector<Visits> missing;
   int points_missing = 0;
   for (const Visits& visits : count_visits(targets_m.size(), points)) {
-    missing.push_back(still_to_come(visits, repeats));
+    missing.push_back(missing_visits(visits, repeats));
     points_missing += missing.back().forward + missing.back().reverse;
   }
   if (points_missing == 0) return std::nullopt;
@@ -111,9 +111,10 @@ Notices missing_notices(const std::vector<double>& targets_m, int repeats,
   if (auto missing = not_measured(targets_m, repeats, points)) found.push_back(std::move(*missing));
   const std::size_t unsolved = count_unsolved(points);
   if (2 * unsolved > points.size() || (!found.empty() && unsolved > 0))
-    found.push_back(notice(
-        NoticeCode::points_unsolved, "",
-        {{"unsolved", unsolved}, {"points", points.size()}, {"reason", commonest_reason(points)}}));
+    found.push_back(notice(NoticeCode::points_unsolved, "",
+                           {{"unsolved", unsolved},
+                            {"points", points.size()},
+                            {"reason", most_frequent_reason(points)}}));
   return found;
 }
 

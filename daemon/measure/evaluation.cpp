@@ -37,7 +37,7 @@ Result<Rig> rig_of(const RunHeader& run) {
 
 namespace {
 
-Result<Run> stated_anew(Run stored, Reference reference) {
+Result<Run> run_at_reference(Run stored, Reference reference) {
   if (reference != Reference::tool) return algo::restate(std::move(stored), {reference, {}});
   MDOF_TRY(const Rig rig, rig_of(stored.header));
   MDOF_TRY(const StatedAt at, stated_at(rig, reference));
@@ -48,7 +48,7 @@ Result<Run> stated_anew(Run stored, Reference reference) {
 
 Result<Run> restated_run(store::Store& store, std::int64_t run, Reference reference) {
   MDOF_TRY(Run stored, store.run(run));
-  return stated_anew(std::move(stored), reference);
+  return run_at_reference(std::move(stored), reference);
 }
 
 Result<Run> restated_points(store::Store& store, std::int64_t run, std::int64_t offset,
@@ -58,7 +58,7 @@ Result<Run> restated_points(store::Store& store, std::int64_t run, std::int64_t 
   MDOF_TRY(page.points, store.points(run, 0, 1));
   MDOF_TRY(auto asked, store.points(run, offset, count));
   std::move(asked.begin(), asked.end(), std::back_inserter(page.points));
-  return stated_anew(std::move(page), reference);
+  return run_at_reference(std::move(page), reference);
 }
 
 namespace {
@@ -359,7 +359,8 @@ std::string run_document(const RunMembers& members, const std::string& result_sh
   return json.take();
 }
 
-Result<SquarenessLines> lines_of_squareness(store::Store& store, const Squareness& squareness) {
+Result<SquarenessLines> squareness_reference_lines(store::Store& store,
+                                                   const Squareness& squareness) {
   MDOF_TRY(const Run a, store.run(squareness.run_a));
   MDOF_TRY(const Run b, store.run(squareness.run_b));
   return algo::squareness_lines(a, b, squareness);

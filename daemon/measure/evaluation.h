@@ -123,7 +123,8 @@ Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squar
                                            const algo::StatedPair& at = {});
 
 // Both axes by each reference line, calculated on request. The stored fit is by least squares.
-Result<SquarenessLines> lines_of_squareness(store::Store& store, const Squareness& squareness);
+Result<SquarenessLines> squareness_reference_lines(store::Store& store,
+                                                   const Squareness& squareness);
 // The document of `mdof squareness` and squareness.fit.
 std::string squareness_document(const FittedSquareness& fitted, const SquarenessLines& lines);
 

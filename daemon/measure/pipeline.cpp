@@ -20,7 +20,7 @@ constexpr std::size_t kFullRecognitionLimit = 256;  // with fewer stops every ne
                                                     // recognition
 
 // Copies the last instant of `frames` into `newest`.
-void keep_last(const FrameBlock& frames, FrameBlock& newest) {
+void copy_last_instant(const FrameBlock& frames, FrameBlock& newest) {
   const std::size_t last = frames.size() - 1;
   newest.time_ns.assign(1, frames.time_ns[last]);
   newest.encoder_m.assign(1, frames.encoder_m[last]);
@@ -47,7 +47,7 @@ Status Pipeline::push(SampleBlock& raw) {
   note_scan_loss(raw);
   MDOF_CHECK(take(raw));
   if (frames_.size() == 0) return {};
-  keep_last(frames_, newest_);
+  copy_last_instant(frames_, newest_);
   if (watcher_) watcher_(frames_);
   find_stops();
   if (!options_.keep_points) found_.clear();
@@ -62,13 +62,13 @@ void Pipeline::find_stops() {
 
 void Pipeline::drop_excess_stops() {
   if (found_.size() <= options_.max_stops) return;
-  beyond_ += found_.size() - options_.max_stops;
+  excess_stops_ += found_.size() - options_.max_stops;
   found_.resize(options_.max_stops);
 }
 
 Notice Pipeline::excess_stops_notice() const {
   return notice(NoticeCode::stops_over_limit, "",
-                {{"stops", found_.size()}, {"left_out", beyond_}});
+                {{"stops", found_.size()}, {"left_out", excess_stops_}});
 }
 
 Notice Pipeline::not_placed() const {

@@ -69,9 +69,9 @@ class Pipeline : RunBuilder {
   algo::DwellDetector dwell_;
   FrameBlock newest_;
   std::function<void(const FrameBlock&)> watcher_;
-  std::vector<Point> found_;  // averaged, not corrected
-  std::size_t beyond_ = 0;    // stops after max_stops
-  std::size_t taken_ = 0;     // number of stops of found_ in sequence_
+  std::vector<Point> found_;      // averaged, not corrected
+  std::size_t excess_stops_ = 0;  // stops after max_stops
+  std::size_t taken_ = 0;         // number of stops of found_ in sequence_
   algo::Sequence sequence_;
   std::optional<algo::SequenceTail> tail_;  // continues sequence_ by single points
   std::size_t next_full_recognition_ =

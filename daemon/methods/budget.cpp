@@ -165,7 +165,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
              "except the newest]",
              false,
              {},
-             {.least = algo::kFewestOfBaseline, .most = 100'000}},
+             {.least = algo::kLeastBaselineValues, .most = 100'000}},
             {"mixed", ParamType::boolean,
              "also use runs with other rigs, models or evaluation options", false, "false"}},
        .members = "{reference, figures: {{figure}?: {values: [{runs: [integer], started_utc, "

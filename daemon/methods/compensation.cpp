@@ -77,7 +77,7 @@ void activate(Methods& m, const Params& params, Reply reply) {
       params.integer("table"),
       {params.boolean("simulated", false), params.boolean("despite_warnings", false)},
       action_with_reason(params, "compensation.activate"),
-      expected_generation_of(params)};
+      expected_generation_param(params)};
   answer_with_change(m, std::move(reply), [&m, request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(const store::Marks marks, check_activation(reader, request));
     return change_active(
@@ -93,7 +93,7 @@ void deactivate(Methods& m, const Params& params, Reply reply) {
   answer_with_change(
       m, std::move(reply),
       [&m, axis = *axis, action = action_with_reason(params, "compensation.deactivate"),
-       expected = expected_generation_of(params)](store::Store&) -> Result<Change> {
+       expected = expected_generation_param(params)](store::Store&) -> Result<Change> {
         return change_active(m, std::string("\"axis\":\"") + letter(axis) + "\"",
                              [axis, action, expected](store::Store& store) {
                                return store.deactivate(axis, actor_text(action.by), action.utc,
@@ -133,7 +133,7 @@ Result<std::string> grid(const Methods& m, const Params& params) {
   MDOF_CHECK(
       refuse(params, {"u_parts"}, " applies only to a volumetric table; leave this parameter out"));
   MDOF_TRY(const auto* active, active_table(m, params));
-  const auto [offset, count] = list_page_of(params, kMaxGridPage);
+  const auto [offset, count] = read_list_page(params, kMaxGridPage);
   if (params.has("generation") && params.integer("generation") != active->generation) {
     return fail(ErrorCode::changed, "the active table changed (generation is now " +
                                         std::to_string(active->generation) +

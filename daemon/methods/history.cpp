@@ -13,7 +13,7 @@ using rpc::Params;
 constexpr std::int64_t kMaxActionsPage = 200;
 
 Result<QueryThread::Work> list_history(Methods&, const Params& params) {
-  const rpc::ListPage page = list_page_of(params, kMaxActionsPage);
+  const rpc::ListPage page = read_list_page(params, kMaxActionsPage);
   return [page](store::Store& store) -> Result<std::string> {
     MDOF_TRY(const auto actions, store.list_actions(page.offset, page.count));
     MDOF_TRY(const auto total, store.count_actions());

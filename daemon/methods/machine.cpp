@@ -66,7 +66,7 @@ Result<QueryThread::Work> machine_at(Methods&, const Params& params) {
   MDOF_TRY(const algo::Command at, command_of(params, machine));
   return [machine, at](store::Store& store) -> Result<std::string> {
     Machine measured = machine;
-    MDOF_TRY(const StoredErrors stored, take_stored_errors(store, measured));
+    MDOF_TRY(const StoredErrors stored, read_stored_errors(store, measured));
     MDOF_TRY(std::string json, error_at(measured, at));
     return with_notices(std::move(json), stored.notices, words::text);
   };

@@ -11,7 +11,7 @@ namespace mdof::daemon {
 namespace {
 
 constexpr int kQueryNiceness = 10;  // lower priority than the measurement
-constexpr std::chrono::milliseconds kEntry{1};
+constexpr std::chrono::milliseconds kNewClientCost{1};
 
 }  // namespace
 
@@ -28,7 +28,7 @@ QueryThread::~QueryThread() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  handed_over_.notify_all();
+  call_ready_.notify_all();
   thread_.join();
 }
 
@@ -36,10 +36,10 @@ void QueryThread::answer(rpc::Reply reply, Work work) {
   Key key = reply.client();
   if (!clients_.contains(key)) admit(key);
   Client& client = clients_.at(key);
-  if (client.calls.size() >= kMostOfClient) {
+  if (client.calls.size() >= kClientCallLimit) {
     ++refused_;
     return reply(fail(ErrorCode::conflict,
-                      std::to_string(kMostOfClient) +
+                      std::to_string(kClientCallLimit) +
                           " calls of this connection are already waiting for the database; call "
                           "again after mdofd has answered some of these calls"));
   }
@@ -57,8 +57,8 @@ void QueryThread::admit(const Key& client) {
         served_ && !served_->owner_before(entry.first) && !entry.first.owner_before(*served_);
     return entry.first.expired() && !served;
   });
-  order_.charge(clients_[client].share, kEntry);  // a client that reconnects for each call does not
-                                                  // always come first
+  order_.charge(clients_[client].share, kNewClientCost);  // a client that reconnects for each call
+                                                          // does not always come first
 }
 
 // Gives the next call to the thread. The call stays at the front of its client's calls until
@@ -78,7 +78,7 @@ void QueryThread::deliver() {
       const std::lock_guard lock(mutex_);
       next_ = std::move(call);
     }
-    return handed_over_.notify_all();
+    return call_ready_.notify_all();
   }
 }
 
@@ -98,7 +98,7 @@ void QueryThread::work() {
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kQueryNiceness);
   for (;;) {
     std::unique_lock lock(mutex_);
-    handed_over_.wait(lock, [this] { return stopping_ || next_; });
+    call_ready_.wait(lock, [this] { return stopping_ || next_; });
     if (stopping_) return;
     Call call = *std::exchange(next_, std::nullopt);
     lock.unlock();

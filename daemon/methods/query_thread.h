@@ -65,7 +65,7 @@ class QueryThread {
   void work();
   void serve(Call call);
 
-  static constexpr std::size_t kMostOfClient = 256;
+  static constexpr std::size_t kClientCallLimit = 256;
 
   const std::shared_ptr<rpc::Executor> loop_;
   const std::filesystem::path database_;
@@ -81,7 +81,7 @@ class QueryThread {
 
   store::Store store_;  // used by the thread
   std::mutex mutex_;    // protects next_ and stopping_
-  std::condition_variable handed_over_;
+  std::condition_variable call_ready_;
   std::optional<Call> next_;
   bool stopping_ = false;
   std::thread thread_;

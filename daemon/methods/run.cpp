@@ -133,7 +133,7 @@ Status check_probes_free(const Methods& m, const Station& station) {
   for (const auto& other : m.stations) {
     const std::int64_t run = other->run();
     if (other.get() == &station || run == 0) continue;
-    const std::string device = same_probes(station.config(), other->config());
+    const std::string device = shared_probes_device(station.config(), other->config());
     if (device.empty()) continue;
     MDOF_CHECK(check_end_is_stored(m, run));
     return fail(
@@ -210,7 +210,7 @@ Result<QueryThread::Work> list_runs(Methods& m, const Params& params) {
   if (params.has("axis")) {
     MDOF_TRY(axis, axis_param(params));
   }
-  const rpc::ListPage page = list_page_of(params, kMaxRunsPage);
+  const rpc::ListPage page = read_list_page(params, kMaxRunsPage);
   const RunListRequest request{page.offset, page.count, axis, params.boolean("all", false)};
   return [&m, request](store::Store& store) {
     return run_list_document(store, request, kPageBytes,
@@ -241,7 +241,7 @@ Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::i
   MDOF_TRY(auto run, restated_run(store, id, reference));
   explain(m, run.header);
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
-  MDOF_TRY(const auto actions, store.actions_of_run(id));
+  MDOF_TRY(const auto actions, store.run_actions(id));
   if (is_imported(run.header)) {
     run = with_positioning_notices(std::move(run));
     const StatedFigures figures = positioning_figures(run);
@@ -267,7 +267,7 @@ Result<QueryThread::Work> get_run(Methods& m, const Params& params) {
 
 Result<QueryThread::Work> run_points(const std::shared_ptr<RunPages>& pages, const Params& params) {
   MDOF_TRY(const Reference reference, reference_param(params));
-  return [pages, id = params.integer("run"), page = list_page_of(params, kMaxPointsPage),
+  return [pages, id = params.integer("run"), page = read_list_page(params, kMaxPointsPage),
           reference](store::Store& store) { return pages->points(store, id, page, reference); };
 }
 

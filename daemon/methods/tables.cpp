@@ -56,7 +56,8 @@ Result<std::string> tables_json(store::Store& store, const TablesRequest& reques
 }
 
 Result<QueryThread::Work> list_tables(Methods& m, const Params& params) {
-  TablesRequest request{rpc::list_page_of(params, kMaxTablesPage), Listed::both, {}, m.generation};
+  TablesRequest request{
+      rpc::read_list_page(params, kMaxTablesPage), Listed::both, {}, m.generation};
   if (params.string("axis") == "volume") {
     request.listed = Listed::volumes;
   } else if (params.has("axis")) {
@@ -83,7 +84,7 @@ Result<std::string> table_json(store::Store& store, std::int64_t id, rpc::ListPa
 }
 
 Result<QueryThread::Work> get_table(Methods& m, const Params& params) {
-  return [id = params.integer("table"), page = rpc::list_page_of(params, kMaxRowsPage),
+  return [id = params.integer("table"), page = rpc::read_list_page(params, kMaxRowsPage),
           active = m.active](store::Store& store) { return table_json(store, id, page, active); };
 }
 

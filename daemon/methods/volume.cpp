@@ -135,7 +135,7 @@ void write_active_volume(JsonWriter& json, const store::ActiveVolumetric& active
 
 }  // namespace
 
-std::optional<std::int64_t> expected_generation_of(const Params& params) {
+std::optional<std::int64_t> expected_generation_param(const Params& params) {
   if (!params.has("expected_generation")) return std::nullopt;
   return params.integer("expected_generation");
 }
@@ -146,7 +146,7 @@ bool is_volume(const Params& params) {
 
 void deactivate_volume(Methods& m, const Params& params, Reply reply) {
   const HistoryEntry action = action_with_reason(params, "compensation.deactivate");
-  const auto expected = expected_generation_of(params);
+  const auto expected = expected_generation_param(params);
   answer_with_change(m, std::move(reply), [&m, action, expected](store::Store&) -> Result<Change> {
     return change_active(m, R"("axis":"volume")", [action, expected](store::Store& store) {
       return store.change_volumetric(std::nullopt, actor_text(action.by), action.utc, action,
@@ -167,7 +167,7 @@ void write_volume_status(JsonWriter& json, const Methods& m) {
 
 Result<std::string> volume_grid(const Methods& m, const Params& params) {
   MDOF_TRY(const auto* active, active_volume(m));
-  const auto [offset, count] = list_page_of(params, kMaxNodesPage);
+  const auto [offset, count] = read_list_page(params, kMaxNodesPage);
   if (params.has("generation") && params.integer("generation") != active->generation)
     return fail(ErrorCode::changed, "the active table changed (generation is now " +
                                         std::to_string(active->generation) +

@@ -10,7 +10,7 @@ namespace mdof::daemon {
 inline constexpr std::int64_t kMaxNodesPage = 1000;
 
 // Parameter of activate and deactivate; nullopt if not given.
-std::optional<std::int64_t> expected_generation_of(const rpc::Params& params);
+std::optional<std::int64_t> expected_generation_param(const rpc::Params& params);
 // {"axis": "volume"}
 bool is_volume(const rpc::Params& params);
 void deactivate_volume(Methods& m, const rpc::Params& params, rpc::Reply reply);

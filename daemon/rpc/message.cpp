@@ -72,7 +72,7 @@ void append_notification(std::string& out, std::string_view method, std::string_
 }
 
 // The name of a topic contains no quotes.
-Notification notification_of(std::string_view message) {
+Notification parse_notification(std::string_view message) {
   assert(message.starts_with(kBeforeMethod) && message.ends_with('}'));
   message.remove_prefix(kBeforeMethod.size() + 1);
   message.remove_suffix(1);

@@ -23,7 +23,7 @@ void append_notification(std::string& out, std::string_view method, std::string_
 struct Notification {
   std::string_view method, params;
 };
-Notification notification_of(std::string_view message);
+Notification parse_notification(std::string_view message);
 
 // Quotes text of a client for a message to it, cut to the length of a reasonable name.
 std::string in_quotes(std::string_view text);

@@ -23,7 +23,7 @@ fs::path nearest_folder(fs::path folder) {
   return folder;
 }
 
-std::string remedy_of_permission(const fs::path& folder) {
+std::string permission_remedy(const fs::path& folder) {
   return "; choose another folder, or make user and group mdof the owner of this folder and run "
          "mdofd as user mdof (sudo install -d -o mdof -g mdof -m 750 " +
          folder.string() + ")";
@@ -42,7 +42,7 @@ Status check_folder(const std::string& key, const fs::path& folder) {
                           : folder.string() +
                                 " does not exist, and mdofd has no permission to create it in " +
                                 nearest.string()) +
-                   remedy_of_permission(folder));
+                   permission_remedy(folder));
 }
 
 Status check_file(const std::string& key, const fs::path& file) {
@@ -70,7 +70,7 @@ Status check_identities(const Config& config) {
   std::map<std::string, std::string> names;
   for (const auto& axis : config.axes) {
     for (const auto& device : axis.devices) {
-      if (!device.identity || device.shared || device.of_other_axis) continue;
+      if (!device.identity || device.shared || device.is_declared_elsewhere) continue;
       const auto [other, fresh] = names.emplace(device.identity(), device.name);
       if (fresh) continue;
       return bad_input(config.source + ": the devices \"" + other->second + "\" and \"" +
@@ -101,7 +101,7 @@ Status make_socket_folder(const std::string& socket) {
     if (fs::exists(made, failed)) continue;
     if (::mkdir(made.c_str(), kFolderMode) != 0 && errno != EEXIST)
       return io_error("rpc.socket: the folder " + made.string() +
-                      " cannot be created: " + std::strerror(errno) + remedy_of_permission(folder));
+                      " cannot be created: " + std::strerror(errno) + permission_remedy(folder));
     (void)::chmod(made.c_str(), kFolderMode);  // independent of the umask
   }
   return {};

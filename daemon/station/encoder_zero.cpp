@@ -167,7 +167,7 @@ void EncoderZero::begins(std::int64_t run) {
   runs_.insert(run);
 }
 
-bool EncoderZero::counts_on_since(std::int64_t run) const {
+bool EncoderZero::has_counted_since(std::int64_t run) const {
   const std::lock_guard lock(mutex_);
   return !counts_ || runs_.count(run) > 0;
 }

@@ -55,7 +55,7 @@ class EncoderZero {
   // Whether the encoder has counted from the same origin since the run began. False if unknown: the
   // run began before this program, or before its device lost power. Always true for an encoder that
   // does not count.
-  bool counts_on_since(std::int64_t run) const;
+  bool has_counted_since(std::int64_t run) const;
   // The device that gives the encoder; "": unknown before its first sample.
   std::string device() const;
 

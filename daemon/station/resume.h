@@ -29,7 +29,7 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
 Status check_same_settings(const CutOffRun& cut_off, const PipelineOptions& now);
 
 // A run has one datum. Error (conflict): equal positions in the run and `now` are, or may be,
-// different places. `counts_on`: as from EncoderZero::counts_on_since() for the run.
+// different places. `counts_on`: as from EncoderZero::has_counted_since() for the run.
 Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool counts_on);
 
 // Reads the recording of `cut_off` into `pipeline` and, block by block, into `run.begun`, which it

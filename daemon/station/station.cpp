@@ -162,7 +162,7 @@ std::string Station::occupied_reason(std::int64_t run) const {
 
 void Station::start_run(const RunRequest& request, const RunDone& done) {
   if (request.resumes) {
-    const bool counts_on = zero_.counts_on_since(request.resumes->id);
+    const bool counts_on = zero_.has_counted_since(request.resumes->id);
     const Status same = check_same_datum(*request.resumes, zero_.datum(), counts_on);
     if (!same) return done(tl::unexpected(same.error()));
     const Status alike = check_same_settings(*request.resumes, options_for(request));

@@ -68,8 +68,8 @@ std::size_t done(const RunRequest& request, const std::vector<MeasuredPoint>& po
 }
 
 // The expected next target: onward in the direction of the last point, and back at an end.
-std::optional<std::size_t> awaited_target(const RunRequest& request,
-                                          const std::vector<MeasuredPoint>& points) {
+std::optional<std::size_t> expected_target(const RunRequest& request,
+                                           const std::vector<MeasuredPoint>& points) {
   if (request.targets_m.empty()) return std::nullopt;
   if (points.empty()) return 0;
   const auto last = static_cast<std::size_t>(points.back().target) - 1;
@@ -124,7 +124,7 @@ std::string progress_json(std::int64_t run, Axis axis, const RunRequest& request
   json.key("done");
   of > 0 ? json.value(static_cast<std::uint64_t>(done(request, points))) : json.null();
   json.key("awaited_mm");
-  const auto next = awaited_target(request, points);
+  const auto next = expected_target(request, points);
   next ? json.value(to_mm(request.targets_m[*next])) : json.null();
   json.end_object();
   return json.take();
@@ -330,7 +330,7 @@ void Station::finish(RunState state, Notices why, const drivers::SourceInfo& sou
   append(notices, calibration_notices(config_.rig));
   for (const auto& device : devices())
     append(notices, drivers::unused_scales(config_.rig, device.info.channels));
-  append(notices, doubtful_values(config_.rig));
+  append(notices, unusual_values(config_.rig));
   append(notices, std::move(why));
   if (open->blocks_not_recorded > 0)
     notices.push_back(

@@ -7,14 +7,14 @@
 namespace mdof::daemon {
 
 void Unrecorded::add(const SampleBlock& block) {
-  constexpr std::size_t kRoom_scans = 128;  // typical number of scans of a device until take()
+  constexpr std::size_t kReservedScans = 128;  // typical number of scans of a device until take()
   const auto last = std::find_if(blocks_.rbegin(), blocks_.rend(),
                                  [&](const auto& b) { return b.device == block.device; });
   if (last != blocks_.rend() && last->channels == block.channels && block.lost == 0)
     return append_scans(*last, block, 0, block.scans());
   SampleBlock& fresh = blocks_.emplace_back();
   drivers::start_block(fresh, block.device, block.channels);
-  drivers::reserve_scans(fresh, std::max(kRoom_scans, block.scans()));
+  drivers::reserve_scans(fresh, std::max(kReservedScans, block.scans()));
   append_scans(fresh, block, 0, block.scans());
   fresh.lost = block.lost;
 }

@@ -71,7 +71,7 @@ Status Store::add_detail(HistoryEntry& action) {
   return check_link(connection_, Fact::action_reason, action.id);
 }
 
-Result<std::vector<HistoryEntry>> Store::actions_of_run(std::int64_t run) {
+Result<std::vector<HistoryEntry>> Store::run_actions(std::int64_t run) {
   MDOF_TRY(Statement rows,
            connection_.prepare("WITH RECURSIVE chain (id) AS (SELECT ?1 UNION SELECT supersedes "
                                "FROM run JOIN chain USING (id) WHERE supersedes IS NOT NULL) " +

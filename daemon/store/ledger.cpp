@@ -100,8 +100,8 @@ void append_value(const Statement& row, int column, std::string& to) {
 }
 
 // nullopt: the fact does not exist.
-Result<std::optional<std::string>> link_of(Connection& connection, std::string_view previous,
-                                           const FactKind& kind, std::int64_t row) {
+Result<std::optional<std::string>> calculate_link(Connection& connection, std::string_view previous,
+                                                  const FactKind& kind, std::int64_t row) {
   MDOF_TRY(Statement values, connection.prepare(kind.values));
   MDOF_TRY(const bool found, values.bind(row).step());
   if (!found) return std::optional<std::string>();
@@ -160,7 +160,8 @@ Status check_all(Connection& connection, std::vector<std::string>& findings, Wan
                                const std::string& sha256) -> Status {
                              if (!wanted(kind.fact)) return {};
                              ++linked[static_cast<std::size_t>(kind.fact)];
-                             MDOF_TRY(const auto actual, link_of(connection, previous, kind, row));
+                             MDOF_TRY(const auto actual,
+                                      calculate_link(connection, previous, kind, row));
                              if (actual != sha256)
                                findings.push_back(finding(kind, row, actual ? kChanged : kGone));
                              return {};
@@ -182,7 +183,7 @@ Status check_all(Connection& connection, std::vector<std::string>& findings, Wan
 Status add_link(Connection& connection, Fact fact, std::int64_t row) {
   const FactKind& kind = kind_of(fact);
   MDOF_TRY(const ChainHead head, chain_head(connection));
-  MDOF_TRY(const auto sha256, link_of(connection, head.sha256, kind, row));
+  MDOF_TRY(const auto sha256, calculate_link(connection, head.sha256, kind, row));
   if (!sha256) return damaged(connection, finding(kind, row, kGone));
   MDOF_TRY(Statement insert,
            connection.prepare("INSERT INTO ledger (fact, row, sha256) VALUES (?, ?, ?)"));
@@ -232,7 +233,7 @@ Status check_link(Connection& connection, Fact fact, std::int64_t row) {
                               "= ledger.id - 1) FROM ledger WHERE fact = ? AND row = ?"));
   MDOF_TRY(const bool found, link.bind(std::string_view(kind.name)).bind(row).step());
   if (!found) return damaged(connection, finding(kind, row, kUnlinked));
-  MDOF_TRY(const auto actual, link_of(connection, link.text(1), kind, row));
+  MDOF_TRY(const auto actual, calculate_link(connection, link.text(1), kind, row));
   if (actual == link.text(0)) return {};
   return damaged(connection, finding(kind, row, actual ? kChanged : kGone));
 }

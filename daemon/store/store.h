@@ -183,7 +183,7 @@ class Store {
 
   // ---- history ----
   // Actions on a run and on the runs that it supersedes, in order.
-  Result<std::vector<HistoryEntry>> actions_of_run(std::int64_t run);
+  Result<std::vector<HistoryEntry>> run_actions(std::int64_t run);
   Result<std::vector<HistoryEntry>> list_actions(std::int64_t offset,
                                                  std::int64_t count);  // newest first
   Result<std::int64_t> count_actions();

@@ -134,8 +134,8 @@ void Storekeeper::commit_recordings() {
 
 void Storekeeper::open_again() {
   const auto now = std::chrono::steady_clock::now();
-  if (now - tried_ < kOpenRetryInterval) return;
-  tried_ = now;
+  if (now - last_open_attempt_ < kOpenRetryInterval) return;
+  last_open_attempt_ = now;
   auto opened = open_database(options_);
   if (!opened) return set_unopened(not_writable(options_, opened.error()));
   store_.emplace(std::move(*opened));
@@ -188,8 +188,8 @@ StorageState Storekeeper::storage() const {
 
 std::string Storekeeper::still_open_reason(std::int64_t run) const {
   const std::lock_guard guard(fault_mutex_);
-  const auto found = open_because_.find(run);
-  return found == open_because_.end() ? "" : found->second;
+  const auto found = open_reasons_.find(run);
+  return found == open_reasons_.end() ? "" : found->second;
 }
 
 void Storekeeper::watch_files() {

@@ -149,10 +149,10 @@ class Storekeeper {
   Result<std::int64_t> end(Ending& ending);
   void wait_for_database(Points points);
   void drop(const Points& points);
-  std::size_t dropped_of(std::int64_t run);
+  std::size_t take_dropped_count(std::int64_t run);
   void wait_for_database(Ending ending);
   void explain(std::int64_t run, const std::string& why);
-  void refused_end(Unended unended, const Error& error);
+  void keep_rejected_end(Unended unended, const Error& error);
   void try_later();
   void store_waiting_items();
   void discard_waiting_items();
@@ -190,12 +190,12 @@ class Storekeeper {
   std::map<std::int64_t, Recording> recordings_;
   store::FileWatch database_;
   std::chrono::steady_clock::time_point files_watched_{};
-  std::chrono::steady_clock::time_point tried_{};
+  std::chrono::steady_clock::time_point last_open_attempt_{};
   mutable std::mutex fault_mutex_;  // protects the next seven
   std::string lost_, full_, held_, damaged_;
   StorageState unopened_;  // why store_ is missing; "ok": it exists
   store::ChainHead announced_;
-  std::map<std::int64_t, std::string> open_because_;
+  std::map<std::int64_t, std::string> open_reasons_;
   std::int64_t changes_announced_ = -1;  // changes of the database when its head was announced
   std::vector<Unended> unended_;
   std::deque<Points> waiting_points_;  // wait until another program releases the database

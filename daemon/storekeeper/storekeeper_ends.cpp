@@ -97,7 +97,7 @@ void Storekeeper::drop(const Points& points) {
 }
 
 // Called once, at the end of the run; also forgets the count.
-std::size_t Storekeeper::dropped_of(std::int64_t run) {
+std::size_t Storekeeper::take_dropped_count(std::int64_t run) {
   std::size_t dropped = 0;
   for (auto* runs : {&incomplete_, &overflowed_}) {
     const auto found = runs->find(run);
@@ -119,12 +119,12 @@ void Storekeeper::wait_for_database(Ending ending) {
 void Storekeeper::explain(std::int64_t run, const std::string& why) {
   const std::lock_guard guard(fault_mutex_);
   if (why.empty())
-    open_because_.erase(run);
+    open_reasons_.erase(run);
   else
-    open_because_[run] = why;
+    open_reasons_[run] = why;
 }
 
-void Storekeeper::refused_end(Unended unended, const Error& error) {
+void Storekeeper::keep_rejected_end(Unended unended, const Error& error) {
   note_full(error);
   explain(unended.run, "the end of the run is not stored yet: " + words::text(error));
   unended_.push_back(std::move(unended));
@@ -182,7 +182,7 @@ void Storekeeper::seal(Ending& ending) {
 
 Result<std::int64_t> Storekeeper::end(Ending& ending) {
   const std::int64_t run = ending.run;
-  if (const std::size_t dropped = dropped_of(run); dropped > 0) {
+  if (const std::size_t dropped = take_dropped_count(run); dropped > 0) {
     ending.dropped = dropped;
     ending.how.differs = !ending.result.points.empty();
   }
@@ -200,8 +200,8 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
       run, renumbered_run_end(whole, NoticeCode::superseded_by_renumbering), ending.result,
       ending.how.uncertainty);
   if (!superseded && !is_busy(superseded))
-    refused_end({run, renumbered_run_end(whole, NoticeCode::renumbering_refused)},
-                superseded.error());
+    keep_rejected_end({run, renumbered_run_end(whole, NoticeCode::renumbering_refused)},
+                      superseded.error());
   return superseded;
 }
 
@@ -209,7 +209,7 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
 Status Storekeeper::end_or_wait(std::int64_t run, const store::RunEnd& end) {
   Status ended = store_->end_run(run, end);
   if (!ended && !is_busy(ended))
-    refused_end({run, with_rejection_notice(end, ended.error())}, ended.error());
+    keep_rejected_end({run, with_rejection_notice(end, ended.error())}, ended.error());
   return ended;
 }
 

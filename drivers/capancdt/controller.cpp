@@ -11,7 +11,7 @@ namespace mdof::drivers::capancdt {
 namespace {
 
 constexpr int kMostSample_us = 10'000'000;
-constexpr double kSameRange = 1e-3;  // share of the range; the controller rounds ranges
+constexpr double kRangeTolerance = 1e-3;  // share of the range; the controller rounds ranges
 
 tl::unexpected<Error> wrong(const std::string& what, const std::string& remedy) {
   return io_error(what + "; " + remedy);
@@ -157,14 +157,14 @@ Result<Setup::Input> read_input(CommandPort& port, const Options::Channel& chann
   if (!info.empty() && info.front() != ':')
     return io_error("the answer to " + command + " is \"" + info +
                     "\", which belongs to another command");
-  const auto stated_um = range_um_of(info);
+  const auto stated_um = channel_range_um(info);
   const std::string& where = channel.input.where;
   if (!stated_um && channel.range_um == 0)
     return wrong(where + ": the controller does not report the range of channel " +
                      channel.input.input + " as a length",
                  "set the key \"range_um\" of this channel");
   const double range_um = channel.range_um > 0 ? channel.range_um : *stated_um;
-  if (stated_um && std::abs(range_um - *stated_um) > kSameRange * *stated_um)
+  if (stated_um && std::abs(range_um - *stated_um) > kRangeTolerance * *stated_um)
     return wrong(where + ": range_um is " + plain_number(range_um) +
                      ", but the controller reports " + plain_number(*stated_um) + " for channel " +
                      channel.input.input,

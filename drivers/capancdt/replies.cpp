@@ -107,7 +107,7 @@ std::optional<int> parse_integer(std::string_view text) {
   return parse_number<int>(comma == std::string_view::npos ? text : text.substr(comma + 1));
 }
 
-std::optional<double> range_um_of(std::string_view channel_info) {
+std::optional<double> channel_range_um(std::string_view channel_info) {
   const auto range = parse_number<double>(field(channel_info, "RNG"));
   const auto scale = um_per(field(channel_info, "UNT"));
   if (!range || !scale || !std::isfinite(*range) || !(*range > 0)) return std::nullopt;

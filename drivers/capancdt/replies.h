@@ -37,6 +37,6 @@ std::optional<int> parse_integer(std::string_view text);
 
 // Range of a channel in the reply to $CHI, µm; nullopt: no range, or its unit is not a length. µ
 // may be Latin-1, UTF-8 or "u".
-std::optional<double> range_um_of(std::string_view channel_info);
+std::optional<double> channel_range_um(std::string_view channel_info);
 
 }  // namespace mdof::drivers::capancdt

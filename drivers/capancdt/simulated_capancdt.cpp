@@ -198,7 +198,7 @@ void SimulatedCapancdt::send_packet() {
   if (packets_ == faults.reset_counter_at) counter_ = 0;
   const Packet packet = packet_of(next_frame_);
   std::string bytes = encode(packet, faults.sizes);
-  if (faults.spoil_preamble) bytes[0] = 'M';
+  if (faults.has_invalid_preamble) bytes[0] = 'M';
   if (every(faults.garbage_every, packets_)) out_ += kGarbage;
   if (!every(faults.lose_every, packets_)) out_ += bytes;
   if (every(faults.repeat_every, packets_)) out_ += bytes;
@@ -230,7 +230,7 @@ Packet SimulatedCapancdt::packet_of(std::int64_t first_frame) const {
 
 bool SimulatedCapancdt::gone(int channel) const {
   const Faults& f = options_.faults;
-  return channel == f.vanishing && packets_ >= f.vanish_from &&
+  return channel == f.missing_channel && packets_ >= f.vanish_from &&
          packets_ < f.vanish_from + f.vanish_packets;
 }
 

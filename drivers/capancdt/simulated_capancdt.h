@@ -36,13 +36,13 @@ class SimulatedCapancdt final : public SimulatedDevice {
     SizeOrder sizes = SizeOrder::bytes_per_frame_first;
     CounterUnit counter = CounterUnit::frame;
     Echo echo = Echo::line;
-    int lose_every = 0;           // each n-th packet is not sent; 0: none
-    int repeat_every = 0;         // each n-th packet is sent twice
-    int garbage_every = 0;        // invalid bytes before each n-th packet
-    bool spoil_preamble = false;  // no sent data form a packet
-    std::size_t most_bytes = 0;   // most data bytes in a reply of exchange(); 0: all
+    int lose_every = 0;                 // each n-th packet is not sent; 0: none
+    int repeat_every = 0;               // each n-th packet is sent twice
+    int garbage_every = 0;              // invalid bytes before each n-th packet
+    bool has_invalid_preamble = false;  // no sent data form a packet
+    std::size_t most_bytes = 0;         // most data bytes in a reply of exchange(); 0: all
     // Channel that is missing in `vanish_packets` packets from packet `vanish_from` on.
-    int vanishing = 0;
+    int missing_channel = 0;
     int vanish_from = 0, vanish_packets = 0;
     int reset_counter_at = -1;     // packet at which the counter restarts
     int reset_connection_at = -1;  // packet after which the data connection breaks

@@ -13,7 +13,7 @@ constexpr double kStretch_ns = 0.25e9;
 constexpr std::size_t kStretches = 256;       // 64 s
 constexpr std::size_t kStretchesToFit = 16;   // 4 s; before that, the nominal rate is used
 constexpr std::size_t kStretchesToBegin = 4;  // 1 s: delays from opening the device end soon
-constexpr std::size_t kShareToRefit = 32;     // refit when 1/32 of the stretches are new
+constexpr std::size_t kRefitDivisor = 32;     // refit when 1/32 of the stretches are new
 constexpr double kMostDrift = 1e-3;           // 1000 ppm: no clock deviates more
 constexpr double kSlew = 2e-3;                // share of the elapsed time, in addition to the drift
 constexpr double kFirstSlew = 0.2;  // the same before the first fit, to correct the offset quickly
@@ -33,10 +33,10 @@ DeviceClock::DeviceClock(double nominal_tick_ns) : tick_ns_(nominal_tick_ns) {
 }
 
 void DeviceClock::reset() {
-  const std::int64_t given_ns = given_ns_;
+  const std::int64_t given_ns = returned_ns_;
   const std::uint64_t steps = steps_;
   *this = DeviceClock(tick_ns_);
-  given_ns_ = given_ns;  // time still does not go backwards
+  returned_ns_ = given_ns;  // time still does not go backwards
   steps_ = steps;
 }
 
@@ -77,7 +77,7 @@ void DeviceClock::take(std::int64_t ticks, std::int64_t received_ns, double offs
                        double nominal) {
   const auto stretch = static_cast<std::int64_t>(std::floor(nominal / kStretch_ns));
   if (best_.empty() || best_.back().stretch != stretch) {
-    if (++unfitted_ * kShareToRefit > best_.size()) fit();
+    if (++unfitted_ * kRefitDivisor > best_.size()) fit();
     best_.push_back({stretch, ticks, received_ns, offset, offset});
     if (best_.size() > kStretches) best_.pop_front();
   } else {
@@ -121,19 +121,19 @@ std::int64_t DeviceClock::host_ns(std::int64_t ticks) {
   assert(first_ticks_);
   const double nominal = nominal_ns(ticks);
   const double wanted = intercept_ns_ + slope_ * nominal;
-  if (!given_any_) {
-    given_offset_ns_ = wanted;
-    given_any_ = true;
+  if (!has_returned_time_) {
+    returned_offset_ns_ = wanted;
+    has_returned_time_ = true;
   } else {
-    const double passed = std::max(0.0, nominal - nominal_ns(given_ticks_));
-    const double on_line = given_offset_ns_ + slope_ * passed;
+    const double passed = std::max(0.0, nominal - nominal_ns(returned_ticks_));
+    const double on_line = returned_offset_ns_ + slope_ * passed;
     const double most = (fitted_ ? kSlew : kFirstSlew) * passed;
-    given_offset_ns_ = std::clamp(wanted, on_line - most, on_line + most);
+    returned_offset_ns_ = std::clamp(wanted, on_line - most, on_line + most);
   }
-  given_ticks_ = ticks;
-  const std::int64_t ns = *first_ns_ + std::llround(nominal + given_offset_ns_);
-  given_ns_ = std::max(ns, given_ns_ + 1);
-  return given_ns_;
+  returned_ticks_ = ticks;
+  const std::int64_t ns = *first_ns_ + std::llround(nominal + returned_offset_ns_);
+  returned_ns_ = std::max(ns, returned_ns_ + 1);
+  return returned_ns_;
 }
 
 ClockState DeviceClock::state() const {

@@ -68,10 +68,10 @@ class DeviceClock {
   std::size_t unfitted_ = 0;  // stretches that the line does not contain yet
   std::optional<std::int64_t> first_ticks_, first_ns_, last_ticks_;
   double slope_ = 0, intercept_ns_ = 0;  // line of the offset against nominal time
-  std::int64_t given_ticks_ = 0;
-  double given_offset_ns_ = 0;
-  std::int64_t given_ns_ = INT64_MIN;
-  bool fitted_ = false, given_any_ = false;
+  std::int64_t returned_ticks_ = 0;
+  double returned_offset_ns_ = 0;
+  std::int64_t returned_ns_ = INT64_MIN;
+  bool fitted_ = false, has_returned_time_ = false;
   std::size_t uncertain_stretches_ = 0;  // stretches after a step until the clock is certain
   double late_ns_ = 0;                   // delay of the newest packet against the line, if late
   std::optional<std::int64_t> late_since_ns_;

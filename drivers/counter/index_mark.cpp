@@ -7,7 +7,7 @@ namespace {
 
 // With a wrong polarity the counter loads once a period, which is at most four counts. A single
 // reading may be wrong, so several are needed.
-constexpr std::int64_t kMovedOn_counts = 16;
+constexpr std::int64_t kLeastMove_counts = 16;
 constexpr int kReadings = 3;
 // Divisors of a quarter of the range: largest plausible motion without the mark; largest plausible
 // motion beyond the mark between two readings; distance at which to arm again.
@@ -34,12 +34,12 @@ IndexMark::State IndexMark::take(std::int64_t count) {
   if (!armed()) return state_;
   if (std::abs(count - armed_) <= quarter_ / kMotion) return state_ = State::awaited;
   if (std::abs(from_mark(count)) > quarter_ / kBeyondMark) return State::astray;
-  return has_moved_on(from_mark(count));
+  return state_beyond_mark(from_mark(count));
 }
 
-IndexMark::State IndexMark::has_moved_on(std::int64_t from_mark) {
+IndexMark::State IndexMark::state_beyond_mark(std::int64_t from_mark) {
   if (state_ == State::awaited) readings_at_mark_ = 0;
-  const bool gone = std::abs(from_mark) > kMovedOn_counts;
+  const bool gone = std::abs(from_mark) > kLeastMove_counts;
   return state_ = gone && ++readings_at_mark_ >= kReadings ? State::passed : State::at_mark;
 }
 

@@ -41,7 +41,7 @@ class IndexMark {
   bool far_from_armed(std::int64_t count) const;
 
  private:
-  State has_moved_on(std::int64_t from_mark);
+  State state_beyond_mark(std::int64_t from_mark);
 
   int bits_;
   std::int64_t quarter_;

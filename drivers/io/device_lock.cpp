@@ -52,7 +52,7 @@ pid_t lock_holder(Name& name) {
   return known ? peer.pid : 0;
 }
 
-tl::unexpected<Error> in_use_by(pid_t pid) {
+tl::unexpected<Error> device_in_use_error(pid_t pid) {
   if (pid == ::getpid())
     return io_error(
         "another device of the configuration already uses the same hardware; remove one of these "
@@ -98,7 +98,7 @@ Result<DeviceLock> DeviceLock::take(const std::string& identity, bool shared) {
   if (errno != EADDRINUSE) return lock;
   const pid_t holder = lock_holder(name);
   if (shared && holder == ::getpid()) return DeviceLock(-1);
-  return in_use_by(holder);
+  return device_in_use_error(holder);
 }
 
 void DeviceLock::answer_inquiries() const {

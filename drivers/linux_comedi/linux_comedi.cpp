@@ -16,9 +16,9 @@ using std::chrono::steady_clock;
 
 constexpr std::size_t kBuffer = 65536;
 constexpr double kSilence_s = 2;
-constexpr double kBoardFifo_samples = 1024;  // half of a large FIFO, which a board may keep
+constexpr double kHalfFifo_samples = 1024;  // half of a large FIFO, which a board may keep
 
-milliseconds left_until(steady_clock::time_point until) {
+milliseconds remaining_time(steady_clock::time_point until) {
   return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(until - steady_clock::now()));
 }
 
@@ -94,7 +94,7 @@ Result<ReadState> LinuxComedi::read(SampleBlock& block, milliseconds timeout) {
 // Waits for scans until `until` at most.
 Status LinuxComedi::receive(Time until) {
   do {
-    MDOF_TRY(const Received received, board_->receive(buffer_, left_until(until)));
+    MDOF_TRY(const Received received, board_->receive(buffer_, remaining_time(until)));
     if (received.bytes > 0) take(received.bytes);
     MDOF_CHECK(check(received.stream));
   } while (codes_.empty() && steady_clock::now() < until);
@@ -117,7 +117,7 @@ Status LinuxComedi::check(StreamState stream) {
   if (stream == StreamState::ended)
     return io_error("the board has stopped scanning without a request; dmesg may show the reason");
   const double silent_s = static_cast<double>(monotonic_ns() - received_ns_) * 1e-9;
-  const double kept_s = kBoardFifo_samples / rate_hz_ / static_cast<double>(channels_.size());
+  const double kept_s = kHalfFifo_samples / rate_hz_ / static_cast<double>(channels_.size());
   if (silent_s > kSilence_s + kept_s)
     return io_error("no data for " + plain_number(kSilence_s + kept_s) +
                     " s although the board scans, because the interrupts of the board do not "

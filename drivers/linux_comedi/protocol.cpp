@@ -37,7 +37,7 @@ Result<Event> conversion(const Command& sources, std::size_t inputs, const ScanT
 }
 
 // For boards without a scan timer: conversions follow each other, scan after scan.
-Result<Command> without_pause(Command command, const Command& sources, double rate_hz) {
+Result<Command> continuous_command(Command command, const Command& sources, double rate_hz) {
   if (!can(sources.scan_begin, kFollow) || !can(sources.convert, kTimer))
     return bad_input(
         "the board has no timer for scans, so this driver cannot read the board (external timers "
@@ -86,7 +86,7 @@ Result<Command> timed_command(const Command& sources, unsigned subdevice,
   command.start = {kNow, 0};
   command.scan_end = {kCount, static_cast<unsigned>(inputs.size())};
   command.stop = can(sources.stop, kNone) ? Event{kNone, 0} : Event{kCount, UINT32_MAX};
-  if (!can(sources.scan_begin, kTimer)) return without_pause(command, sources, timing.rate_hz);
+  if (!can(sources.scan_begin, kTimer)) return continuous_command(command, sources, timing.rate_hz);
   command.scan_begin = {kTimer, period_ns(1 / timing.rate_hz)};
   MDOF_TRY(command.convert, conversion(sources, inputs.size(), timing));
   return command;

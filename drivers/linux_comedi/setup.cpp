@@ -7,7 +7,7 @@
 namespace mdof::drivers::linux_comedi {
 namespace {
 
-constexpr double kRateOff = 0.01;  // relative to the requested rate
+constexpr double kRateTolerance = 0.01;  // relative to the requested rate
 constexpr const char* kTestDriver = "comedi_test";
 constexpr int kTests = 4;  // the first test changes arguments, the next test them again
 
@@ -76,7 +76,7 @@ Status fit_command(Board& board, Command& command) {
 
 Status check_rate(const Command& command, double rate_hz) {
   const double true_hz = rate_of(command);
-  if (std::abs(true_hz / rate_hz - 1) <= kRateOff) return {};
+  if (std::abs(true_hz / rate_hz - 1) <= kRateTolerance) return {};
   const double each_us = convert_us(command);
   return bad_input("the board cannot scan at rate_hz = " + plain_number(rate_hz) +
                    "; the nearest rate is " + plain_number(true_hz, 9) + " Hz with " +

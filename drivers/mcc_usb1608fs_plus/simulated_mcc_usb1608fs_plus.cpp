@@ -120,7 +120,7 @@ void SimulatedMccUsb1608fsPlus::clear_halt(std::uint8_t endpoint) {
 
 void SimulatedMccUsb1608fsPlus::take_scans(std::int64_t now_ns) {
   while (run_ && !gone_) {
-    if (meets_fault()) continue;
+    if (apply_due_fault()) continue;
     const double age_s = static_cast<double>(run_->next + 1) / rate_of(run_->setup.period);
     const std::int64_t t_ns = run_->start_ns + std::llround(age_s * 1e9);
     const bool silent =
@@ -132,7 +132,7 @@ void SimulatedMccUsb1608fsPlus::take_scans(std::int64_t now_ns) {
 }
 
 // Returns whether a fault has changed the next scan.
-bool SimulatedMccUsb1608fsPlus::meets_fault() {
+bool SimulatedMccUsb1608fsPlus::apply_due_fault() {
   const auto is_due = [&](std::int64_t scan) {
     return scan >= 0 && static_cast<std::int64_t>(run_->next) >= scan;
   };

@@ -56,7 +56,7 @@ class SimulatedMccUsb1608fsPlus final : public usb::SimulatedUsb {
   usb::Reply read_request(const usb::Setup& setup) const;
   usb::Reply start(std::string_view out, std::int64_t now_ns);
   void take_scans(std::int64_t now_ns);
-  bool meets_fault();
+  bool apply_due_fault();
   void sample(std::int64_t t_ns);
 
   Senses senses_;

@@ -18,7 +18,7 @@ constexpr int kFailures = 20;
 constexpr milliseconds kBetweenAttempts{10};
 constexpr const char* kDatumLost =
     "the device was disconnected, and may have stopped counting in the meantime";
-constexpr int kProof_timeouts = 10;  // for the test of an RTU line when it is opened
+constexpr int kLineTest_timeouts = 10;  // for the test of an RTU line when it is opened
 
 nanoseconds from_ms(double ms) {
   return nanoseconds(std::llround(ms * 1e6));
@@ -100,7 +100,7 @@ Status ModbusDriver::ask(const modbus::Register& from, std::span<std::uint16_t> 
 // An RTU line may need a test first, so it is tried repeatedly; on TCP the first error is final.
 Status ModbusDriver::ask_at_opening(const modbus::Register& from, std::span<std::uint16_t> into) {
   const bool rtu = settings_.profile.framing == modbus::Framing::rtu;
-  const auto until = steady_clock::now() + kProof_timeouts * timeout_;
+  const auto until = steady_clock::now() + kLineTest_timeouts * timeout_;
   Status done;
   do {
     const auto next = steady_clock::now() + kBetweenAttempts;

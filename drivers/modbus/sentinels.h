@@ -28,27 +28,27 @@ class Sentinels {
   bool add_regular(Shape shape) {
     if (!contains(regular_, shape)) regular_.push_back(shape);
     if (shape == now_) now_ = {};
-    return !contains(owed_, shape);
+    return !contains(pending_shapes_, shape);
   }
   // The sentinel for a read of these registers, the same until proved(). Prefers fewer registers,
   // which are known to exist, to more. Count 0: requests for values use all lengths.
   Shape pick(Shape regular) {
     for (int i = 1; now_ == Shape{} && i < kMostRegisters; ++i) {
       const Shape shape{regular.function, i < regular.count ? regular.count - i : i + 1};
-      if (!contains(regular_, shape) && !contains(owed_, shape)) now_ = shape;
+      if (!contains(regular_, shape) && !contains(pending_shapes_, shape)) now_ = shape;
     }
     return now_;
   }
   // The received data were not the reply to the sentinel.
   void failed() {
-    if (!contains(owed_, now_)) owed_.push_back(now_);
+    if (!contains(pending_shapes_, now_)) pending_shapes_.push_back(now_);
   }
   // The sentinel's reply has arrived. Only a reply to an earlier sentinel of the same shape may be
   // pending.
   void proved() {
-    const bool repeated = contains(owed_, now_);
-    owed_.clear();
-    if (repeated) owed_.push_back(now_);
+    const bool repeated = contains(pending_shapes_, now_);
+    pending_shapes_.clear();
+    if (repeated) pending_shapes_.push_back(now_);
     now_ = {};
   }
 
@@ -56,7 +56,7 @@ class Sentinels {
   static bool contains(const std::vector<Shape>& shapes, Shape shape) {
     return std::find(shapes.begin(), shapes.end(), shape) != shapes.end();
   }
-  std::vector<Shape> regular_, owed_;
+  std::vector<Shape> regular_, pending_shapes_;
   Shape now_;  // {}: no sentinel
 };
 

@@ -23,7 +23,7 @@ constexpr int kMostStale = 200;
 constexpr double kTickSlack_ms = 500, kTickDrift = 0.001;
 constexpr double kStepSlack_counts = 16;
 
-bool is_ours(const HidEntry& entry) {
+bool has_our_ids(const HidEntry& entry) {
   const bool product = entry.product == kProduct || entry.product == kProduct + 1;
   return product && (entry.interface == kInterface || entry.interface == -1);
 }
@@ -84,7 +84,7 @@ Status PoKeys57u::connect() {
   Status failed;
   std::vector<HidEntry> found;
   for (HidEntry& entry : list_hid(kVendor))
-    if (is_ours(entry)) found.push_back(std::move(entry));
+    if (has_our_ids(entry)) found.push_back(std::move(entry));
   if (settings_.serial == 0 && found.size() > 1) {
     for (const auto& entry : found) others.push_back(entry.serial);
     return io_error(place() + ": " + std::to_string(found.size()) +

@@ -144,17 +144,17 @@ void set_tick(Frame& reply, std::uint32_t tick_ms) {
 }
 
 bool RequestIds::free(std::uint8_t id, std::int64_t now_ns) const {
-  return owed_since_[id] == kNotOwed || now_ns - owed_since_[id] >= kLatest_ns;
+  return pending_since_[id] == kNotPending || now_ns - pending_since_[id] >= kLatest_ns;
 }
 
 std::uint8_t RequestIds::next(std::int64_t now_ns) {
   ++last_;
   for (int tries = 0; tries < 256 && !free(last_, now_ns); ++tries) ++last_;
   if (!free(last_, now_ns)) {
-    const auto oldest = std::min_element(owed_since_.begin(), owed_since_.end());
-    last_ = static_cast<std::uint8_t>(oldest - owed_since_.begin());
+    const auto oldest = std::min_element(pending_since_.begin(), pending_since_.end());
+    last_ = static_cast<std::uint8_t>(oldest - pending_since_.begin());
   }
-  owed_since_[last_] = now_ns;
+  pending_since_[last_] = now_ns;
   return last_;
 }
 

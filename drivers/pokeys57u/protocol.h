@@ -72,14 +72,14 @@ class RequestIds {
   static constexpr std::int64_t kLatest_ns = 10'000'000'000;
   // Allows any number of pending requests; if all 256 are pending, the oldest number is used again.
   std::uint8_t next(std::int64_t now_ns);
-  void answered(std::uint8_t id) { owed_since_[id] = kNotOwed; }
+  void answered(std::uint8_t id) { pending_since_[id] = kNotPending; }
 
  private:
-  static constexpr std::int64_t kNotOwed = INT64_MIN;
+  static constexpr std::int64_t kNotPending = INT64_MIN;
   bool free(std::uint8_t id, std::int64_t now_ns) const;
-  std::array<std::int64_t, 256> owed_since_ = [] {
+  std::array<std::int64_t, 256> pending_since_ = [] {
     std::array<std::int64_t, 256> none{};
-    none.fill(kNotOwed);
+    none.fill(kNotPending);
     return none;
   }();
   std::uint8_t last_ = 0;

@@ -114,7 +114,7 @@ void SimulatedPokeys57u::take(const Frame& asked, std::int64_t now_ns) {
     powered_ns_ = now_ns;
     begin_counts(now_ns);
   }
-  if (gone_ || within(f.mute_at, f.mutes)) return;
+  if (gone_ || within(f.first_unanswered, f.unanswered_requests)) return;
   std::string report = wrap(Way::reply, answer(asked, now_ns));
   std::int64_t due_ns = now_ns + kAnswer_ns;
   if (number == f.wrong_id_at) sent_.push_back({due_ns, last_report_});
@@ -140,7 +140,7 @@ Frame SimulatedPokeys57u::answer(const Frame& asked, std::int64_t now_ns) {
       set_counts(reply, counts(asked.parameter[0] & 1, now_ns));
       break;
     case kEncoderOptions:
-      if (asked.parameter[0] == 1 && !options_.faults.deaf_to_options)
+      if (asked.parameter[0] == 1 && !options_.faults.ignores_options)
         encoder_options_ = asked.data;
       reply.data = encoder_options_;
       break;

@@ -26,13 +26,13 @@ class SimulatedPokeys57u final : public usb::SimulatedUsb {
     int bad_checksums = 1;
     int late_at = -1;  // this reply is late by late_ns
     std::int64_t late_ns = 50'000'000;
-    int mute_at = -1;  // first of `mutes` requests without a reply
-    int mutes = 1;
+    int first_unanswered = -1;  // first of `unanswered_requests` requests without a reply
+    int unanswered_requests = 1;
     int index_at = -1;    // before this reply the index sets all counts to 0
     int restart_at = -1;  // before this reply the device loses power
     int short_at = -1;    // only 20 bytes of this reply arrive
     int unplug_at = -1;   // the device is unplugged instead
-    bool deaf_to_options = false;
+    bool ignores_options = false;
   };
   struct Options {
     std::uint32_t serial = 12345;

@@ -20,7 +20,7 @@ constexpr const char* kDatumLost = "the QSB was reset or lost power, and its cou
 constexpr const char* kAtMark =
     "the index signal is always active, so either index_inverted of the channel is wrong, or the "
     "axis is at its reference mark";
-constexpr double kAhead_ns = 2e9;  // largest lead of a stamp over the host's clock
+constexpr double kMaxStampLead_ns = 2e9;  // largest lead of a stamp over the host's clock
 
 }  // namespace
 
@@ -282,7 +282,7 @@ Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
   }
   const double step_ns = static_cast<double>(step) * tick_.ns();
   const auto passed_ns = static_cast<double>(received_ns - last_sample_ns_);
-  if (step < 0 || step_ns > 2 * passed_ns + kAhead_ns)
+  if (step < 0 || step_ns > 2 * passed_ns + kMaxStampLead_ns)
     return io_error(
         place() + ": the time stamps jumped by " + std::to_string(step) +
         " ticks; the QSB was reset, or the serial line is disturbed; reference the axis again");

@@ -143,8 +143,9 @@ std::string SimulatedQsb::stream_line(std::int64_t tick) {
   const std::uint32_t jump =
       faults_.jump_at >= 0 && line_ > faults_.jump_at ? faults_.jump_ticks : 0;
   const auto stamp = static_cast<std::uint32_t>(tick) + jump;
-  const bool far = faults_.far_from >= 0 && line_ > faults_.far_from && faults_.fars > 0;
-  if (far) --faults_.fars;
+  const bool far =
+      faults_.first_far_line >= 0 && line_ > faults_.first_far_line && faults_.far_line_count > 0;
+  if (far) --faults_.far_line_count;
   const std::string line =
       qsb_line({'s', qsb::kCount, count_at(t_ns) + (far ? kFar : 0), stamp}, registers_[qsb::kEor]);
   return line_ - 1 == faults_.cut_at ? line.substr(0, line.size() / 2) : line;

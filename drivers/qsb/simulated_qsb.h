@@ -29,7 +29,7 @@ class SimulatedQsb final : public SimulatedDevice {
     int unsupported = -1;  // register with reply x
     bool mute = false;     // never replies
     bool streams_at_start = false;
-    int far_from = -1, fars = 1;  // first and number of lines with a count far away
+    int first_far_line = -1, far_line_count = 1;  // first and number of lines with a count far away
   };
   // The reference mark: its position in counts of `senses`; `inverted`: its signal is low at the
   // mark and high elsewhere. A rotary encoder has another mark one turn further (`next_at`).

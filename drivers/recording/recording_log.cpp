@@ -202,10 +202,10 @@ Progress RecordingLog::progress() const {
 }
 
 tl::unexpected<Error> RecordingLog::damaged(const RecordingChunk& chunk, const Error& why) {
-  return fail(why.code, file_.string() + ": chunk " + std::to_string(chunk.seq) + " of " +
-                            std::to_string(chunks_) + span_of(chunk) +
-                            " is damaged: " + why.message + ". Undamaged: " + whole_chunks() +
-                            ". Restore the file from a copy");
+  return fail(why.code,
+              file_.string() + ": chunk " + std::to_string(chunk.seq) + " of " +
+                  std::to_string(chunks_) + span_of(chunk) + " is damaged: " + why.message +
+                  ". Undamaged: " + undamaged_chunk_text() + ". Restore the file from a copy");
 }
 
 std::string RecordingLog::span_of(const RecordingChunk& chunk) const {
@@ -218,7 +218,7 @@ std::string RecordingLog::span_of(const RecordingChunk& chunk) const {
 }
 
 // Text such as "chunks 1-6, 8-20". It is only needed after an error, so it may be slow.
-std::string RecordingLog::whole_chunks() {
+std::string RecordingLog::undamaged_chunk_text() {
   std::string text;
   std::int64_t first = 0, last = -1;  // range of undamaged chunks
   const auto report = [&] {

@@ -57,7 +57,7 @@ class RecordingLog : public Driver {
   Status check_end();
   tl::unexpected<Error> damaged(const RecordingChunk& chunk, const Error& why);
   std::string span_of(const RecordingChunk& chunk) const;
-  std::string whole_chunks();
+  std::string undamaged_chunk_text();
   std::vector<std::int64_t> chunk_numbers();
 
   std::filesystem::path file_;

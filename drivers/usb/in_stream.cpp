@@ -43,7 +43,7 @@ void InStream::cancel() {
   (void)cancel_all(*connection_, transfers_);
 }
 
-Status InStream::submit_given() {
+Status InStream::submit_returned_transfer() {
   if (!std::exchange(given_, false)) return {};
   MDOF_CHECK(transfers_[oldest_]->submit());
   oldest_ = (oldest_ + 1) % transfers_.size();
@@ -52,7 +52,7 @@ Status InStream::submit_given() {
 
 Result<InStream::Chunk> InStream::next(Deadline deadline) {
   if (!ended_) return tl::unexpected(ended_.error());
-  if (ended_ = submit_given(); !ended_) return tl::unexpected(ended_.error());
+  if (ended_ = submit_returned_transfer(); !ended_) return tl::unexpected(ended_.error());
   const Transfer& oldest = *transfers_[oldest_];
   if (!connection_->pump(deadline, [&] { return !oldest.in_flight; })) return Chunk{};
   const auto status = oldest.raw->status;

@@ -43,7 +43,7 @@ class InStream {
 
  private:
   InStream() = default;
-  Status submit_given();
+  Status submit_returned_transfer();
   void end();
 
   std::shared_ptr<Connection> connection_;

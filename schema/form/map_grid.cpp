@@ -11,8 +11,8 @@ namespace mdof {
 namespace {
 
 constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // columns or rows
-constexpr double kOffGrid = 0.05;                          // share of a pixel
-constexpr std::size_t kLeastFilled = 64;  // at least one pixel of this many has a point
+constexpr double kGridTolerance = 0.05;                    // share of a pixel
+constexpr std::size_t kMaxPixelsPerPoint = 64;  // at least one pixel of this many has a point
 
 // Distinct values in any order: a table of their bits with open addressing.
 class Distinct {
@@ -64,7 +64,7 @@ struct Steps {
   std::size_t index(double x_m) const {
     if (count == 1) return 0;
     const double steps = (x_m - first_m) / step_m, nearest = std::nearbyint(steps);
-    return std::abs(steps - nearest) > kOffGrid ? npos : static_cast<std::size_t>(nearest);
+    return std::abs(steps - nearest) > kGridTolerance ? npos : static_cast<std::size_t>(nearest);
   }
 };
 
@@ -127,7 +127,7 @@ Result<SurfaceMap> grid_of(const MapPoints& points, const std::string& source,
     return bad_input(source +
                      ": all points have the same position; a map needs at least two pixels");
   if (columns.count > kMostPixels / rows.count ||
-      columns.count * rows.count / kLeastFilled > points.z_m.size() + 1000)
+      columns.count * rows.count / kMaxPixelsPerPoint > points.z_m.size() + 1000)
     return bad_input(source + ": " + std::to_string(points.z_m.size()) +
                      " points are too few for a grid of " + std::to_string(columns.count) + " x " +
                      std::to_string(rows.count) +

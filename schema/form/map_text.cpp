@@ -72,7 +72,7 @@ std::string MapTextReader::place(std::size_t line) const {
 }
 
 std::string MapTextReader::place_of_point(std::size_t point) const {
-  auto after = std::upper_bound(stretch_.begin(), stretch_.end(), point,
+  auto after = std::upper_bound(line_groups_.begin(), line_groups_.end(), point,
                                 [](std::size_t p, const auto& s) { return p < s.first; });
   --after;
   return place(after->second + point - after->first);
@@ -225,8 +225,9 @@ Status MapTextReader::add(const std::array<double, 3>& xyz) {
   if (point == kMostPixels)
     return bad_input(place(line_) + "the map has more than " + std::to_string(kMostPixels) +
                      " pixels; use a coarser map");
-  if (stretch_.empty() || stretch_.back().second + (point - stretch_.back().first) != line_)
-    stretch_.emplace_back(point, line_);
+  if (line_groups_.empty() ||
+      line_groups_.back().second + (point - line_groups_.back().first) != line_)
+    line_groups_.emplace_back(point, line_);
   points_.x_m.push_back(in_m(xyz[0], xy_m_));
   points_.y_m.push_back(in_m(xyz[1], xy_m_));
   points_.z_m.push_back(in_m(xyz[2], z_m_));

@@ -63,7 +63,7 @@ class MapTextReader {
   std::size_t bytes_expected_ = 0;
   MapPoints points_;
   // Starts of groups of points on consecutive lines: (point, its line).
-  std::vector<std::pair<std::size_t, std::size_t>> stretch_;
+  std::vector<std::pair<std::size_t, std::size_t>> line_groups_;
   Notices notices_;
 };
 

@@ -14,10 +14,12 @@ struct Sides {
   bool operator==(const Sides&) const = default;
 
   // Travel of the moving body in the + direction of M.
-  double own_travel_m(double encoder_m) const { return against_encoder ? -encoder_m : encoder_m; }
+  double moving_body_travel_m(double encoder_m) const {
+    return against_encoder ? -encoder_m : encoder_m;
+  }
   // Travel d of the target in M, as used by the models.
   double target_travel_m(double encoder_m) const {
-    return fixture_moves ? -own_travel_m(encoder_m) : own_travel_m(encoder_m);
+    return fixture_moves ? -moving_body_travel_m(encoder_m) : moving_body_travel_m(encoder_m);
   }
   // Factor from an error of the target in M to the error of the moving body.
   double error_sign() const { return fixture_moves ? -1.0 : 1.0; }

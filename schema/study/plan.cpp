@@ -12,7 +12,7 @@
 namespace mdof {
 namespace plan_parts {
 
-std::string known_or_list(const std::string& word, const std::vector<std::string>& known) {
+std::string known_words_hint(const std::string& word, const std::vector<std::string>& known) {
   const std::string near = nearest_candidate(word, known);
   if (!near.empty()) return "did you mean \"" + near + "\"?";
   std::string list = "possible:";
@@ -68,7 +68,7 @@ std::size_t read_choice(TomlTable& table, std::string_view key,
   const std::string word = table.string(key, choices[fallback]);
   const auto found = std::find(choices.begin(), choices.end(), word);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
-  table.reject(key, "\"" + word + "\" is unknown; " + known_or_list(word, choices));
+  table.reject(key, "\"" + word + "\" is unknown; " + known_words_hint(word, choices));
   return fallback;
 }
 

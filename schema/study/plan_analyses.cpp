@@ -54,7 +54,7 @@ PlannedAllocation read_allocation(TomlTable& table, const StudyPlan& plan) {
   a.output = table.string("output");
   if (!has_output(plan, a.output))
     table.reject("output", "\"" + a.output + "\" is not an output of this plan; " +
-                               known_or_list(a.output, output_keys(plan)));
+                               known_words_hint(a.output, output_keys(plan)));
   a.limit = table.number("limit");
   if (!(a.limit > 0))
     table.reject("limit", "must be greater than zero, not " + plain_number(a.limit));
@@ -66,7 +66,7 @@ PlannedAllocation read_allocation(TomlTable& table, const StudyPlan& plan) {
   for (const auto& name : a.tolerances) {
     if (!has_quantity(plan, name))
       table.reject("tolerances", "\"" + name + "\" is not a quantity of this plan; " +
-                                     known_or_list(name, names));
+                                     known_words_hint(name, names));
   }
   for (const auto& name : a.tolerances) {
     if (std::count(a.tolerances.begin(), a.tolerances.end(), name) > 1)
@@ -125,7 +125,7 @@ void read_outputs(TomlTable& table, StudyPlan& plan) {
           "\"" + key + "\" is not an output of this plan; " +
               (square
                    ? "this output needs the key \"rig_y\" in [squareness] and output_of = \"point\""
-                   : known_or_list(key, names)));
+                   : known_words_hint(key, names)));
       return;
     }
     if (!seen.insert(key).second) table.reject("outputs", "\"" + key + "\" is listed twice");

@@ -24,7 +24,7 @@ void read_analyses(TomlTable& table, const std::filesystem::path& folder, StudyP
 Rig read_rig(TomlTable& table, std::string_view key, const std::filesystem::path& folder);
 
 // "did you mean ..." or the list of known words.
-std::string known_or_list(const std::string& word, const std::vector<std::string>& known);
+std::string known_words_hint(const std::string& word, const std::vector<std::string>& known);
 std::uint64_t read_count(TomlTable& table, std::string_view key, std::uint64_t fallback,
                          std::int64_t least, std::int64_t most);
 double read_share(TomlTable& table, std::string_view key, double fallback);  // (0, 1)

@@ -42,7 +42,7 @@ template <class Noise, class Take>
 void for_each_number(Noise& noise, Take take) {
   for (auto& axis : noise)
     for (auto& node : axis)
-      for (auto* forms : {&node.variance, &node.with_next})
+      for (auto* forms : {&node.variance, &node.covariance_with_next})
         for (auto& form : *forms)
           for (auto& number : form) take(number);
 }

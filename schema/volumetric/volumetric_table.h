@@ -21,7 +21,7 @@ namespace mdof {
 // the order X, Y, Z.
 struct AxisNoise {
   using SquareForm = std::array<double, 6>;
-  std::array<SquareForm, 3> variance{}, with_next{};
+  std::array<SquareForm, 3> variance{}, covariance_with_next{};
   bool operator==(const AxisNoise&) const = default;
 };
 

@@ -128,7 +128,7 @@ TEST(DeviceClockRules, FirstTimeIsOnTheLine) {
 TEST(DeviceClockRules, TimesRunNoFasterThanTheSlew) {
   for (const double ppm : {800.0, -800.0}) {
     DeviceClock clock(kRuleTick_ns);
-    double least = 2, most = 0, settled_off = 0;
+    double least = 2, most = 0, settled_rate_error = 0;
     std::int64_t last_ns = 0;
     for (std::int64_t tick = 0; tick < 12'000; ++tick) {
       const std::int64_t busy_ns = tick < 50 ? 30'000'000 : 0;
@@ -138,7 +138,7 @@ TEST(DeviceClockRules, TimesRunNoFasterThanTheSlew) {
       last_ns = ns;
       if (tick == 0) continue;
       if (clock.state().settled) {
-        settled_off = std::max(settled_off, std::abs(rate - 1 / (1 + ppm * 1e-6)));
+        settled_rate_error = std::max(settled_rate_error, std::abs(rate - 1 / (1 + ppm * 1e-6)));
       } else {
         least = std::min(least, rate);
         most = std::max(most, rate);
@@ -146,9 +146,9 @@ TEST(DeviceClockRules, TimesRunNoFasterThanTheSlew) {
     }
     EXPECT_NEAR(least, 0.8, 1e-5) << ppm;  // 30 ms are corrected in 150 ms
     EXPECT_LE(most, 1 + 1e-5) << ppm;
-    EXPECT_LE(settled_off, 2e-3 + 1e-5) << ppm;
+    EXPECT_LE(settled_rate_error, 2e-3 + 1e-5) << ppm;
     // The first line of a slow device had an error of 3 ms and no drift.
-    EXPECT_GE(settled_off, ppm < 0 ? 2e-3 - 1e-5 : 0);
+    EXPECT_GE(settled_rate_error, ppm < 0 ? 2e-3 - 1e-5 : 0);
     EXPECT_LT(std::abs(static_cast<double>(last_ns - at_ns(11'999, ppm))), 1'000) << ppm;
   }
 }

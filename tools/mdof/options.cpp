@@ -15,8 +15,8 @@ namespace mdof::tools {
 namespace {
 
 // `right` decides on a finite number; `must` is the message for other numbers.
-CLI::Validator number_that(const std::function<bool(double)>& right, const std::string& must,
-                           const std::string& in_help) {
+CLI::Validator number_validator(const std::function<bool(double)>& right, const std::string& must,
+                                const std::string& in_help) {
   return {[=](const std::string& word) {
             double x = std::numeric_limits<double>::quiet_NaN();
             if (!CLI::detail::lexical_cast(word, x)) return "\"" + word + "\" is not a number";
@@ -125,21 +125,21 @@ CLI::Option* add_reference_option(CLI::App& command, std::string& reference) {
 }
 
 CLI::Validator finite_number() {
-  return number_that([](double) { return true; }, "", "");
+  return number_validator([](double) { return true; }, "", "");
 }
 
 CLI::Validator positive_number() {
-  return number_that([](double x) { return x > 0; }, "greater than 0", "POSITIVE");
+  return number_validator([](double x) { return x > 0; }, "greater than 0", "POSITIVE");
 }
 
 CLI::Validator not_negative_number() {
-  return number_that([](double x) { return x >= 0; }, "0 or greater", "NONNEGATIVE");
+  return number_validator([](double x) { return x >= 0; }, "0 or greater", "NONNEGATIVE");
 }
 
 CLI::Validator number_in(double least, double most) {
   const std::string range = plain_number(least) + " to " + plain_number(most);
-  return number_that([=](double x) { return x >= least && x <= most; }, "from " + range,
-                     "in [" + range + "]");
+  return number_validator([=](double x) { return x >= least && x <= most; }, "from " + range,
+                          "in [" + range + "]");
 }
 
 }  // namespace mdof::tools

@@ -39,7 +39,8 @@ std::vector<double> mean_along(const CommandGrid& grid, std::size_t axis) {
   return mean;
 }
 
-void take_along(CommandGrid& grid, std::size_t axis, const std::vector<double>& values) {
+void subtract_axis_function(CommandGrid& grid, std::size_t axis,
+                            const std::vector<double>& values) {
   for (std::size_t node = 0; node < grid.value.size(); ++node)
     grid.value[node] -= values[grid.index(node, axis)];
 }
@@ -82,8 +83,8 @@ AxisProduct nearest_product(const PairRows& rows, std::size_t p, std::size_t q) 
   return product;
 }
 
-void take_pair(CommandGrid& grid, std::size_t p, std::size_t q, double enough_m,
-               SeparableCorrection& sum) {
+void subtract_products(CommandGrid& grid, std::size_t p, std::size_t q, double enough_m,
+                       SeparableCorrection& sum) {
   PairRows rows = mean_of_pair(grid, p, q);
   for (int i = 0; i < kMostProducts && largest_size(rows) > enough_m; ++i) {
     const AxisProduct product = nearest_product(rows, p, q);
@@ -107,10 +108,10 @@ SeparableCorrection separate(const VolumetricTable& table, std::size_t k, double
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (grid.size[axis] < 2) continue;
     sum.along[axis] = mean_along(grid, axis);
-    take_along(grid, axis, sum.along[axis]);
+    subtract_axis_function(grid, axis, sum.along[axis]);
   }
   for (const auto& [p, q] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}})
-    if (grid.size[p] > 1 && grid.size[q] > 1) take_pair(grid, p, q, enough_m, sum);
+    if (grid.size[p] > 1 && grid.size[q] > 1) subtract_products(grid, p, q, enough_m, sum);
   sum.left_m = largest_size(grid.value);
   return sum;
 }

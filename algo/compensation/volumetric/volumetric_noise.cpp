@@ -99,7 +99,7 @@ std::vector<AxisNoise> noise_of_axis(const Machine& machine, std::size_t frame,
     const AffineEffect effect = effect_of(machine, frame, command, of.direction);
     const Matrix6& parts = values_at(of, command, approach).noise_parts;
     if (before)
-      noise.back().with_next =
+      noise.back().covariance_with_next =
           square_forms(*before, covariance_between(of, commands_m[i - 1], commands_m[i]), effect);
     noise.push_back({square_forms(effect, parts * parts.transpose(), effect), {}});
     before = effect;
@@ -142,7 +142,7 @@ Vec3 noise_variance(const VolumetricTable& table, const std::array<GridCell, 3>&
         part > 0 ? table.noise[axis][cell[axis].index + 1] : table.noise[axis][cell[axis].index];
     for (std::size_t k = 0; k < 3; ++k)
       variance[k] += (1 - part) * (1 - part) * value_of(node.variance[k], p, q) +
-                     2 * part * (1 - part) * value_of(node.with_next[k], p, q) +
+                     2 * part * (1 - part) * value_of(node.covariance_with_next[k], p, q) +
                      part * part * value_of(next.variance[k], p, q);
   }
   for (double& of : variance) of = std::max(of, 0.0);  // below 0: rounding

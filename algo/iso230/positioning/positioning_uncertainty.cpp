@@ -6,10 +6,10 @@ namespace mdof::algo {
 
 PositioningUncertainty positioning_uncertainty(const PositioningConditions& conditions) {
   constexpr double kCoverage = 2;
-  constexpr double kOfDriftRange = 0.6;
+  constexpr double kDriftFactor = 0.6;
   PositioningUncertainty U;
   U.device = kCoverage * conditions.device_limit_m / std::sqrt(3.0);
-  U.drift = kOfDriftRange * conditions.drift_range_m;
+  U.drift = kDriftFactor * conditions.drift_range_m;
   U.E_M_A = std::sqrt(U.device * U.device + U.drift * U.drift);
   U.B = U.drift;
   return U;

@@ -33,7 +33,7 @@ bool PlaceWatch::is_placed(std::int64_t time_ns, double position_m) const {
   if (out_of_reach_m(last_, time_ns, position_m) > 0) return false;
   // After enough time the axis could be anywhere. So a position that continues a stray one is
   // stray, unless it is back near the last place.
-  return !astray_ || out_of_reach_m(stray_, time_ns, position_m) > 0 ||
+  return !is_stray_ || out_of_reach_m(stray_, time_ns, position_m) > 0 ||
          std::abs(position_m - last_.position_m) < kBack * std::abs(position_m - stray_.position_m);
 }
 
@@ -41,7 +41,7 @@ std::size_t PlaceWatch::find_placed_end(const FrameBlock& frames, std::size_t fr
   std::size_t i = from;
   for (; i < frames.size() && is_placed(frames.time_ns[i], frames.encoder_m[i]); ++i) {
     last_ = {frames.time_ns[i], frames.encoder_m[i]};
-    astray_ = false;
+    is_stray_ = false;
   }
   return i;
 }
@@ -56,8 +56,8 @@ void PlaceWatch::leave_out(std::int64_t time_ns, double position_m) {
     first_jump_m_ = position_m - last_.position_m;
     jumped_from_m_ = last_.position_m;
   }
-  if (!astray_) astray_since_ns_ = time_ns;
-  astray_ = true;
+  if (!is_stray_) astray_since_ns_ = time_ns;
+  is_stray_ = true;
   stray_ = {time_ns, position_m};
 }
 
@@ -81,7 +81,7 @@ Notices PlaceWatch::notices(std::int64_t start_ns) const {
                           {"position_mm", to_mm(jumped_from_m_)},
                           {"first_s", ns_to_s(first_too_fast_ns_ - start_ns)},
                           {"max_speed_mm_s", to_mm(max_speed_m_s_)},
-                          {"is_lost", astray_ ? 1 : 0}}));
+                          {"is_lost", is_stray_ ? 1 : 0}}));
   return all;
 }
 

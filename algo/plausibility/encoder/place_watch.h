@@ -41,8 +41,8 @@ class PlaceWatch {
   void leave_out(std::int64_t time_ns, double position_m);
 
   double max_speed_m_s_;
-  bool begun_ = false, astray_ = false;
-  Place last_, stray_;  // last place; last position without place, while astray_
+  bool begun_ = false, is_stray_ = false;
+  Place last_, stray_;  // last place; last position without place, while is_stray_
   std::uint64_t missing_ = 0, too_fast_ = 0;
   std::int64_t first_missing_ns_ = 0, first_too_fast_ns_ = 0, astray_since_ns_ = 0;
   double first_jump_m_ = 0, jumped_from_m_ = 0;

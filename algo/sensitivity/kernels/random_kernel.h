@@ -91,11 +91,11 @@ inline void draw_pairs_kernel(const Stream& from, std::uint64_t group, std::uint
                               std::uint64_t step, std::size_t n, double* even, double* odd) {
   const RoundKeys keys = round_keys(from.seed);
   const Words trial = lane_numbers() * step + first;
-  constexpr std::size_t kTogether = 3;
+  constexpr std::size_t kParallelBlocks = 3;
   std::size_t i = 0;
-  for (; i + kTogether * kPerVector <= n; i += kTogether * kPerVector) {
-    draw_some_pairs<kTogether>(keys, trial + step * i, step, group, from.stream, n - i, even + i,
-                               odd + i);
+  for (; i + kParallelBlocks * kPerVector <= n; i += kParallelBlocks * kPerVector) {
+    draw_some_pairs<kParallelBlocks>(keys, trial + step * i, step, group, from.stream, n - i,
+                                     even + i, odd + i);
   }
   for (; i < n; i += kPerVector) {
     draw_some_pairs<1>(keys, trial + step * i, step, group, from.stream, n - i, even + i, odd + i);

@@ -15,7 +15,7 @@ PointShifts left_out(const Solver& simplified, const Solver& exact, const Run& r
     const MeasuredPoint& p = run.points[j];
     const double travel_m = run.header.sides.target_travel_m(p.point.position_m);
     const auto stated = [&](const Solver& solver) {
-      return restate(solver.solve_alone(travel_m, p.point.probe_m, p.point.probe_u_m),
+      return restate(solver.solve_without_covariance(travel_m, p.point.probe_m, p.point.probe_u_m),
                      solver.model(), run.header.axis, travel_m, kAtCarriage, run.header.stated);
     };
     const AxisErrors first = stated(simplified), all = stated(exact);

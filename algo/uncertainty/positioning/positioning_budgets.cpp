@@ -17,7 +17,7 @@ constexpr std::size_t kMostTrials = 2000, kFewestTrials = 200;  // U is then acc
 constexpr std::size_t kMostDrawn = 4'000'000;                   // errors of visits, in all trials
 
 // The run with each pair of target and approach as a target of its own, approached from one side.
-Run approaches_apart(Run run) {
+Run with_separate_approaches(Run run) {
   for (MeasuredPoint& p : run.points) {
     p.target = 2 * p.target + (p.point.direction > 0 ? 1 : 0);
     if (p.point.direction != 0) p.point.direction = 1;
@@ -25,7 +25,7 @@ Run approaches_apart(Run run) {
   return run;
 }
 
-// The means of a run by approaches_apart(), by target.
+// The means of a run by with_separate_approaches(), by target.
 class Approaches {
  public:
   Approaches(const MeanErrors& means, std::size_t named, bool without_line) {
@@ -63,7 +63,7 @@ class Approaches {
     return B;
   }
   // The range of these values is the largest absolute reversal.
-  std::vector<double> half_reversals_both_ways() const {
+  std::vector<double> signed_half_reversals() const {
     std::vector<double> halves;
     for (const double B : reversals()) {
       halves.push_back(B / 2);
@@ -176,7 +176,7 @@ std::vector<double> drawn_errors(const Visits& visits, const Run& run, std::size
 Result<RunPositioningUncertainty> run_positioning_uncertainty(const Rig& rig, const Run& run,
                                                               std::size_t named, bool keep_slope) {
   MDOF_TRY(const auto declared, contributors(rig, run));
-  RunBudgets both(rig, run), apart(rig, approaches_apart(run));
+  RunBudgets both(rig, run), apart(rig, with_separate_approaches(run));
   std::vector<std::vector<PointShifts>> parts;
   for (const Contributor& contributor : declared) {
     parts.push_back(contributor.parts());
@@ -187,7 +187,7 @@ Result<RunPositioningUncertainty> run_positioning_uncertainty(const Rig& rig, co
   const bool without_line = !keep_slope && !error_names(axis)[named].angle;
   const Parameters of(apart, named, without_line);
   RunPositioningUncertainty found;
-  found.B = of.range(&Approaches::half_reversals_both_ways);
+  found.B = of.range(&Approaches::signed_half_reversals);
   found.B_mean = of.mean(&Approaches::reversals);
   found.E_forward = of.range(&Approaches::forward);
   found.E_reverse = of.range(&Approaches::reverse);

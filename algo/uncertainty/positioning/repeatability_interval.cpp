@@ -65,8 +65,8 @@ double repeatability_U(const VisitGroups& groups, const std::vector<double>& mea
     std::nth_element(off.begin(), at, off.end());
     return *at;
   };
-  const double as_measured = distance(1), of_none = distance(0);
-  if (of_none >= R) return of_none;
+  const double as_measured = distance(1), distance_at_zero = distance(0);
+  if (distance_at_zero >= R) return distance_at_zero;
   double low = 0, high = 1;  // parts of R; from `high` on the measured R lies within c(T)
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (low + high) / 2;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kInversionSteps = 5;  // U is then accurate to a hundredth of itself
 
-double point_of_95_percent(std::vector<double> off) {
+double value_at_95_percent(std::vector<double> off) {
   const auto at = off.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(off.size()));
   std::nth_element(off.begin(), at, off.end());
   return *at;
@@ -45,7 +45,7 @@ std::vector<double> RangeTrials::ranges(double cut) const {
 double RangeTrials::distance_at_95_percent(double true_range) const {
   std::vector<double> off = ranges((highest_ - lowest_ - true_range) / 2);
   for (double& v : off) v = std::abs(v - true_range);
-  return point_of_95_percent(std::move(off));
+  return value_at_95_percent(std::move(off));
 }
 
 double RangeTrials::end_distance() const {
@@ -56,7 +56,7 @@ double RangeTrials::end_distance() const {
   std::vector<double> off(changes_.size() / n);
   for (std::size_t t = 0; t < off.size(); ++t)
     off[t] = std::abs(changes_[t * n + high] - changes_[t * n + low]);
-  return point_of_95_percent(std::move(off));
+  return value_at_95_percent(std::move(off));
 }
 
 // Uses regula falsi (Illinois): c(T) falls slowly as T grows.

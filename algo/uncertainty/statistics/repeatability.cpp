@@ -76,7 +76,7 @@ class Decomposition {
     return sums;
   }
   bool has_both(int target) const { return has(target, 0) && has(target, 1); }
-  bool has_one_way_only() const {
+  bool has_one_approach_only() const {
     return std::none_of(visits_.begin(), visits_.end(),
                         [this](const Visit& v) { return has_both(v.target); });
   }
@@ -165,7 +165,7 @@ class Decomposition {
 // changes of the means of each target and approach by one unit.
 std::vector<std::vector<Errors5>> changes_of_both_approaches(
     const TargetChanges& changes, const std::vector<MeasuredPoint>& counted,
-    const std::vector<std::map<TargetAndWay, double>>& by_unit, const Errors5& u) {
+    const std::vector<std::map<TargetAndApproach, double>>& by_unit, const Errors5& u) {
   std::vector<std::vector<Errors5>> parts;
   for (const auto& part : by_unit) {
     std::vector<Errors5> all;
@@ -214,7 +214,7 @@ Repeatability repeatability(const MovingAxis& moving, const std::vector<Measured
   std::vector<MeasuredPoint> counted;
   std::copy_if(points.begin(), points.end(), std::back_inserter(counted), counts_in_means);
   const Decomposition visits(moving, counted);
-  const bool one_way = visits.has_one_way_only(), uneven = any_run_lacks_visits(counted);
+  const bool one_way = visits.has_one_approach_only(), uneven = any_run_lacks_visits(counted);
   const WithoutDrift without = uneven ? subtract_run_drifts(counted) : WithoutDrift{};
   const std::map<int, Errors5> variances = visits.variances();
   std::vector<Errors5> trend;  // by target

@@ -16,7 +16,7 @@ namespace {
 // Visits of one target and approach, by the index of the run.
 using VisitsOfRuns = std::map<Eigen::Index, double>;
 
-TargetAndWay target_and_way(const MeasuredPoint& p) {
+TargetAndApproach target_and_approach(const MeasuredPoint& p) {
   return {p.target, p.point.direction > 0 ? 1 : 0};
 }
 
@@ -31,15 +31,15 @@ double number_of_visits(const VisitsOfRuns& visits) {
 // The mean of a target and approach without the shifts s of its runs r is ȳ - Σ (n_r/n) s_r. By
 // least squares s depends on the differences of the visits from ȳ, so it is independent of ȳ. Its
 // covariance is the inverse of the normal equations without the means.
-std::vector<std::map<TargetAndWay, double>> parts_by_run_shifts(
+std::vector<std::map<TargetAndApproach, double>> parts_by_run_shifts(
     const std::vector<MeasuredPoint>& counted) {
   if (!any_run_lacks_visits(counted)) return {};
   std::map<int, Eigen::Index> runs;
   for (const MeasuredPoint& p : counted)
     runs.emplace(p.run, static_cast<Eigen::Index>(runs.size()));
   if (runs.size() > kMostShiftedRuns) return {};
-  std::map<TargetAndWay, VisitsOfRuns> visits;
-  for (const MeasuredPoint& p : counted) visits[target_and_way(p)][runs.at(p.run)] += 1;
+  std::map<TargetAndApproach, VisitsOfRuns> visits;
+  for (const MeasuredPoint& p : counted) visits[target_and_approach(p)][runs.at(p.run)] += 1;
   const auto n = static_cast<Eigen::Index>(runs.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
   for (const auto& [at, of_runs] : visits)
@@ -55,7 +55,7 @@ std::vector<std::map<TargetAndWay, double>> parts_by_run_shifts(
         return covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       },
       runs.size());
-  std::vector<std::map<TargetAndWay, double>> parts(static_cast<std::size_t>(shifts.cols()));
+  std::vector<std::map<TargetAndApproach, double>> parts(static_cast<std::size_t>(shifts.cols()));
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (const auto& [at, of_runs] : visits)
       for (const auto& [run, here] : of_runs)
@@ -69,8 +69,8 @@ namespace {
 // Half the difference of the two passes of each run that has both.
 struct HalfDifferences {
   std::vector<int> runs;
-  std::vector<Errors5> half;       // except for one constant common to all
-  std::vector<double> by_a_visit;  // variance of `half` by a variance of 1 of a visit
+  std::vector<Errors5> half;                  // except for one constant common to all
+  std::vector<double> visit_variance_factor;  // variance of `half` by a variance of 1 of a visit
 };
 
 HalfDifferences half_differences(const MovingAxis& moving,
@@ -83,14 +83,14 @@ HalfDifferences half_differences(const MovingAxis& moving,
   };
   std::map<int, std::array<Pass, 2>> of_run;
   for (MeasuredPoint& p : passes) {
-    p.run = 2 * p.run + target_and_way(p).second;
+    p.run = 2 * p.run + target_and_approach(p).second;
     errors.push_back(named_from_local(moving, p.errors.local));
   }
   const RunDrifts fitted(passes);
   const std::vector<Errors5> level = fitted.of(errors);
   for (std::size_t i = 0; i < counted.size(); ++i) {
     Pass& pass =
-        of_run[counted[i].run][static_cast<std::size_t>(target_and_way(counted[i]).second)];
+        of_run[counted[i].run][static_cast<std::size_t>(target_and_approach(counted[i]).second)];
     pass.number = fitted.point_runs()[i];
     pass.visits += 1;
   }
@@ -101,22 +101,22 @@ HalfDifferences half_differences(const MovingAxis& moving,
     Errors5& half = found.half.emplace_back();
     for (std::size_t k = 0; k < kErrorCount; ++k)
       half[k] = (level[pass[1].number][k] - level[pass[0].number][k]) / 2;
-    found.by_a_visit.push_back((1 / pass[0].visits + 1 / pass[1].visits) / 4);
+    found.visit_variance_factor.push_back((1 / pass[0].visits + 1 / pass[1].visits) / 4);
   }
   return found;
 }
 
 // Changes of the means if the forward pass of a run is 1 higher and its reverse pass 1 lower.
-std::map<TargetAndWay, double> changed_by_half(const RunDrifts& drifts,
-                                               const std::vector<MeasuredPoint>& counted, int run) {
+std::map<TargetAndApproach, double> half_difference_effect(
+    const RunDrifts& drifts, const std::vector<MeasuredPoint>& counted, int run) {
   std::vector<Errors5> changes(counted.size());
   for (std::size_t i = 0; i < counted.size(); ++i)
-    if (counted[i].run == run) changes[i][0] = target_and_way(counted[i]).second == 1 ? 1 : -1;
+    if (counted[i].run == run) changes[i][0] = target_and_approach(counted[i]).second == 1 ? 1 : -1;
   const std::vector<Errors5> taken = drifts.of(changes);
-  std::map<TargetAndWay, double> sum, visits;
+  std::map<TargetAndApproach, double> sum, visits;
   for (std::size_t i = 0; i < counted.size(); ++i) {
-    sum[target_and_way(counted[i])] += changes[i][0] - taken[drifts.point_runs()[i]][0];
-    visits[target_and_way(counted[i])] += 1;
+    sum[target_and_approach(counted[i])] += changes[i][0] - taken[drifts.point_runs()[i]][0];
+    visits[target_and_approach(counted[i])] += 1;
   }
   for (auto& [at, change] : sum) change /= visits.at(at);
   return sum;
@@ -136,12 +136,13 @@ PassLevels pass_levels(const MovingAxis& moving, const std::vector<MeasuredPoint
     for (const Errors5& half : halves.half) mean += half[k] / n;
     for (std::size_t r = 0; r < halves.half.size(); ++r)
       variance += (halves.half[r][k] - mean) * (halves.half[r][k] - mean) / (n - 1) -
-                  halves.by_a_visit[r] * u_visit[k] * u_visit[k] / n;
+                  halves.visit_variance_factor[r] * u_visit[k] * u_visit[k] / n;
     found.u_half[k] = std::sqrt(std::max(0.0, variance));
   }
   found.freedom = n - 1;
   const RunDrifts drifts(counted);
-  for (const int run : halves.runs) found.parts.push_back(changed_by_half(drifts, counted, run));
+  for (const int run : halves.runs)
+    found.parts.push_back(half_difference_effect(drifts, counted, run));
   return found;
 }
 

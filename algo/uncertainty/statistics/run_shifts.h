@@ -13,7 +13,7 @@
 
 namespace mdof::algo {
 
-using TargetAndWay = std::pair<int, int>;  // way: 1 forward, 0 reverse
+using TargetAndApproach = std::pair<int, int>;  // way: 1 forward, 0 reverse
 
 // Changes of the mean of each target and approach by independent parts whose squares add, for noise
 // of variance 1 that is independent from visit to visit. They come in addition to the noise of the
@@ -21,7 +21,7 @@ using TargetAndWay = std::pair<int, int>;  // way: 1 forward, 0 reverse
 // because the shifts are then the same in all means, and for more than kMostShiftedRuns runs,
 // because one shift then hardly changes a mean.
 inline constexpr std::size_t kMostShiftedRuns = 256;
-std::vector<std::map<TargetAndWay, double>> parts_by_run_shifts(
+std::vector<std::map<TargetAndApproach, double>> parts_by_run_shifts(
     const std::vector<MeasuredPoint>& counted);
 
 // Effect of the levels of the passes on the means, from which only the level of each whole run is
@@ -30,7 +30,7 @@ std::vector<std::map<TargetAndWay, double>> parts_by_run_shifts(
 struct PassLevels {
   // By a half difference of 1 in one run each. Empty if no run lacks visits, for more than
   // kMostShiftedRuns runs, and if fewer than two runs have both passes.
-  std::vector<std::map<TargetAndWay, double>> parts;
+  std::vector<std::map<TargetAndApproach, double>> parts;
   Errors5 u_half{};  // standard deviation of the half difference, less its noise; named
   double freedom = std::numeric_limits<double>::infinity();
 };

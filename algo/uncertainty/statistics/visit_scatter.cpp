@@ -42,8 +42,8 @@ VisitScatter::Pooled VisitScatter::of(const std::vector<Errors5>& values) const 
   return pooled(values, 0);
 }
 
-VisitScatter::Pooled VisitScatter::of_steady(const std::vector<Errors5>& values,
-                                             const std::vector<double>& time_s) const {
+VisitScatter::Pooled VisitScatter::without_trend(const std::vector<Errors5>& values,
+                                                 const std::vector<double>& time_s) const {
   if (freedom_ < 2) return of(values);
   std::vector<double> middle_s(visits_of_place_.size());
   for (const Visit& visit : visits_)
@@ -86,9 +86,10 @@ VisitScatter::Pooled VisitScatter::pooled(const std::vector<Errors5>& values, do
     const double of_passes = std::min(shared[k], all[k]);
     pooled.variance[k] = all[k] / freedom;
     double fourths = 0;
-    if (freedom_of_passes > 0) fourths += fourth_by(of_passes / freedom, freedom_of_passes);
+    if (freedom_of_passes > 0)
+      fourths += fourth_over_freedom(of_passes / freedom, freedom_of_passes);
     if (freedom > freedom_of_passes)
-      fourths += fourth_by((all[k] - of_passes) / freedom, freedom - freedom_of_passes);
+      fourths += fourth_over_freedom((all[k] - of_passes) / freedom, freedom - freedom_of_passes);
     // If passes use all degrees of freedom, the part within them has no degrees of freedom of its
     // own.
     pooled.freedom[k] = std::min(freedom, effective_freedom(pooled.variance[k], fourths));

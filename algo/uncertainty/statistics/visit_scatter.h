@@ -26,7 +26,7 @@ class VisitScatter {
   Pooled of(const std::vector<Errors5>& values) const;
   // The same, after a change in proportion to time is removed by least squares. `time_s`: of each
   // point.
-  Pooled of_steady(const std::vector<Errors5>& values, const std::vector<double>& time_s) const;
+  Pooled without_trend(const std::vector<Errors5>& values, const std::vector<double>& time_s) const;
 
  private:
   // `taken`: number of fitted degrees of freedom.

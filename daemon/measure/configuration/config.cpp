@@ -239,7 +239,7 @@ Status check_names(TomlTable& table, const AxisConfig& axis, const Config& confi
     for (const auto& device : other.devices) names.insert(device.name);
   }
   for (const auto& device : axis.devices) {
-    if (device.of_other_axis) continue;
+    if (device.is_declared_elsewhere) continue;
     if (!names.insert(device.name).second)
       table.reject("device", "two devices have the name \"" + device.name +
                                  "\"; give each device a different name");
@@ -248,7 +248,7 @@ Status check_names(TomlTable& table, const AxisConfig& axis, const Config& confi
 }
 
 // Uses the machine of the rig or of the configuration. If both give one, they must be equal.
-void take_machine(TomlTable& table, const Chain& machine, Rig& rig) {
+void set_machine(TomlTable& table, const Chain& machine, Rig& rig) {
   if (!machine.known()) return;
   const std::string axis(1, letter(rig.axis));
   const ChainAxis* in_chain = machine.find(axis[0]);
@@ -302,7 +302,7 @@ Status read_axis(AxisTables tables, const std::filesystem::path& base,
   if (const auto settles = check_settling(with_delays(config.measure, axis.rig, axis.delays));
       !settles)
     return in_context(axis.rig.source, settles.error());
-  take_machine(table, config.machine, axis.rig);
+  set_machine(table, config.machine, axis.rig);
   if (axis.devices.empty()) {
     table.reject("device", "is missing; add [axis.device] with driver = \"...\"");
     return table.finish();

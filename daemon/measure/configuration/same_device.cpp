@@ -26,7 +26,7 @@ Result<Source> source_of(TomlTable& table, const std::vector<AxisConfig>& above)
   std::string known;
   for (const AxisConfig& axis : above) {
     for (const auto& device : axis.devices) {
-      if (device.of_other_axis) continue;
+      if (device.is_declared_elsewhere) continue;
       if (device.name == name) return Source{&axis, &device};
       known += (known.empty() ? "" : ", ") + device.name;
     }
@@ -83,7 +83,7 @@ Result<drivers::DriverSpec> read_same_as(TomlTable& table, const std::vector<Axi
   MDOF_TRY(const Source source, source_of(table, above));
   MDOF_CHECK(check_source(table, *source.device));
   drivers::DriverSpec device = *source.device;
-  device.of_other_axis = true;
+  device.is_declared_elsewhere = true;
   device.part.clear();
   device.channels = given(table);
   for (const std::string& id : device.channels)

@@ -9,7 +9,7 @@ namespace mdof::daemon {
 
 // A column temperature_C is the channel "temperature" in °C. The units of the other quantities are
 // not in Unit, so that their channels have the names of the columns.
-bool is_channel_of(const Channel& channel, std::size_t quantity) {
+bool has_air_quantity(const Channel& channel, std::size_t quantity) {
   const AirQuantity& of = air_quantities()[quantity];
   if (channel.unit == Unit::deg_c) return quantity == 0 && channel.id == of.name;
   return channel.unit == Unit::other && channel.id == of.key;
@@ -19,7 +19,7 @@ void AirSeries::push(const SampleBlock& raw) {
   for (std::size_t q = 0; q < kAirQuantities; ++q) {
     if (declared_.run[q]) continue;
     for (std::size_t c = 0; c < raw.channels.size(); ++c) {
-      if (!is_channel_of(raw.channels[c], q)) continue;
+      if (!has_air_quantity(raw.channels[c], q)) continue;
       for (std::size_t i = 0; i < raw.scans(); ++i) add(q, raw.time_ns[i], raw.value[c][i]);
     }
   }

@@ -38,6 +38,6 @@ class AirSeries {
 };
 
 // Whether the channel contains this quantity.
-bool is_channel_of(const Channel& channel, std::size_t quantity);
+bool has_air_quantity(const Channel& channel, std::size_t quantity);
 
 }  // namespace mdof::daemon

@@ -34,13 +34,15 @@ std::vector<const Point*> kept(const std::vector<Point>& before, const Run& run)
   return points;
 }
 
-// c(t) along `measures`, m, at a displacement that includes c(t) (`in_it`) or does not yet include
-// it.
-double linearity_of(const Calibration& c, double displacement_m, bool in_it) {
+// c(t) along `measures`, m, at a displacement that includes c(t) (`includes_linearity`) or does not
+// yet include it.
+double linearity_correction_m(const Calibration& c, double displacement_m,
+                              bool includes_linearity) {
   const double sign = c.reads_gap ? -1 : 1;
   const double t_um = sign * to_um(displacement_m);
   double correction_um = linearity_um(c, t_um);
-  for (int i = 0; in_it && i < 5; ++i) correction_um = linearity_um(c, t_um - correction_um);
+  for (int i = 0; includes_linearity && i < 5; ++i)
+    correction_um = linearity_um(c, t_um - correction_um);
   return sign * from_um(correction_um);
 }
 
@@ -66,7 +68,7 @@ PointCorrections::PointCorrections(Rig rig) : rig_(std::move(rig)) {
   if (!rig_.physics) return;
   const RigPhysics& physics = *rig_.physics;
   asked_ = {physics.tilt, physics.dielectric};
-  known_ = {tilts_everywhere(physics), physics.knows_air()};
+  known_ = {tilts_everywhere(physics), physics.has_known_air_effect()};
   if (physics.air) air_.emplace(*physics.air);
 }
 
@@ -125,9 +127,9 @@ LargestChange PointCorrections::linearity(const std::vector<const Point*>& point
   LargestChange most;
   for (const Point* point : points)
     for (std::size_t k = 0; k < rig_.probes.size(); ++k) {
-      const bool in_it = left_out.empty();
-      const Calibration& c = in_it ? rig_.probes[k].calibration : *left_out[k];
-      most.add(linearity_of(c, point->probe_m[k], in_it), rig_.probes[k].id);
+      const bool includes_linearity = left_out.empty();
+      const Calibration& c = includes_linearity ? rig_.probes[k].calibration : *left_out[k];
+      most.add(linearity_correction_m(c, point->probe_m[k], includes_linearity), rig_.probes[k].id);
     }
   return most;
 }

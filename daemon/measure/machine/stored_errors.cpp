@@ -79,7 +79,7 @@ Result<StatedAt> point_of_slope(const MachineFrame& frame, const StatedAxes& sta
 }
 
 // The tables of five errors that a machine uses.
-struct TakenTables {
+struct UsedTables {
   std::vector<MachineFrame*> frames;
   std::vector<algo::BuiltFrom> built_from;
   StatedAxes stated;
@@ -88,8 +88,8 @@ struct TakenTables {
 
 // Sets the covariance of the table's errors from the runs of the table. The angles are 0 at the
 // position of the axis during the measurement of the other axes.
-Status take_covariance(store::Store& store, MachineFrame& frame, const CompensationTable& table,
-                       double zero_m, TakenTables& taken) {
+Status set_table_covariance(store::Store& store, MachineFrame& frame,
+                            const CompensationTable& table, double zero_m, UsedTables& taken) {
   algo::BuiltFrom of{{}, {}, {}, {table.slope_removed, true, table.stated, table.machine, zero_m}};
   for (const std::int64_t id : table.runs) {
     MDOF_TRY(Run run, store.run(id));
@@ -111,7 +111,7 @@ Status take_covariance(store::Store& store, MachineFrame& frame, const Compensat
 }
 
 // Adds the quantities that the probes of several axes share.
-void take_shared(const TakenTables& taken) {
+void add_shared_quantities(const UsedTables& taken) {
   const auto parts = algo::shared_quantities(taken.built_from);
   if (!parts) return;  // the notices of the table state the cause
   for (const algo::SharedQuantity& part : *parts)
@@ -121,7 +121,7 @@ void take_shared(const TakenTables& taken) {
 }
 
 Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
-                  const CompensationTable& table, TakenTables& taken) {
+                  const CompensationTable& table, UsedTables& taken) {
   machine.simulated = machine.simulated || table.simulated;
   if (table.has_positioning()) {
     for (const std::int64_t id : table.runs) {
@@ -158,9 +158,9 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
                     larger(table.u_forward[named], table.u_reverse[named]));
     function.noise_only = table.noise_only();
     if (error_names(table.axis)[named].angle) refer_angle(function, zero_m);
-    MDOF_CHECK(take(frame, body_error_of(table, named), std::move(function)));
+    MDOF_CHECK(take(frame, body_error_index(table, named), std::move(function)));
   }
-  return take_covariance(store, frame, table, zero_m, taken);
+  return set_table_covariance(store, frame, table, zero_m, taken);
 }
 
 void add_new(const std::vector<std::int64_t>& from, std::vector<std::int64_t>& to) {
@@ -194,7 +194,7 @@ Result<std::vector<std::int64_t>> latest_runs(store::Store& store, const Machine
 }
 
 Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all,
-                 TakenTables& taken) {
+                 UsedTables& taken) {
   std::vector<std::int64_t> ids = frame.runs.ids;
   if (frame.runs.latest) {
     MDOF_TRY(ids, latest_runs(store, frame));
@@ -222,7 +222,7 @@ Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, Sto
 }
 
 Status take_tables(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all,
-                   TakenTables& taken) {
+                   UsedTables& taken) {
   for (const std::int64_t id : frame.tables.ids) {
     MDOF_TRY(const CompensationTable table, store.table(id));
     if (letter(table.axis) != frame.id[0] || frame.kind != FrameKind::linear)
@@ -299,8 +299,8 @@ Result<MachineFrame*> frame_of(Machine& machine, AxisPair axes, Axis axis) {
                    "; give another squareness");
 }
 
-Status take_squareness(store::Store& store, Machine& machine, const Squareness& stored,
-                       const StatedAxes& stated, StoredErrors& all) {
+Status use_stored_squareness(store::Store& store, Machine& machine, const Squareness& stored,
+                             const StatedAxes& stated, StoredErrors& all) {
   MDOF_TRY(MachineFrame* const a, frame_of(machine, stored.axes, stored.axes.a));
   MDOF_TRY(MachineFrame* const b, frame_of(machine, stored.axes, stored.axes.b));
   const std::size_t about = 6 - a->direction - b->direction;  // index among the six errors: A, B or
@@ -325,12 +325,12 @@ Status take_squareness(store::Store& store, Machine& machine, const Squareness& 
   return {};
 }
 
-Status take_squareness(store::Store& store, Machine& machine, const StatedAxes& stated,
-                       StoredErrors& all) {
+Status use_stored_squareness(store::Store& store, Machine& machine, const StatedAxes& stated,
+                             StoredErrors& all) {
   const std::vector<std::int64_t> named = all.runs;
   MDOF_TRY(const auto fits, squareness_of(store, machine, named));
   for (const Squareness& s : fits) {
-    MDOF_CHECK(take_squareness(store, machine, s, stated, all));
+    MDOF_CHECK(use_stored_squareness(store, machine, s, stated, all));
     if (!named.empty() && !(has(named, s.run_a) && has(named, s.run_b))) {
       Notice other = notice(NoticeCode::squareness_of_unnamed_runs, "",
                             {{"squareness", s.id},
@@ -377,18 +377,19 @@ Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64
                                           : ": no squareness is stored" + no_axes(latest_of)));
 }
 
-Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine) {
+Result<StoredErrors> read_stored_errors(store::Store& store, Machine& machine) {
   StoredErrors all;
-  TakenTables taken;
+  UsedTables taken;
   for (MachineFrame& frame : machine.frames) {
     MDOF_CHECK(take_runs(store, machine, frame, all, taken));
     MDOF_CHECK(take_tables(store, machine, frame, all, taken));
   }
   append(all.notices, taken.doubtful);
   append(all.doubtful, taken.doubtful);
-  take_shared(taken);
+  add_shared_quantities(taken);
   MDOF_CHECK(check_slopes(machine, taken.stated));
-  if (machine.squareness.any()) MDOF_CHECK(take_squareness(store, machine, taken.stated, all));
+  if (machine.squareness.any())
+    MDOF_CHECK(use_stored_squareness(store, machine, taken.stated, all));
   for (MachineFrame& frame : machine.frames) frame.runs = frame.tables = {};
   machine.squareness = {};
   return all;

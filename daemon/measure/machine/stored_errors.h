@@ -30,7 +30,7 @@ struct StoredErrors {
 // Errors: a missing row; a row of another axis, chain, travel or moving side than in the
 // description; an error that the description gives, too; a table that keeps its straightness slope
 // although a squareness contains it, or that has another reference point than the squareness.
-Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine);
+Result<StoredErrors> read_stored_errors(store::Store& store, Machine& machine);
 
 // The squareness with this id; without an id the newest of the two axes. Error: not_found.
 Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64_t> id,

@@ -74,15 +74,16 @@ std::vector<double> scaled(std::vector<double> values, double by) {
   return values;
 }
 
-std::size_t body_error_of(const CompensationTable& table, std::size_t named) {
+std::size_t body_error_index(const CompensationTable& table, std::size_t named) {
   return std::string_view("XYZABC").find(error_names(table.axis)[named].name[1]);
 }
 
 namespace {
 
-std::array<std::size_t, kErrorCount> body_errors_of(const CompensationTable& table) {
+std::array<std::size_t, kErrorCount> body_error_indices(const CompensationTable& table) {
   std::array<std::size_t, kErrorCount> of{};
-  for (std::size_t named = 0; named < kErrorCount; ++named) of[named] = body_error_of(table, named);
+  for (std::size_t named = 0; named < kErrorCount; ++named)
+    of[named] = body_error_index(table, named);
   return of;
 }
 
@@ -90,7 +91,7 @@ std::array<std::size_t, kErrorCount> body_errors_of(const CompensationTable& tab
 
 void set_covariance(MachineFrame& frame, const CompensationTable& table,
                     const algo::ErrorCovariances& covariances) {
-  const auto of = body_errors_of(table);
+  const auto of = body_error_indices(table);
   ErrorCovariance& all = frame.covariance;
   all.position = table.position_m;
   const auto body = [&](const Covariance5& named) {
@@ -119,7 +120,7 @@ void set_covariance(MachineFrame& frame, const CompensationTable& table,
 
 void add_shared(MachineFrame& frame, const CompensationTable& table, const std::string& name,
                 const std::vector<Errors5>& by_row) {
-  const auto of = body_errors_of(table);
+  const auto of = body_error_indices(table);
   ErrorCovariance& all = frame.covariance;
   SharedPart& shared = all.shared.emplace_back();
   shared.name = name;

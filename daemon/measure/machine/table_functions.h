@@ -31,7 +31,7 @@ void bound_angle_u(ErrorFunction& f, double zero_m);
 std::vector<double> scaled(std::vector<double> values, double by);
 
 // Index of the table's named error among the six errors of a body.
-std::size_t body_error_of(const CompensationTable& table, std::size_t named);
+std::size_t body_error_index(const CompensationTable& table, std::size_t named);
 // Sets the covariance of the frame's errors and, from it, u of each error that already has a u. The
 // rows of `covariances` are those of `table`; an error may lack some of them.
 void set_covariance(MachineFrame& frame, const CompensationTable& table,

@@ -143,7 +143,7 @@ Notices one_sided(const VolumetricTable& table, const std::vector<Run>& runs) {
 Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
                                              const VolumetricTableRequest& request) {
   Machine machine = request.machine;
-  MDOF_TRY(StoredErrors stored, take_stored_errors(store, machine));
+  MDOF_TRY(StoredErrors stored, read_stored_errors(store, machine));
   BuiltVolumetric built;
   MDOF_TRY(built.table, algo::build_volumetric(machine, request.grid));
   built.table.doubtful = stored.doubtful;

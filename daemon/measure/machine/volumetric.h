@@ -24,7 +24,7 @@ struct BuiltVolumetric {
   Notices notices;
   Notices doubtful;  // those notices that prevent the use by a controller
 };
-// Errors: those of take_stored_errors() and algo::build_volumetric().
+// Errors: those of read_stored_errors() and algo::build_volumetric().
 Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
                                              const VolumetricTableRequest& request);
 Status store_volumetric(store::Store& store, VolumetricTable& table,

@@ -166,7 +166,7 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   MDOF_TRY(const Rig rig, rig_of(request, log));
   MDOF_CHECK(check_axis(log.path(), log.comments(), rig));
   MDOF_CHECK(check_channels(log.path(), log.driver().info().channels, rig));
-  MDOF_TRY(const AskedFor asked, log.asked_for());
+  MDOF_TRY(const RecordedRequest asked, log.asked_for());
   MDOF_TRY(const algo::Solver solver, algo::Solver::create(rig, asked.options.model));
   ParkedReader reader(rig, asked.options.align, probe_ids(rig));
   MDOF_CHECK(reader.read(log, progress));

@@ -48,7 +48,7 @@ struct Series {
     return value[i - 1] + part * (value[i] - value[i - 1]);
   }
   // Makes an angle continuous over 360 degrees, so that interpolation between 359 and 1 works.
-  void unwind() {
+  void make_continuous() {
     for (std::size_t i = 1; i < value.size(); ++i)
       value[i] = value[i - 1] + std::remainder(value[i] - value[i - 1], kTurn_deg);
   }
@@ -110,7 +110,7 @@ Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan
     if (series->value.empty())
       return bad_input(from.recording_path + ": the column " + name +
                        " (named in [scan] of the rig) is missing or has no value");
-  columns.angle_deg.unwind();
+  columns.angle_deg.make_continuous();
   return columns;
 }
 

@@ -59,12 +59,12 @@ Status check_encoder(const std::string& source, const std::vector<Channel>& chan
 // Checks that the log has the ambient quantities that a correction needs and the rig does not
 // declare.
 Status check_air(const std::string& source, const std::vector<Channel>& channels, const Rig& rig) {
-  const auto columns = columns_of_air(rig);
+  const auto columns = air_columns(rig);
   for (std::size_t q = 0; q < kAirQuantities; ++q) {
     const std::string key = air_quantities()[q].key;
     if (std::find(columns.begin(), columns.end(), key) == columns.end()) continue;
     if (std::any_of(channels.begin(), channels.end(),
-                    [q](const Channel& c) { return is_channel_of(c, q); }))
+                    [q](const Channel& c) { return has_air_quantity(c, q); }))
       continue;
     return bad_input(source + ": the column " + key +
                      " is missing, but [corrections] dielectric = true of " + rig.source +
@@ -156,8 +156,8 @@ std::string ReplayLog::started_utc() const {
   return recording_ ? recording_->header().started_utc : "";
 }
 
-Result<AskedFor> ReplayLog::asked_for() const {
-  if (!recording_) return AskedFor{};
+Result<RecordedRequest> ReplayLog::asked_for() const {
+  if (!recording_) return RecordedRequest{};
   MDOF_TRY(const auto measure, measure_options(recording_->header().configuration));
   auto asked = read_request_json(recording_->header().request, measure);
   if (!asked) return in_context(path_ + ": stored request of the run", asked.error());
@@ -217,7 +217,7 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
                    const ProgressCallback& progress) {
   MDOF_CHECK(check_axis(log.path(), log.comments(), rig));
   MDOF_CHECK(check_channels(log.path(), log.driver().info().channels, rig));
-  MDOF_TRY(const AskedFor asked, log.asked_for());
+  MDOF_TRY(const RecordedRequest asked, log.asked_for());
   auto run = options.on_the_fly ? measured<OnTheFlyRun>(log, rig, options, progress)
                                 : measured<Pipeline>(log, rig, options, progress);
   if (!run) return tl::unexpected(run.error());
@@ -231,7 +231,7 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   append(run->header.notices, overdue_calibrations(rig, day));
   append(run->header.notices, calibration_notices(rig));
   append(run->header.notices, drivers::unused_scales(rig, log.driver().info().channels));
-  append(run->header.notices, doubtful_values(rig));
+  append(run->header.notices, unusual_values(rig));
   return run;
 }
 

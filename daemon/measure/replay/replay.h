@@ -36,7 +36,7 @@ class ReplayLog {
   std::string configuration() const;  // mdofd.toml of a recording, otherwise empty
   // The options of the recorded run: its mdofd.toml, overridden by the request of the run. Defaults
   // for a CSV log.
-  Result<AskedFor> asked_for() const;
+  Result<RecordedRequest> asked_for() const;
   std::vector<std::string> comments() const;  // comments of a CSV log
   Progress progress() const;                  // in bytes of a CSV log, in chunks of a recording
   // Valid after the end of the log:

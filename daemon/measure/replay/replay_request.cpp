@@ -27,7 +27,7 @@ Status check_request(const ReplayRequest& request) {
 }
 
 // Keeps the given or recorded targets of the run unless an interval is requested.
-Status ask_on_the_fly(const ReplayRequest& request, PipelineOptions& options) {
+Status set_on_the_fly_options(const ReplayRequest& request, PipelineOptions& options) {
   if (!request.on_the_fly) return {};
   algo::OnTheFlyOptions& to = options.on_the_fly.emplace();
   const bool by_interval = request.interval_mm || request.from_mm || request.to_mm;
@@ -59,7 +59,7 @@ Result<PipelineOptions> options_of(const ReplayRequest& request, const ReplayLog
       twice != targets_m.end())
     return fail(ErrorCode::usage, "targets_mm contains " + plain_number(to_mm(*twice), 9) +
                                       " mm twice; give each target once");
-  MDOF_CHECK(ask_on_the_fly(request, options));
+  MDOF_CHECK(set_on_the_fly_options(request, options));
   return options;
 }
 

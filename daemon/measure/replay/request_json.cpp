@@ -210,7 +210,7 @@ Result<element> parsed(simdjson::dom::parser& parser, const std::string& text) {
 
 }  // namespace
 
-std::string request_json(const AskedFor& asked) {
+std::string request_json(const RecordedRequest& asked) {
   JsonWriter json;
   json.begin_object().field("note", asked.note);
   write_notices(json, "notices", asked.notices, nullptr);
@@ -218,8 +218,8 @@ std::string request_json(const AskedFor& asked) {
   return json.take();
 }
 
-Result<AskedFor> read_request_json(const std::string& text, const PipelineOptions& base) {
-  AskedFor asked;
+Result<RecordedRequest> read_request_json(const std::string& text, const PipelineOptions& base) {
+  RecordedRequest asked;
   asked.options = base;
   if (text.empty()) return asked;
   simdjson::dom::parser parser;

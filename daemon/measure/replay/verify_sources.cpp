@@ -51,7 +51,7 @@ Result<std::string> sha256_of_file(const std::string& path) {
 }
 
 // Error: the recording cannot be read or is damaged.
-Result<std::string> sha256_of_recording(const std::string& path) {
+Result<std::string> recording_hash(const std::string& path) {
   drivers::RecordingLog log("recording", path);
   MDOF_CHECK(log.open());
   SampleBlock block;
@@ -77,7 +77,7 @@ void check_file(const Source& source, const std::string& of, SourceCheck& check)
         inherited(of, notice(NoticeCode::source_not_hashed, "", {{"path", path}})));
     return;
   }
-  const auto actual = recording ? sha256_of_recording(path) : sha256_of_file(path);
+  const auto actual = recording ? recording_hash(path) : sha256_of_file(path);
   if (!actual) {
     check.findings.push_back(of + ": " + words::text(actual.error()));
   } else if (!expected.empty() && *actual != expected) {

@@ -175,7 +175,7 @@ Result<Comparison> compare_positioning(store::Store& store, const Run& before, c
   found.points = compared_points(a, b);
   add_change_at_targets(found);
   if (found.points.points.empty())
-    found.why_no_points = "the runs have no target in common (within 0.1 mm)";
+    found.no_points_reason = "the runs have no target in common (within 0.1 mm)";
   return found;
 }
 
@@ -190,12 +190,12 @@ void add_points(store::Store& store, const Run& before, const Run& after, Refere
   request.runs = {after.header.id};
   const auto second = calculate_table(store, request);
   if (!first || !second) {
-    found.why_no_points = (first ? second : first).error().message;
+    found.no_points_reason = (first ? second : first).error().message;
     return;
   }
   found.points = compared_points({before, first->table}, {after, second->table});
   if (found.points.points.empty())
-    found.why_no_points = "the runs have no target in common (within 0.1 mm)";
+    found.no_points_reason = "the runs have no target in common (within 0.1 mm)";
 }
 
 }  // namespace
@@ -277,7 +277,7 @@ std::string comparison_json(const Comparison& c) {
   }
   json.end_object();
   write_compared_points(json, c.points);
-  if (!c.why_no_points.empty()) json.field("points_reason", c.why_no_points);
+  if (!c.no_points_reason.empty()) json.field("points_reason", c.no_points_reason);
   Notices notices = c.differences;
   append(notices, c.notices);
   write_notices(json, "notices", notices, words::text);

@@ -45,7 +45,7 @@ struct Comparison {
   bool simulated = false;
   bool is_imported = false;  // positioning: `stated` has no meaning
   ComparedPoints points;
-  std::string why_no_points;  // empty if `points` exist
+  std::string no_points_reason;  // empty if `points` exist
 };
 // Compares two runs of the five probes, or two imported runs of positioning. Errors: those of
 // run_budgets(); the same run twice; runs of two axes; an imported and a measured run; an imported

@@ -56,12 +56,12 @@ struct Chosen {
 
 // The newest run. If its kind has too few values for a chart, the newest run of the same rig whose
 // kind has enough: a single run on the fly or with another model does not remove the chart.
-const RunHeader& newest_of_chart(const std::vector<RunHeader>& runs) {
+const RunHeader& newest_charted_run(const std::vector<RunHeader>& runs) {
   std::map<std::string, std::size_t> count;
   for (const RunHeader& run : runs) ++count[kind_of(run)];
   const std::string& rig = runs.back().provenance.rig_text;
   for (auto run = runs.rbegin(); run != runs.rend(); ++run)
-    if (run->provenance.rig_text == rig && count[kind_of(*run)] > algo::kFewestOfBaseline)
+    if (run->provenance.rig_text == rig && count[kind_of(*run)] > algo::kLeastBaselineValues)
       return *run;
   return runs.back();
 }
@@ -69,7 +69,7 @@ const RunHeader& newest_of_chart(const std::vector<RunHeader>& runs) {
 // Keeps the runs of one kind, unless `mixed` is set.
 void choose_kind(Chosen& chosen, bool mixed) {
   if (chosen.runs.empty()) return;
-  const RunHeader newest_of_kind = newest_of_chart(chosen.runs);
+  const RunHeader newest_of_kind = newest_charted_run(chosen.runs);
   const std::string kind = kind_of(newest_of_kind);
   std::vector<std::int64_t> others;
   for (const RunHeader& run : chosen.runs)

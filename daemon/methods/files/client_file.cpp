@@ -31,12 +31,12 @@ bool may_read(const FileUser& user, const struct stat& file) {
 }
 
 // Errors that the path causes are mistakes of the caller, as if `mdof` opened the file itself.
-bool is_of_path(int why) {
+bool is_path_error(int why) {
   return why == ENOENT || why == ENOTDIR || why == EACCES || why == ELOOP || why == ENAMETOOLONG;
 }
 
 tl::unexpected<Error> cannot_open(const std::string& path, int why) {
-  return fail(is_of_path(why) ? ErrorCode::bad_input : ErrorCode::io,
+  return fail(is_path_error(why) ? ErrorCode::bad_input : ErrorCode::io,
               path + ": " + rpc::system_error_text(why) +
                   "; mdofd opens this file itself: put the file where the user that runs mdofd can "
                   "read it");

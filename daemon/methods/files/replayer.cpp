@@ -16,7 +16,7 @@ namespace {
 constexpr int kNiceness = 10;  // lower priority than the measurement
 constexpr std::chrono::seconds kPatience{2};
 
-std::atomic<bool> left_behind{false};
+std::atomic<bool> thread_abandoned{false};
 
 }  // namespace
 
@@ -68,13 +68,13 @@ Replayer::~Replayer() {
   if (done) {
     thread_.join();
   } else {
-    left_behind = true;
+    thread_abandoned = true;
     thread_.detach();
   }
 }
 
-bool Replayer::was_left_behind() {
-  return left_behind;
+bool Replayer::was_abandoned() {
+  return thread_abandoned;
 }
 
 void Replayer::start(Make make, const HistoryEntry& action, Done done) {

@@ -20,9 +20,9 @@ class Replayer {
  public:
   explicit Replayer(Storekeeper& keeper);
   // Cancels the present file. If its file system does not respond, the thread is abandoned after a
-  // while. was_left_behind() is then true, and the process must exit without waiting for threads.
+  // while. was_abandoned() is then true, and the process must exit without waiting for threads.
   ~Replayer();
-  static bool was_left_behind();
+  static bool was_abandoned();
 
   // A run, its uncertainty for SQL users, and a function that makes the reply from the stored run.
   // The function runs on the thread that stores the run, so it must be short.

@@ -73,7 +73,7 @@ class Trial {
   }
   // Largest error while the ramp does not apply a step of the correction: after a reversal at any
   // position, while the axis continues and the step is one that the ramp does not apply.
-  double held_by(const HeldSteps& held) const {
+  double largest_unapplied_error(const UnappliedSteps& held) const {
     const std::vector<double> x = places();
     double largest = 0;
     for (std::size_t turn = 0; turn < x.size(); ++turn)
@@ -90,7 +90,7 @@ class Trial {
     return largest;
   }
   // False if no test point is inside both the measured and the written range.
-  bool judges_anything() const { return !places().empty(); }
+  bool has_test_points() const { return !places().empty(); }
   // |E dE/dx|: the effect of the correction on the position of E, if it moves the measured axis.
   double second_order() const {
     if (!machine_.own) return 0;
@@ -169,7 +169,7 @@ double zero_of(const Series& s, const AppliedCorrection& applied, const ExportOp
   return s.factor * mean_error_at(s, held_m);
 }
 
-double most_residual(const ExportOptions& options) {
+double residual_limit(const ExportOptions& options) {
   return options.residual_m + options.tolerance_m;
 }
 
@@ -193,18 +193,18 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
   e.residual = trial.residual(1, false, e.one_way);
   for (const ExportOptions::Ramp& ramp : options.ramps)
     if (format.takes_joints && ramp.axis == applied.along)
-      e.by_ramp = std::max(e.by_ramp, trial.held_by(held_steps(ramp)));
+      e.by_ramp = std::max(e.by_ramp, trial.largest_unapplied_error(unapplied_steps(ramp)));
   e.residual = std::max(e.residual, e.by_ramp);
   const double step = format.quantum_m + kRounding_m;
   e.nothing = e.before <= step;
   const double left = e.one_way ? 0 : e.by_reversal;
   e.bound = std::min(
       thinning + trial.second_order() + step + left + e.by_ramp,
-      algo::ResidualLimits{most_residual(options), options.residual_share}.of(e.before, step));
+      algo::ResidualLimits{residual_limit(options), options.residual_share}.of(e.before, step));
   // If the step of the numbers rounds all values to zero, nothing is corrected (for example, mm
   // read as um).
   const bool lost = e.nothing && e.before > kRounding_m;
-  e.cancels = trial.judges_anything() && e.residual <= e.bound && !lost;
+  e.cancels = trial.has_test_points() && e.residual <= e.bound && !lost;
   e.controls.push_back(
       control_of("wrong sign", trial.residual(-1, false, e.one_way), e.bound, 2 * e.before));
   // With one value this mistake changes nothing.
@@ -239,7 +239,7 @@ Result<Check> check_export(const Format& format, const std::vector<CompensationT
                            const Export& exported, const ExportOptions& options) {
   MDOF_TRY(const auto applied, format.axes.read(exported.files));
   Check check;
-  check.most_residual_m = most_residual(options);
+  check.most_residual_m = residual_limit(options);
   check.share = options.residual_share;
   for (const AppliedCorrection& one : applied) {
     const CompensationTable* table = table_of(tables, one.along);

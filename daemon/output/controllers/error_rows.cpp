@@ -12,9 +12,9 @@
 namespace mdof::controllers {
 namespace {
 
-constexpr std::size_t kMostOfWeihong = 10'000, kMostOfSsfk = 1500;
+constexpr std::size_t kWeihongPointLimit = 10'000, kSsfkPointLimit = 1500;
 constexpr double kTenthOfMicrometre = 1e-7;
-constexpr double kMostOfPosition_m = 200;  // limit of 32 bits in whole 0.1 µm
+constexpr double kSsfkPositionLimit_m = 200;  // limit of 32 bits in whole 0.1 µm
 constexpr const char* kWeihongFile = "axeserr.dat";
 
 std::string tenths_text(double m) {
@@ -23,11 +23,11 @@ std::string tenths_text(double m) {
 
 Result<ControllerFile> ssfk_of(const CompensationTable& table, const Series& s,
                                const ExportOptions& options) {
-  const auto far = [](double m) { return !(std::abs(m) < kMostOfPosition_m); };
+  const auto far = [](double m) { return !(std::abs(m) < kSsfkPositionLimit_m); };
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {
     if (far(s.position_m[i]) || far(s.forward[i]) || far(s.reverse[i]))
       return bad_input(
-          s.error + ": a position or error is " + plain_number(kMostOfPosition_m) +
+          s.error + ": a position or error is " + plain_number(kSsfkPositionLimit_m) +
           " m or more, which is too large for a lead screw table (32-bit numbers in 0.1 um)");
     if (i > 0 && tenths_text(s.position_m[i]) == tenths_text(s.position_m[i - 1]))
       return bad_input(s.error +
@@ -54,7 +54,7 @@ Result<ControllerFile> ssfk_of(const CompensationTable& table, const Series& s,
   return ControllerFile{std::string("ssfk-") + s.along + ".lis", text};
 }
 
-AppliedCorrection nothing_of(char axis) {
+AppliedCorrection empty_correction(char axis) {
   return {{'E', axis, axis}, axis, axis, {}, {}, {}};
 }
 
@@ -70,7 +70,7 @@ Result<double> whole_after(const ControllerFile& file, const std::vector<std::st
 }
 
 Result<AppliedCorrection> read_ssfk_file(const ControllerFile& file) {
-  AppliedCorrection read = nothing_of(file.name.at(5));
+  AppliedCorrection read = empty_correction(file.name.at(5));
   const auto lines = lines_of(file.text);
   std::size_t at = 0;
   while (at < lines.size() && lines[at].starts_with("#")) ++at;
@@ -82,11 +82,11 @@ Result<AppliedCorrection> read_ssfk_file(const ControllerFile& file) {
   }
   const auto rows = static_cast<std::size_t>(head[5]);
   if (head[0] != 0 || head[1] != 1 || head[2] != 1 || head[3] != 0 || rows < 2 ||
-      rows > kMostOfSsfk)
+      rows > kSsfkPointLimit)
     return bad_input(file.name +
                      ": kw.ssfk.interval must be 0, kw.ssfk.unit 1, kw.ssfk.bilateral 1, "
                      "kw.ssfk.modulo 0, and kw.ssfk.kw_nr_max from 2 to " +
-                     std::to_string(kMostOfSsfk));
+                     std::to_string(kSsfkPointLimit));
   for (std::size_t i = 0; i < rows; ++i) {
     const std::string row = "kw.ssfk.table[" + std::to_string(i) + "]";
     MDOF_TRY(const double position, whole_after(file, lines, at++, row + ".setpoint"));
@@ -129,7 +129,7 @@ Result<Export> write_weihong(const std::vector<CompensationTable>& tables,
   Export out;
   std::string head, body;
   for (const CompensationTable& table : tables) {
-    MDOF_TRY(const Series s, positioning_of(table, kMostOfWeihong, options, kWeihongFile, out));
+    MDOF_TRY(const Series s, positioning_of(table, kWeihongPointLimit, options, kWeihongFile, out));
     head += commented(
         head_lines(
             table, options,
@@ -158,7 +158,7 @@ Result<std::vector<AppliedCorrection>> read_weihong(const std::vector<Controller
       continue;
     }
     if (line.size() == 3 && line[0] == '[' && line[2] == ']') {
-      all.push_back(nothing_of(line[1]));
+      all.push_back(empty_correction(line[1]));
       continue;
     }
     std::string text(line);
@@ -191,7 +191,7 @@ Result<Export> write_ssfk(const std::vector<CompensationTable>& tables,
   Export out;
   for (const CompensationTable& table : tables) {
     MDOF_TRY(const Series s,
-             positioning_of(table, kMostOfSsfk, options, "a lead screw table", out));
+             positioning_of(table, kSsfkPointLimit, options, "a lead screw table", out));
     MDOF_TRY(ControllerFile file, ssfk_of(table, s, options));
     out.files.push_back(std::move(file));
   }

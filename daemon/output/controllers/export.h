@@ -152,10 +152,10 @@ struct Format {
 // In the order of the help.
 const std::vector<Format>& formats();
 // Controllers without a format: the reason, and the alternative.
-struct NotWritten {
+struct UnsupportedController {
   const char *name, *of, *reason, *instead;
 };
-const std::vector<NotWritten>& not_written();
+const std::vector<UnsupportedController>& not_written();
 // Error (usage): lists the formats; for a controller of not_written() it gives the reason.
 Result<const Format*> format_named(const std::string& name);
 

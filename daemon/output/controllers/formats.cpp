@@ -181,8 +181,8 @@ const std::vector<Format>& formats() {
   return rows;
 }
 
-const std::vector<NotWritten>& not_written() {
-  static const std::vector<NotWritten> rows = {
+const std::vector<UnsupportedController>& not_written() {
+  static const std::vector<UnsupportedController> rows = {
       {.name = "heidenhain",
        .of = "Heidenhain TNC, compensation value tables (.COM and .CMA)",
        .reason = "the public technical manuals show the columns of the tables, but they do not "
@@ -202,7 +202,7 @@ const std::vector<NotWritten>& not_written() {
 }
 
 Result<const Format*> format_named(const std::string& name) {
-  for (const NotWritten& one : not_written())
+  for (const UnsupportedController& one : not_written())
     if (name == one.name)
       return fail(ErrorCode::usage, std::string(one.of) +
                                         ": mdof does not write this format, because " + one.reason +

@@ -146,7 +146,7 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables) {
 
 // A mark quotes text of a run. It must not begin a new line or contain a character that the
 // controller does not support.
-std::string one_plain_line(std::string_view text) {
+std::string plain_ascii_line(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kPlain[] = {
       {"µ", "u"}, {"±", "+-"}, {"°", " deg"}};
   std::string line;
@@ -172,12 +172,13 @@ std::vector<std::string> head_lines(const CompensationTable& table, const Export
   std::vector<std::string> lines{"mdof compensation table " + std::to_string(table.id) + ", axis " +
                                      letter(table.axis) + ", made " + table.created_utc,
                                  "sha256 of the table " + table.sha256, "sense: " + sense};
-  if (!table.has_positioning()) lines.push_back("valid at the " + stated_place(table.stated));
-  for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
+  if (!table.has_positioning())
+    lines.push_back("valid at the " + reference_point_text(table.stated));
+  for (const std::string& mark : options.marks) lines.push_back(plain_ascii_line(mark));
   return lines;
 }
 
-std::string stated_place(const StatedAt& at) {
+std::string reference_point_text(const StatedAt& at) {
   if (at.reference == Reference::carriage)
     return "origin of the carriage, a point that moves with the carriage";
   const auto mm = [&at](std::size_t k) { return plain_number(to_mm(at.point_m[k]), 6); };

@@ -28,9 +28,9 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables);
 std::vector<std::string> head_lines(const CompensationTable& table, const ExportOptions& options,
                                     const std::string& sense);
 // "tool, 6, -4, -30 mm from the origin of the fixture"
-std::string stated_place(const StatedAt& at);
+std::string reference_point_text(const StatedAt& at);
 // For a comment: converts to ASCII without line ends.
-std::string one_plain_line(std::string_view text);
+std::string plain_ascii_line(std::string_view text);
 // Puts `sign` and a space before each line, and a line end after it.
 std::string commented(const std::vector<std::string>& lines, const std::string& sign);
 

@@ -22,10 +22,10 @@ std::vector<std::string> head_of(const SquareAxes& axes, const ExportOptions& op
           " of mdof: the angle from +X to +Y is 90 deg + EC0Y",
       "EC0Y " + plain_number(to_urad(axes.EC0Y_rad), 6) + " urad, U " +
           plain_number(to_urad(b.U), 3) + " urad (k " + plain_number(b.coverage_factor, 3) +
-          ", 95 %); U contains " + one_plain_line(covers_text(b)),
-      "the angle is valid at the " + stated_place(axes.at),
+          ", 95 %); U contains " + plain_ascii_line(covers_text(b)),
+      "the angle is valid at the " + reference_point_text(axes.at),
       "machine " + axes.machine.text + " (" + chain_travels_text(axes.machine) + ")"};
-  for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
+  for (const std::string& mark : options.marks) lines.push_back(plain_ascii_line(mark));
   return lines;
 }
 

@@ -80,7 +80,7 @@ std::string largest_u_text(const VolumetricTable& t, std::size_t axis) {
 std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& options,
                                  const std::string& sense) {
   std::vector<std::string> lines{"mdof volumetric table " + std::to_string(t.id) + " of " +
-                                     one_plain_line(t.name) + ", made " + t.created_utc,
+                                     plain_ascii_line(t.name) + ", made " + t.created_utc,
                                  "sha256 of the table " + t.sha256,
                                  "machine " + t.machine.text + " (" +
                                      chain_travels_text(t.machine) + "), approach " + t.approach,
@@ -95,8 +95,8 @@ std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& 
   lines.push_back(at);
   lines.push_back("largest u of the correction of X, Y, Z in um: " + largest_u_text(t, 0) + ", " +
                   largest_u_text(t, 1) + ", " + largest_u_text(t, 2) + "; u contains " +
-                  one_plain_line(covers_text(t)));
-  for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
+                  plain_ascii_line(covers_text(t)));
+  for (const std::string& mark : options.marks) lines.push_back(plain_ascii_line(mark));
   return lines;
 }
 

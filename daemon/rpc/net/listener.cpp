@@ -38,7 +38,7 @@ void Listener::accept_some() {
     const int fd =
         ::accept4(socket_.native_handle(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (fd < 0 && (errno == ECONNABORTED || errno == EINTR)) continue;
-    if (fd < 0 && errno != EAGAIN) return wait_a_little(errno);
+    if (fd < 0 && errno != EAGAIN) return pause_accepting(errno);
     if (fd < 0) break;
     const int on = 1;  // fails on a Unix socket, which has no such delay
     (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
@@ -48,7 +48,7 @@ void Listener::accept_some() {
 }
 
 // Without free descriptors or memory, the waiting client would wake the loop again and again.
-void Listener::wait_a_little(int why) {
+void Listener::pause_accepting(int why) {
   log_("cannot accept a client (mdofd tries again): " + system_error_text(why));
   pause_.emplace(socket_.get_executor(), kPause);
   pause_->async_wait([self = shared_from_this()](const LoopError& error) {

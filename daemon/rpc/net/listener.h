@@ -24,7 +24,7 @@ class Listener : public std::enable_shared_from_this<Listener> {
 
  private:
   void accept_some();
-  void wait_a_little(int why);
+  void pause_accepting(int why);
 
   asio::posix::stream_descriptor socket_;
   std::optional<asio::steady_timer> pause_;

@@ -15,7 +15,7 @@ Param count_param(std::int64_t most) {
           {.least = 1, .most = static_cast<double>(most)}};
 }
 
-ListPage list_page_of(const Params& params, std::int64_t most) {
+ListPage read_list_page(const Params& params, std::int64_t most) {
   return {params.integer("offset", 0), params.integer("count", most)};
 }
 

@@ -14,6 +14,6 @@ Param count_param(std::int64_t most);
 struct ListPage {
   std::int64_t offset = 0, count = 0;
 };
-ListPage list_page_of(const Params& params, std::int64_t most);
+ListPage read_list_page(const Params& params, std::int64_t most);
 
 }  // namespace mdof::rpc

@@ -103,7 +103,8 @@ std::optional<std::chrono::milliseconds> Service::wanted_interval(std::string_vi
 
 Status Service::publish(std::string_view topic, std::string json, std::string_view of) {
   const Topic* const known = topics_.topic(topic);
-  if (hear_ && known && known->event && topics_.fits(topic, json)) hear_(topic, json);
+  if (event_listener_ && known && known->event && topics_.fits(topic, json))
+    event_listener_(topic, json);
   return topics_.publish(topic, std::move(json), of);
 }
 

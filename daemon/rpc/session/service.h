@@ -40,7 +40,7 @@ class Service {
   // Calls `hear` with each event, with or without subscribers, before they get it. It serves to
   // keep events for browsers that reconnect. An empty function ends this.
   using Hear = std::function<void(std::string_view topic, std::string_view json)>;
-  void on_event(Hear hear) { hear_ = std::move(hear); }
+  void on_event(Hear hear) { event_listener_ = std::move(hear); }
   // The interval at which values should be made, so that no value is made in vain and all
   // subscribers get new ones: the common interval of the subscribers, or the shortest interval of
   // the topic if a subscriber waits for its first value or the intervals differ. nullopt: no
@@ -66,7 +66,7 @@ class Service {
   Dispatcher dispatcher_;
   TopicHub topics_;
   std::vector<Holder> holders_;
-  Hear hear_;
+  Hear event_listener_;
   std::string last_refusal_;  // the last logged reason for which a client was turned away
 };
 

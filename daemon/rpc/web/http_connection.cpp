@@ -37,7 +37,7 @@ void HttpConnection::send(std::string_view message) {
     reply_ = message;
     return;
   }
-  const Notification note = notification_of(message);
+  const Notification note = parse_notification(message);
   append_event(output_.text(), seen_, note.method, note.params);
 }
 
@@ -52,7 +52,7 @@ void HttpConnection::forget() {
 void HttpConnection::pump() {
   flush();
   if (is(State::reading) && output_.unsent() == 0) take_request();
-  if (is(State::answering)) go_on_with_rpc();
+  if (is(State::answering)) continue_rpc();
   flush();
   send_stream();
   wait();
@@ -126,7 +126,7 @@ void HttpConnection::begin_rpc() {
 }
 
 // Calls a batch in parts, one for each turn.
-void HttpConnection::go_on_with_rpc() {
+void HttpConnection::continue_rpc() {
   if (calling_) {
     std::string out;
     const std::size_t size = input_.size();

@@ -53,7 +53,7 @@ class HttpConnection final : public ClientSocket {
   tl::expected<void, HttpError> judge() const;
   bool admit(Peer::Http right);
   void begin_rpc();
-  void go_on_with_rpc();
+  void continue_rpc();
   void begin_stream();
   std::optional<HttpError> subscribe_all();
   void give_file();

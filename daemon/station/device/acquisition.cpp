@@ -19,14 +19,14 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kReadTimeout{100};
 constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{250};
-constexpr milliseconds kNap{10}, kRefresh{1000};
+constexpr milliseconds kFullQueueSleep{10}, kRefresh{1000};
 // Some devices need seconds for opening and set-up; this is no hang-up.
 constexpr milliseconds kOpening{20'000};
 
-// The rate is checked over this time. A device is slow below kSlow of its rate, and no longer slow
-// above kWell.
+// The rate is checked over this time. A device is slow below kSlowShare of its rate, and no longer
+// slow above kRecoveredShare.
 constexpr std::chrono::seconds kWindow{5};
-constexpr double kSlow = 0.8, kWell = 0.95;
+constexpr double kSlowShare = 0.8, kRecoveredShare = 0.95;
 
 std::string with_one_decimal(double x) {
   char text[32];
@@ -160,7 +160,7 @@ bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
   return read_until_trouble(driver, pass);
 }
 
-void Acquisition::trust_count_of(const std::string& encoder) {
+void Acquisition::trust_encoder_count(const std::string& encoder) {
   const std::lock_guard lock(status_mutex_);
   forget_suspicion(encoder);
   trusted_.insert(encoder);
@@ -309,7 +309,8 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
   const double rate_hz = static_cast<double>(scans_in_window_) / window_s;
   const bool was_slow = std::any_of(is.standing.begin(), is.standing.end(),
                                     [](const Trouble& t) { return t.kind == Trouble::Kind::slow; });
-  const bool slow = lost_in_window_ > 0 || rate_hz < (was_slow ? kWell : kSlow) * is.info.rate_hz;
+  const bool slow =
+      lost_in_window_ > 0 || rate_hz < (was_slow ? kRecoveredShare : kSlowShare) * is.info.rate_hz;
   if (slow && !was_slow) {
     report(Trouble::Kind::slow,
            "the device sends " + with_one_decimal(rate_hz) + " scans per second instead of " +
@@ -368,7 +369,7 @@ void Acquisition::pause() {
   const auto until = steady_clock::now() + jittered(backoff_, spec_.name, status().reopened);
   backoff_ = std::min(2 * backoff_, kLongestBackoff);
   while (acquiring_ && steady_clock::now() < until) {
-    std::this_thread::sleep_for(kNap);
+    std::this_thread::sleep_for(kFullQueueSleep);
     turn_ = steady_clock::now();
     if (!woken_.exchange(false)) continue;
     backoff_ = kFirstBackoff;

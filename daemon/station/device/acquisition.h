@@ -30,9 +30,9 @@ class Acquisition final : public DeviceReader {
   void start() override;
   void stop() override;  // joins the thread, after at most a read timeout and an open
   void request_stop() override { acquiring_ = false; }
-  void trust_count() override { trust_count_of(kEncoderChannel); }
+  void trust_count() override { trust_encoder_count(kEncoderChannel); }
   // `encoder`: a channel of the device.
-  void trust_count_of(const std::string& encoder);
+  void trust_encoder_count(const std::string& encoder);
   void wake() override { woken_ = true; }
 
   std::uint64_t pass() const override { return pass_; }

@@ -35,7 +35,7 @@ int Hotplug::descriptor() const {
   return udev_monitor_get_fd(monitor_.get());
 }
 
-bool Hotplug::take_arrivals() {
+bool Hotplug::read_arrivals() {
   bool arrived = false;
   // The descriptor does not block; nullptr means that no event is left.
   while (udev_device* device = udev_monitor_receive_device(monitor_.get())) {

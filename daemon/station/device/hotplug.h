@@ -19,7 +19,7 @@ class Hotplug {
 
   int descriptor() const;  // readable if there are events
   // Reads all pending events; returns whether a device was plugged in.
-  bool take_arrivals();
+  bool read_arrivals();
 
  private:
   struct Free {

@@ -46,38 +46,38 @@ void take_part(const SampleBlock& block, const Part& part, SampleBlock& taken) {
 class DevicePart final : public DeviceReader {
  public:
   DevicePart(std::shared_ptr<SharedDevice> device, drivers::DriverSpec spec, DeviceSink sink)
-      : device_(std::move(device)), taker_(std::make_shared<SharedDevice::Taker>()) {
-    taker_->spec = std::move(spec);
-    taker_->sink = std::move(sink);
+      : device_(std::move(device)), axis_part_(std::make_shared<SharedDevice::AxisPart>()) {
+    axis_part_->spec = std::move(spec);
+    axis_part_->sink = std::move(sink);
   }
-  ~DevicePart() override { device_->leave(taker_); }
+  ~DevicePart() override { device_->leave(axis_part_); }
 
-  void start() override { device_->join(taker_); }
-  void stop() override { device_->leave(taker_); }
-  void request_stop() override { device_->request_stop(*taker_); }
+  void start() override { device_->join(axis_part_); }
+  void stop() override { device_->leave(axis_part_); }
+  void request_stop() override { device_->request_stop(*axis_part_); }
   void trust_count() override {
-    const std::string encoder = device_channel(taker_->spec.part, kEncoderChannel);
-    if (!encoder.empty()) device_->acquisition_.trust_count_of(encoder);
+    const std::string encoder = device_channel(axis_part_->spec.part, kEncoderChannel);
+    if (!encoder.empty()) device_->acquisition_.trust_encoder_count(encoder);
   }
   void wake() override { device_->acquisition_.wake(); }
   std::uint64_t pass() const override { return device_->acquisition_.pass(); }
-  const drivers::DriverSpec& spec() const override { return taker_->spec; }
-  DeviceStatus status() const override { return device_->status_of(*taker_); }
+  const drivers::DriverSpec& spec() const override { return axis_part_->spec; }
+  DeviceStatus status() const override { return device_->status_of(*axis_part_); }
   bool healthy(std::chrono::steady_clock::duration limit) const override {
     return device_->acquisition_.healthy(limit);
   }
 
  private:
   std::shared_ptr<SharedDevice> device_;
-  std::shared_ptr<SharedDevice::Taker> taker_;
+  std::shared_ptr<SharedDevice::AxisPart> axis_part_;
 };
 
 SharedDevice::SharedDevice(const drivers::DriverSpec& spec)
-    : acquisition_(whole(spec), fan_out()) {}
+    : acquisition_(whole(spec), sink_for_all_axes()) {}
 
 // ---- acquiring thread ----
 
-DeviceSink SharedDevice::fan_out() {
+DeviceSink SharedDevice::sink_for_all_axes() {
   DeviceSink sink;
   sink.samples = [this](SampleBlock& block, std::uint64_t pass, std::chrono::milliseconds) {
     distribute_block(block, pass);
@@ -85,74 +85,77 @@ DeviceSink SharedDevice::fan_out() {
   };
   sink.ended = [this](std::uint64_t pass, const std::string& why, const drivers::SourceInfo& info) {
     const std::lock_guard lock(mutex_);
-    for (const auto& taker : takers_) taker->sink.ended(pass, why, info);
+    for (const auto& axis_part : axis_parts_) axis_part->sink.ended(pass, why, info);
   };
   sink.trouble = [this](const Trouble& trouble) {
     const std::lock_guard lock(mutex_);
-    for (const auto& taker : takers_) {
-      const bool of_it = trouble.channel.empty() || taker->spec.part.contains(trouble.channel);
-      if (of_it && taker->sink.trouble) taker->sink.trouble(trouble);
+    for (const auto& axis_part : axis_parts_) {
+      const bool of_it = trouble.channel.empty() || axis_part->spec.part.contains(trouble.channel);
+      if (of_it && axis_part->sink.trouble) axis_part->sink.trouble(trouble);
     }
   };
   sink.mark = [this](const std::string& device) {
     const std::lock_guard lock(mutex_);
-    for (const auto& taker : takers_)
-      if (taker->spec.part.contains(kEncoderChannel) && taker->sink.mark) taker->sink.mark(device);
+    for (const auto& axis_part : axis_parts_)
+      if (axis_part->spec.part.contains(kEncoderChannel) && axis_part->sink.mark)
+        axis_part->sink.mark(device);
   };
   return sink;
 }
 
 void SharedDevice::distribute_block(const SampleBlock& block, std::uint64_t pass) {
   const std::lock_guard lock(mutex_);
-  for (const auto& taker : takers_) {
-    SampleBlock& part = taker->block;
-    take_part(block, taker->spec.part, part);
-    part.lost += std::exchange(taker->dropped_scans, 0);
-    if (taker->sink.samples(part, pass, std::chrono::milliseconds(0))) continue;
-    taker->dropped_scans = part.lost + part.scans();
-    taker->lost += part.scans();
-    ++taker->dropped;
+  for (const auto& axis_part : axis_parts_) {
+    SampleBlock& part = axis_part->block;
+    take_part(block, axis_part->spec.part, part);
+    part.lost += std::exchange(axis_part->dropped_scans, 0);
+    if (axis_part->sink.samples(part, pass, std::chrono::milliseconds(0))) continue;
+    axis_part->dropped_scans = part.lost + part.scans();
+    axis_part->lost += part.scans();
+    ++axis_part->dropped;
   }
 }
 
 // ---- main thread ----
 
-void SharedDevice::join(const std::shared_ptr<Taker>& taker) {
+void SharedDevice::join(const std::shared_ptr<AxisPart>& axis_part) {
   {
     const std::lock_guard lock(mutex_);
-    taker->ceased = false;
-    if (std::find(takers_.begin(), takers_.end(), taker) == takers_.end()) takers_.push_back(taker);
-    if (takers_.size() > 1) return;
+    axis_part->asked_to_stop = false;
+    if (std::find(axis_parts_.begin(), axis_parts_.end(), axis_part) == axis_parts_.end())
+      axis_parts_.push_back(axis_part);
+    if (axis_parts_.size() > 1) return;
   }
   acquisition_.start();
 }
 
 // The mutex is released before joining, because the thread may wait for it.
-void SharedDevice::leave(const std::shared_ptr<Taker>& taker) {
+void SharedDevice::leave(const std::shared_ptr<AxisPart>& axis_part) {
   {
     const std::lock_guard lock(mutex_);
-    if (std::erase(takers_, taker) == 0 || !takers_.empty()) return;
+    if (std::erase(axis_parts_, axis_part) == 0 || !axis_parts_.empty()) return;
   }
   acquisition_.stop();
 }
 
-void SharedDevice::request_stop(Taker& taker) {
+void SharedDevice::request_stop(AxisPart& axis_part) {
   const std::lock_guard lock(mutex_);
-  taker.ceased = true;
-  if (std::all_of(takers_.begin(), takers_.end(), [](const auto& t) { return t->ceased; }))
+  axis_part.asked_to_stop = true;
+  if (std::all_of(axis_parts_.begin(), axis_parts_.end(),
+                  [](const auto& t) { return t->asked_to_stop; }))
     acquisition_.request_stop();
 }
 
-DeviceStatus SharedDevice::status_of(const Taker& taker) const {
+DeviceStatus SharedDevice::status_of(const AxisPart& axis_part) const {
   DeviceStatus status = acquisition_.status();
-  const Part& part = taker.spec.part;
+  const Part& part = axis_part.spec.part;
   status.info.channels = drivers::channels_for_axis(std::move(status.info.channels), part);
   std::erase_if(status.standing, [&](const Trouble& trouble) {
     return !trouble.channel.empty() && !part.contains(trouble.channel);
   });
   const std::lock_guard lock(mutex_);
-  status.lost += taker.lost;
-  status.dropped += taker.dropped;
+  status.lost += axis_part.lost;
+  status.dropped += axis_part.dropped;
   return status;
 }
 
@@ -164,7 +167,7 @@ std::unique_ptr<DeviceReader> SharedDevices::part(const drivers::DriverSpec& spe
   return std::make_unique<DevicePart>(std::move(device), spec, std::move(sink));
 }
 
-std::string same_probes(const AxisConfig& a, const AxisConfig& b) {
+std::string shared_probes_device(const AxisConfig& a, const AxisConfig& b) {
   for (const auto& one : a.devices)
     for (const auto& other : b.devices)
       for (const auto& [channel, id] : one.part)

@@ -27,24 +27,25 @@ class SharedDevice {
  private:
   friend class DevicePart;
   // The part of one axis, as seen by the acquisition thread.
-  struct Taker {
+  struct AxisPart {
     drivers::DriverSpec spec;
     DeviceSink sink;
     SampleBlock block;  // memory for its part of the next block
-    bool ceased = false;
+    bool asked_to_stop = false;
     std::uint64_t dropped_scans = 0;      // reported with the next block
     std::uint64_t dropped = 0, lost = 0;  // blocks and scans, as in DeviceStatus
   };
-  DeviceSink fan_out();
+  DeviceSink sink_for_all_axes();
   void distribute_block(const SampleBlock& block, std::uint64_t pass);
-  void join(const std::shared_ptr<Taker>& taker);
-  void leave(const std::shared_ptr<Taker>& taker);
-  void request_stop(Taker& taker);
-  DeviceStatus status_of(const Taker& taker) const;
+  void join(const std::shared_ptr<AxisPart>& axis_part);
+  void leave(const std::shared_ptr<AxisPart>& axis_part);
+  void request_stop(AxisPart& axis_part);
+  DeviceStatus status_of(const AxisPart& axis_part) const;
 
   mutable std::mutex mutex_;
-  std::vector<std::shared_ptr<Taker>> takers_;  // protected by mutex_, including their content
-  Acquisition acquisition_;                     // destroyed first
+  std::vector<std::shared_ptr<AxisPart>>
+      axis_parts_;           // protected by mutex_, including their content
+  Acquisition acquisition_;  // destroyed first
 };
 
 // The devices that several axes share, by name. A device is created with its first part and
@@ -59,6 +60,6 @@ class SharedDevices {
 
 // The name of a device that gives both axes the same probes, so that only one of them can be
 // measured at a time. "": none.
-std::string same_probes(const AxisConfig& a, const AxisConfig& b);
+std::string shared_probes_device(const AxisConfig& a, const AxisConfig& b);
 
 }  // namespace mdof::daemon

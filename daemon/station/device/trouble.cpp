@@ -101,7 +101,7 @@ std::string trouble_json(Axis axis, std::int64_t run, const Trouble& trouble) {
 
 void TroubleLog::add(const Trouble& trouble) {
   if (!devices_.contains(trouble.device)) order_.push_back(trouble.device);
-  Story& story = devices_[trouble.device][trouble.kind];
+  RepeatedTrouble& story = devices_[trouble.device][trouble.kind];
   if (story.times++ == 0) story.first = trouble;
   story.last = trouble;
 }

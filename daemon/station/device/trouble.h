@@ -49,12 +49,12 @@ class TroubleLog {
   Notices summary() const;
 
  private:
-  struct Story {
+  struct RepeatedTrouble {
     Trouble first, last;
     std::size_t times = 0;
   };
   std::vector<std::string> order_;  // devices in order of their first trouble
-  std::map<std::string, std::map<Trouble::Kind, Story>> devices_;
+  std::map<std::string, std::map<Trouble::Kind, RepeatedTrouble>> devices_;
 };
 
 // Limits a stream of lines for the journal: of lines with the same key it admits one per interval,

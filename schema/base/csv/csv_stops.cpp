@@ -111,7 +111,7 @@ MDOF_AVX512 Out append_all_avx512(std::string_view text, Out out) {
 #endif
 
 using AppendAll = Out (*)(std::string_view, Out);
-AppendAll append_all_of(InstructionSet set) {
+AppendAll append_all_function(InstructionSet set) {
 #if defined(__x86_64__)
   if (has_avx512(set)) return append_all_avx512;
 #endif
@@ -129,7 +129,7 @@ void find_stops(std::string_view text, CsvStops& stops, InstructionSet set) {
   }
   stops.at[0] = static_cast<std::uint32_t>(-1);
   stops.byte[0] = '\n';
-  const Out end = append_all_of(set)(text, {stops.at.get() + 1, stops.byte.get() + 1});
+  const Out end = append_all_function(set)(text, {stops.at.get() + 1, stops.byte.get() + 1});
   stops.count = static_cast<std::size_t>(end.at - stops.at.get());
 }
 

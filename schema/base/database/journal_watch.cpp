@@ -26,7 +26,7 @@ constexpr int kShmRegion = 32 * 1024;  // bytes that SQLite maps at once
 // Regions of -shm files that SQLite has mapped. A signal handler reads them, so they need neither
 // locks nor allocation.
 std::array<std::atomic<void*>, 4096> mapped;
-std::atomic<bool> shm_was_cut{false};
+std::atomic<bool> shm_was_truncated{false};
 static_assert(std::atomic<void*>::is_always_lock_free);
 
 void note_mapped(void* region) {
@@ -38,7 +38,7 @@ void note_mapped(void* region) {
 
 // Replaces the region by bytes 0xff: no checksum of a header matches and no search in a hash table
 // ends (SQLITE_CORRUPT). The replacement is one step, so that no thread sees an empty table.
-void replace_by_damage(void* region) {
+void replace_by_invalid_bytes(void* region) {
   void* damage =
       ::mmap(nullptr, kShmRegion, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (damage == MAP_FAILED) return;
@@ -57,16 +57,16 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
     ::signal(signal, SIG_DFL);  // another fault: the signal occurs again and ends the process
     return;
   }
-  shm_was_cut = true;
+  shm_was_truncated = true;
   for (const auto& place : mapped)
-    if (void* region = place.load()) replace_by_damage(region);
+    if (void* region = place.load()) replace_by_invalid_bytes(region);
   errno = before;
 }
 
-sqlite3_io_methods noting_methods;                 // the real methods, except for xShmMap
+sqlite3_io_methods watching_methods;               // the real methods, except for xShmMap
 const sqlite3_io_methods* real_methods = nullptr;  // for a database on an ordinary disk
 
-int map_and_note(sqlite3_file* file, int page, int size, int extend, void volatile** region) {
+int map_and_record(sqlite3_file* file, int page, int size, int extend, void volatile** region) {
   const int code = real_methods->xShmMap(file, page, size, extend, region);
   if (code == SQLITE_OK && *region && size == kShmRegion) note_mapped(const_cast<void*>(*region));
   return code;
@@ -80,11 +80,11 @@ int open_guarded(sqlite3_vfs*, const char* name, sqlite3_file* file, int flags, 
   if (!file->pMethods || !(flags & SQLITE_OPEN_MAIN_DB)) return code;
   static const bool once = [file] {
     real_methods = file->pMethods;
-    noting_methods = *real_methods;
-    noting_methods.xShmMap = map_and_note;
+    watching_methods = *real_methods;
+    watching_methods.xShmMap = map_and_record;
     return true;
   }();
-  if (once && file->pMethods == real_methods) file->pMethods = &noting_methods;
+  if (once && file->pMethods == real_methods) file->pMethods = &watching_methods;
   return code;
 }
 
@@ -133,10 +133,10 @@ void guard_files() {
 }
 
 namespace {
-[[maybe_unused]] const bool guarded_from_the_start = (guard_files(), true);
+[[maybe_unused]] const bool guard_installed = (guard_files(), true);
 }
 
-void survive_cut_shm() {
+void survive_truncated_shm() {
   struct sigaction action {};
   action.sa_sigaction = on_bus_error;
   action.sa_flags = SA_SIGINFO | SA_NODEFER;
@@ -168,7 +168,7 @@ const std::string& JournalWatch::fault() {
     note(shm_.string() + " was deleted", false);
   else if (now != shm_identity_)
     note(shm_.string() + " was replaced by another file", false);
-  else if (bytes < kShmRegion || shm_was_cut)
+  else if (bytes < kShmRegion || shm_was_truncated)
     note(shm_.string() + " was cut short", false);
   else if (!identify(wal_, now, bytes))
     note(wal_.string() + " was deleted", false);

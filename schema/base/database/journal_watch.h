@@ -24,7 +24,7 @@ void guard_files();
 // From now on a truncated -shm file does not end this process by SIGBUS. Its mapped regions are
 // replaced by memory in which SQLite detects damage (SQLITE_CORRUPT) and finds no outdated page,
 // and each JournalWatch reports a fault. For a daemon, before its threads start.
-void survive_cut_shm();
+void survive_truncated_shm();
 
 // Thread-bound, as the connection is.
 class JournalWatch {

@@ -27,10 +27,10 @@ using Doubles = hn::Vec<decltype(df)>;
 
 // A number, as bits, for each place i of the point (place_of_point()): for 31 - i digits after a
 // point at i; entry 0: no point.
-using OfPlace = std::array<std::uint64_t, 32>;
+using PlaceTable = std::array<std::uint64_t, 32>;
 template <class Function>
-constexpr OfPlace make_table(int most_digits, std::uint64_t beyond, Function of_digits) {
-  OfPlace table{};
+constexpr PlaceTable make_table(int most_digits, std::uint64_t beyond, Function of_digits) {
+  PlaceTable table{};
   for (int i = 0; i < 32; ++i) {
     const int digits = i == 0 ? 0 : 31 - i;
     table[static_cast<std::size_t>(i)] = digits > most_digits ? beyond : of_digits(digits);
@@ -38,19 +38,19 @@ constexpr OfPlace make_table(int most_digits, std::uint64_t beyond, Function of_
   return table;
 }
 // 0 / 0 is NaN and therefore counts as undecided
-constexpr OfPlace kPower = make_table(kLargestExactPower, 0, [](int digits) {
+constexpr PlaceTable kPower = make_table(kLargestExactPower, 0, [](int digits) {
   return std::bit_cast<std::uint64_t>(kExactPowers[digits]);
 });
-constexpr OfPlace kInversePower = make_table(kLargestExactPower, 0, [](int digits) {
+constexpr PlaceTable kInversePower = make_table(kLargestExactPower, 0, [](int digits) {
   return std::bit_cast<std::uint64_t>(1 / kExactPowers[digits]);
 });
 // Nanoseconds of one unit of the last digit. With too many digits: a bit in the upper half, which
 // is detected.
-constexpr OfPlace kNanoseconds =
+constexpr PlaceTable kNanoseconds =
     make_table(9, std::uint64_t{1} << 63, [](int digits) { return kPowersOfTen[9 - digits]; });
 
 // No gather instructions: on many processors they are slower than this.
-HWY_INLINE Longs look_up(const OfPlace& table, Longs place) {
+HWY_INLINE Longs look_up(const PlaceTable& table, Longs place) {
 #if HWY_TARGET == HWY_AVX2
   alignas(32) std::uint64_t i[4];
   hn::Store(place, d64, i);
@@ -67,7 +67,7 @@ HWY_INLINE Longs look_up(const OfPlace& table, Longs place) {
                         sixteen(table.data()));
 #endif
 }
-HWY_INLINE Doubles look_up_double(const OfPlace& table, Longs place) {
+HWY_INLINE Doubles look_up_double(const PlaceTable& table, Longs place) {
   return hn::BitCast(df, look_up(table, place));
 }
 

@@ -138,7 +138,7 @@ HWY_INLINE void split(Longs digits, std::size_t at, EightDigits& out) {
 }
 
 // Digits of the numbers from x[at] on; returns the bits of the undecided numbers.
-HWY_INLINE unsigned find_some_digits(const double* x, std::size_t at, EightDigits& out) {
+HWY_INLINE unsigned find_vector_digits(const double* x, std::size_t at, EightDigits& out) {
   const Longs bits = hn::BitCast(d64, hn::LoadU(hn::ScalableTag<double>(), x + at));
   const Longs biased = hn::And(hn::ShiftRight<52>(bits), hn::Set(d64, 0x7ff));
   const auto in_range = hn::Lt(hn::Sub(biased, hn::Set(d64, kDoubleBias + kLeastExponent)),
@@ -160,7 +160,7 @@ HWY_INLINE unsigned find_some_digits(const double* x, std::size_t at, EightDigit
 
 unsigned find_eight_digits(const double* x, EightDigits& digits) {
   unsigned undecided = 0;
-  for (std::size_t at = 0; at < 8; at += kNumbers) undecided |= find_some_digits(x, at, digits);
+  for (std::size_t at = 0; at < 8; at += kNumbers) undecided |= find_vector_digits(x, at, digits);
   return undecided;
 }
 

@@ -85,7 +85,7 @@ class DepthScan {
 
 }  // namespace
 
-std::optional<std::size_t> toml_line_deeper_than(std::string_view text, std::size_t bound) {
+std::optional<std::size_t> toml_line_over_depth(std::string_view text, std::size_t bound) {
   return DepthScan(text, bound).line_too_deep();
 }
 

@@ -13,6 +13,6 @@ inline constexpr std::size_t kMaxTomlDepth = 32;  // deeper than any document th
 
 // The first line (1, 2, ...) where the depth exceeds `bound`; nullopt: none. The depth is the
 // number of open brackets and braces plus the dots of the keys before a value.
-std::optional<std::size_t> toml_line_deeper_than(std::string_view text, std::size_t bound);
+std::optional<std::size_t> toml_line_over_depth(std::string_view text, std::size_t bound);
 
 }  // namespace mdof

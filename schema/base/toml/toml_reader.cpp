@@ -82,7 +82,7 @@ TomlTable::TomlTable(std::shared_ptr<Document> document, std::shared_ptr<Node> n
     : document_(std::move(document)), node_(std::move(node)) {}
 
 Result<TomlTable> TomlTable::parse(std::string_view text, const std::string& source_name) {
-  if (const auto line = toml_line_deeper_than(text, kMaxTomlDepth))
+  if (const auto line = toml_line_over_depth(text, kMaxTomlDepth))
     return bad_input(source_name + ":" + std::to_string(*line) + ": nested more than " +
                      std::to_string(kMaxTomlDepth) +
                      " levels deep by dotted keys or brackets; use fewer levels");

@@ -165,7 +165,7 @@ Status check_rig(const Rig& rig) {
   return {};
 }
 
-Notices doubtful_values(const Rig& rig) {
+Notices unusual_values(const Rig& rig) {
   Notices found;
   for (const Finding& finding : findings_of(rig))
     if (!finding.impossible)

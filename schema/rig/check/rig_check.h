@@ -15,6 +15,6 @@ namespace mdof {
 Status check_rig(const Rig& rig);
 
 // Unusual numbers, each with file, line and key, for the user of this rig.
-Notices doubtful_values(const Rig& rig);
+Notices unusual_values(const Rig& rig);
 
 }  // namespace mdof

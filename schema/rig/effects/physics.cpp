@@ -169,7 +169,7 @@ const std::array<AirQuantity, kAirQuantities>& air_quantities() {
   return kQuantities;
 }
 
-bool RigPhysics::knows_air() const {
+bool RigPhysics::has_known_air_effect() const {
   return air && std::all_of(probes.begin(), probes.end(),
                             [](const ProbePhysics& p) { return p.standoff_m > 0; });
 }

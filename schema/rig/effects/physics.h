@@ -72,7 +72,7 @@ struct RigPhysics {
 
   bool corrects() const { return tilt || dielectric; }
   // Standoffs and air are known, so the effect of the air is known, whether it is corrected or not.
-  bool knows_air() const;
+  bool has_known_air_effect() const;
 };
 
 // Reads all these keys into `rig.physics`, for parse_rig(), after the probes have their
@@ -85,7 +85,7 @@ std::vector<std::string> undeclared_physics(const Rig& rig);
 bool declares_physics(const Rig& rig);
 
 // Columns that a correction requires in a log: "humidity_percent".
-std::vector<std::string> columns_of_air(const Rig& rig);
+std::vector<std::string> air_columns(const Rig& rig);
 
 // Value that the calibration adds to a reading (Calibration in rig.h), µm; beyond a table its end
 // value.

@@ -43,7 +43,7 @@ std::vector<std::string> undeclared_physics(const Rig& rig) {
   if (any_probe(physics,
                 [&](const ProbePhysics& p) { return p.tilts() && !p.u_tilt_factor.known(); }))
     keys.emplace_back("u_tilt_factor");
-  if (physics.knows_air())
+  if (physics.has_known_air_effect())
     add_undeclared_air(physics, keys);
   else
     keys.emplace_back("[air]");
@@ -54,10 +54,10 @@ bool declares_physics(const Rig& rig) {
   if (!rig.physics) return false;
   const auto adds = [](const ProbePhysics& p) { return p.tilts() || p.u_linearity.declared(); };
   return any_probe(*rig.physics, adds) || has_removed_linearity(*rig.physics) ||
-         rig.physics->knows_air();
+         rig.physics->has_known_air_effect();
 }
 
-std::vector<std::string> columns_of_air(const Rig& rig) {
+std::vector<std::string> air_columns(const Rig& rig) {
   std::vector<std::string> columns;
   if (!rig.physics || !rig.physics->dielectric) return columns;
   for (std::size_t q = 0; q < kAirQuantities; ++q)

@@ -245,10 +245,10 @@ TEST(CertifiedProbe, CorrectsTheScaleOnlyOnce) {
   expect_rows(with_rig_scale->probe.linearity, {{-80, 0}, {0, 0}, {80, 0}});
   EXPECT_TRUE(has(with_rig_scale->taken, {"certified_readings_converted from_um_per_V=20 "}));
   // Read with the scale of the certificate: within 3 u (48 nm at 80 um) nothing is converted.
-  const auto with_own_scale = found(20, 79.97);
-  ASSERT_TRUE(with_own_scale) << with_own_scale.error().message;
-  expect_rows(with_own_scale->probe.linearity, {{-79.97, -0.03}, {0, 0}, {79.97, 0.03}});
-  EXPECT_FALSE(has(with_own_scale->taken, {"certified_readings_converted"}));
+  const auto found_with_scale = found(20, 79.97);
+  ASSERT_TRUE(found_with_scale) << found_with_scale.error().message;
+  expect_rows(found_with_scale->probe.linearity, {{-79.97, -0.03}, {0, 0}, {79.97, 0.03}});
+  EXPECT_FALSE(has(found_with_scale->taken, {"certified_readings_converted"}));
   // Readings that match neither scale.
   for (const std::optional<double> um_per_V : {std::optional<double>(), {20.04}, {20.1}})
     EXPECT_TRUE(refused(found(um_per_V, 79.84), {"c.xml:31: ", "scale twice", "\"B\" in r.toml"}));
@@ -270,10 +270,10 @@ TEST(CertifiedProbe, ReadsTableOfReferenceValues) {
   EXPECT_NEAR(both->facts.u_linearity_m, std::sqrt(41.0) * 1e-8, 1e-18);
   EXPECT_TRUE(has(both->taken, {"corrections=3", "ref_type=basic_referenceValue"}));
   EXPECT_EQ(both->not_taken.size(), 1u);
-  const auto of_readings = found(u_read, {});
-  ASSERT_TRUE(of_readings) << of_readings.error().message;
-  EXPECT_NEAR(of_readings->facts.u_linearity_m, 5e-8, 1e-18);
-  EXPECT_TRUE(has(of_readings->not_taken, {"u_not_certified", "ref_type=basic_referenceValue"}));
+  const auto from_readings = found(u_read, {});
+  ASSERT_TRUE(from_readings) << from_readings.error().message;
+  EXPECT_NEAR(from_readings->facts.u_linearity_m, 5e-8, 1e-18);
+  EXPECT_TRUE(has(from_readings->not_taken, {"u_not_certified", "ref_type=basic_referenceValue"}));
   const auto of_x = found({}, u_x);
   ASSERT_TRUE(of_x) << of_x.error().message;
   EXPECT_NEAR(of_x->facts.u_linearity_m, 5e-8, 1e-18);
@@ -287,10 +287,10 @@ TEST(CertifiedProbe, ErrorsWithoutUTakeUOfTheReadings) {
     return of_b(rig_of(std::nullopt, 0), certificate({}, {{measured(kMetre, {4e-6, 9e-6}, u_read),
                                                            error(kMetre, {0.2e-6, 0.5e-6})}}));
   };
-  const auto of_readings = found({6e-8, 2e-8});
-  ASSERT_TRUE(of_readings) << of_readings.error().message;
-  EXPECT_NEAR(of_readings->facts.u_linearity_m, 6e-8, 1e-18);
-  EXPECT_TRUE(has(of_readings->not_taken, {"u_not_certified", "ref_type=basic_referenceValue"}));
+  const auto from_readings = found({6e-8, 2e-8});
+  ASSERT_TRUE(from_readings) << from_readings.error().message;
+  EXPECT_NEAR(from_readings->facts.u_linearity_m, 6e-8, 1e-18);
+  EXPECT_TRUE(has(from_readings->not_taken, {"u_not_certified", "ref_type=basic_referenceValue"}));
   EXPECT_TRUE(refused(found({}), {"c.xml:47: ", "table", "no uncertainty"}));
 }
 

@@ -11,7 +11,7 @@ namespace mdof::algo {
 namespace {
 
 // A, B and C face one plane, D and E another; all positions are known with u = 20 um.
-MountingModel model_of_two_planes() {
+MountingModel two_plane_model() {
   Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 300");
   for (Probe& probe : rig.probes) probe.uncertainty.position.u = {20e-6, 20e-6, 20e-6};
   return MountingModel::create(rig, {}).value();
@@ -39,7 +39,7 @@ Eigen::VectorXd together(const MountingModel& model, const std::vector<std::size
 }
 
 TEST(MountingView, NamesAProbeRelativeToTheOthers) {
-  const MountingModel model = model_of_two_planes();
+  const MountingModel model = two_plane_model();
   const auto sentences = [&](std::size_t probe, MountingUnknown which) {
     const Unseen unseen = named(model, {unit(model, probe, which)});
     EXPECT_EQ(unseen.apart.cols(), 1);
@@ -68,7 +68,7 @@ TEST(MountingView, NamesAProbeRelativeToTheOthers) {
 }
 
 TEST(MountingView, NamesProbesOfAPlaneTogether) {
-  const MountingModel model = model_of_two_planes();
+  const MountingModel model = two_plane_model();
   const Unseen both =
       named(model, {together(model, {3, 4}, kPlace1), together(model, {3, 4}, kPlace2)});
   // Two positions with u = 20 um each have a mean with u = 20 um / sqrt(2).

@@ -97,8 +97,8 @@ CompensationTable table_of(const RandomAxis& axis, std::size_t targets, double n
 
 struct Coverage {
   double at_targets = 0, between = 0, without = 0;  // %; without: with u of the targets alone
-  double rms = 0;    // root mean square of error / u between the targets
-  double of_95 = 0;  // 95 % of error / u between the targets are smaller
+  double rms = 0;                  // root mean square of error / u between the targets
+  double ratio_percentile_95 = 0;  // 95 % of error / u between the targets are smaller
 };
 
 Coverage coverage(const Draw& draw, std::size_t targets, double noise_m) {
@@ -148,7 +148,8 @@ TEST(BetweenTargets, AnIntervalHoldsTheTruthOfARandomAxis) {
     std::printf(
         "%-24s %2zu targets: %.1f %% at, %.1f %% between, %.1f %% without, errors %.2f u, 95 %% "
         "of them below %.2f u\n",
-        c.name, c.targets, found.at_targets, found.between, found.without, found.rms, found.of_95);
+        c.name, c.targets, found.at_targets, found.between, found.without, found.rms,
+        found.ratio_percentile_95);
     EXPECT_GE(found.at_targets, 94);
     EXPECT_LE(found.at_targets, 96.5);
     EXPECT_GE(found.between, 92.5);

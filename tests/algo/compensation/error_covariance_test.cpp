@@ -33,7 +33,7 @@ struct Case {
 };
 
 // EYX is a parabola. `noise`: u of all values by noise.
-Case made_of(const Rig& rig, double noise) {
+Case make_error_case(const Rig& rig, double noise) {
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
   const std::vector<Run> runs{synthetic.measure()};
@@ -49,7 +49,7 @@ Case made_of(const Rig& rig, double noise) {
 }
 
 TEST(ErrorCovariance, EqualNoiseGivesTheFixtureCorrelations) {
-  const Case c = made_of(test::rig_x_with("", ""), 1e-9);
+  const Case c = make_error_case(test::rig_x_with("", ""), 1e-9);
   const std::size_t row = 2;
   // Straightness is as measured and angles refer to the first target: this reduces the correlation
   // between straightness and angles by 1/sqrt(2).
@@ -70,13 +70,13 @@ TEST(ErrorCovariance, EqualNoiseGivesTheFixtureCorrelations) {
 
 // A scale error s of D changes EYX by s D and ECX by -s (D - D0) / 10 mm. At x = 10 mm both cancel.
 TEST(ErrorCovariance, ErrorOfOneProbeCorrelatesTheErrors) {
-  const Case c = made_of(test::rig_x_with("D", "u_sensitivity_ppm = 1000"), 0);
+  const Case c = make_error_case(test::rig_x_with("D", "u_sensitivity_ppm = 1000"), 0);
   const std::size_t last = c.table.position_m.size() - 1;
   ASSERT_GT(c.table.u_declared[kEYXIndex][last], 1e-9);
   EXPECT_NEAR(c.of(kEYXIndex, kECXIndex, last), -1, 1e-9);
   const Eigen::Vector3d beside(10e-3, 0, 0);
   const auto u = [&](const ErrorCovariances& together) {
-    return test::u_of_tool(test::machine_of(c.table, beside, together), c.table, last).y();
+    return test::tool_uncertainty(test::machine_of(c.table, beside, together), c.table, last).y();
   };
   const double alone = c.table.u_declared[kEYXIndex][last];
   EXPECT_NEAR(u({}), std::sqrt(2.0) * alone, 1e-3 * alone);

@@ -92,7 +92,7 @@ Command command_at_row(const std::vector<BuiltFrom>& tables) {
   return {tables[0].table.position_m[kRow], tables[1].table.position_m[kRow]};
 }
 
-Eigen::Vector3d tool_of(const std::vector<BuiltFrom>& tables) {
+Eigen::Vector3d tool_error_at_row(const std::vector<BuiltFrom>& tables) {
   const Machine machine = both_axes(tables);
   return tool_error(machine, command_at_row(tables), MachineApproach::forward).exact.head<3>();
 }
@@ -100,7 +100,8 @@ Eigen::Vector3d tool_of(const std::vector<BuiltFrom>& tables) {
 TEST(SharedQuantities, CommonProbeMovesTheToolThroughBothAxes) {
   const std::vector<BuiltFrom> tables = {built(Axis::x, 0), built(Axis::y, 0)};
   const Eigen::Vector3d moved =
-      (tool_of({built(Axis::x, 1e-3), built(Axis::y, 1e-3)}) - tool_of(tables)).cwiseAbs();
+      (tool_error_at_row({built(Axis::x, 1e-3), built(Axis::y, 1e-3)}) - tool_error_at_row(tables))
+          .cwiseAbs();
   Machine machine = both_axes(tables);
   ASSERT_EQ(machine.frames[0].covariance.shared.size(), 1u);
   EXPECT_EQ(machine.frames[1].covariance.shared[0].name, "probe B: sensitivity");

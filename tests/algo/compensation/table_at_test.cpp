@@ -115,8 +115,8 @@ TEST(TableAt, UIsLinearBetweenTargets) {
 TEST(TableAt, UIsContinuousAtTargets) {
   const CompensationTable table = table_with_u();
   for (const double target_m : table.position_m)
-    for (const double beside_m : {-1e-9, 1e-9})
-      EXPECT_NEAR(table_at(table, target_m + beside_m, TableSide::forward).u[1],
+    for (const double small_offset_m : {-1e-9, 1e-9})
+      EXPECT_NEAR(table_at(table, target_m + small_offset_m, TableSide::forward).u[1],
                   table_at(table, target_m, TableSide::forward).u[1], 1e-14)
           << target_m;
 }

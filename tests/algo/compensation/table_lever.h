@@ -61,8 +61,8 @@ inline Machine machine_of(const CompensationTable& table, const Eigen::Vector3d&
 }
 
 // u of the tool position at the axis position of a row.
-inline Eigen::Vector3d u_of_tool(const Machine& machine, const CompensationTable& table,
-                                 std::size_t row) {
+inline Eigen::Vector3d tool_uncertainty(const Machine& machine, const CompensationTable& table,
+                                        std::size_t row) {
   algo::Command command{};
   command[machine.frames.front().direction] = table.position_m[row];
   return algo::tool_error(machine, command, algo::MachineApproach::forward).u.head<3>();

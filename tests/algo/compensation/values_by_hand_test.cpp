@@ -37,8 +37,8 @@ std::vector<MeasuredPoint> table_visits() {
   return points;
 }
 
-SeriesOfErrors u_by_hand(const std::vector<MeasuredPoint>& points, Approach approach,
-                         const std::vector<Reference>& target_references) {
+SeriesOfErrors expected_series_u(const std::vector<MeasuredPoint>& points, Approach approach,
+                                 const std::vector<Reference>& target_references) {
   const MovingAxis x;
   std::array<std::vector<Reference>, kErrorCount> references;
   references.fill(target_references);
@@ -69,19 +69,19 @@ TEST(TableUncertaintyByHand, ValuesAsMeasured) {
   const std::vector<Reference> none(3, as_measured(3));
   const double forward = kMeanVarianceForward + kLevelForward,
                reverse = kMeanVarianceReverse + kLevelReverse;
-  expect_u(u_by_hand(table_visits(), Approach::forward, none), {forward, forward, forward});
-  expect_u(u_by_hand(table_visits(), Approach::reverse, none), {reverse, reverse, reverse});
+  expect_u(expected_series_u(table_visits(), Approach::forward, none), {forward, forward, forward});
+  expect_u(expected_series_u(table_visits(), Approach::reverse, none), {reverse, reverse, reverse});
 }
 
 // The mean of both directions at the start has half of each.
 TEST(TableUncertaintyByHand, ValuesReferredToTheStart) {
   const std::vector<Reference> from_start(3, Reference{1, 0, 0});
-  const double of_start = (kMeanVarianceForward + kMeanVarianceReverse) / 4;
-  const auto later = [&](double own) { return own + of_start + kApart; };
-  expect_u(u_by_hand(table_visits(), Approach::forward, from_start),
-           {of_start + kApart, later(kMeanVarianceForward), later(kMeanVarianceForward)});
-  expect_u(u_by_hand(table_visits(), Approach::reverse, from_start),
-           {of_start + kApart, later(kMeanVarianceReverse), later(kMeanVarianceReverse)});
+  const double start_variance = (kMeanVarianceForward + kMeanVarianceReverse) / 4;
+  const auto later = [&](double own) { return own + start_variance + kApart; };
+  expect_u(expected_series_u(table_visits(), Approach::forward, from_start),
+           {start_variance + kApart, later(kMeanVarianceForward), later(kMeanVarianceForward)});
+  expect_u(expected_series_u(table_visits(), Approach::reverse, from_start),
+           {start_variance + kApart, later(kMeanVarianceReverse), later(kMeanVarianceReverse)});
 }
 
 // Each visit twice: twice the squares and 12 - 3 - 1 degrees of freedom give half the variance; a
@@ -92,9 +92,10 @@ TEST(TableUncertaintyByHand, VisitsOfARunAreAveraged) {
   points.insert(points.end(), once.begin(), once.end());
   const std::vector<Reference> from_start(3, Reference{1, 0, 0});
   const double forward = kMeanVarianceForward / 4,
-               of_start = (kMeanVarianceForward + kMeanVarianceReverse) / 16;
-  expect_u(u_by_hand(points, Approach::forward, from_start),
-           {of_start + kApart, forward + of_start + kApart, forward + of_start + kApart});
+               start_variance = (kMeanVarianceForward + kMeanVarianceReverse) / 16;
+  expect_u(expected_series_u(points, Approach::forward, from_start),
+           {start_variance + kApart, forward + start_variance + kApart,
+            forward + start_variance + kApart});
 }
 
 // The line has the weights 5/6, 1/3 and -1/6 at the first target, 1/3 each in the middle.
@@ -113,7 +114,7 @@ TEST(TableUncertaintyByHand, ValuesReferredToTheLine) {
     }
     variances.push_back(variance);
   }
-  expect_u(u_by_hand(table_visits(), Approach::forward, line), variances);
+  expect_u(expected_series_u(table_visits(), Approach::forward, line), variances);
 }
 
 // With one direction only, the mean is that of this direction, and there is no difference of
@@ -122,10 +123,10 @@ TEST(TableUncertaintyByHand, OneDirectionOnly) {
   auto points = table_visits();
   std::erase_if(points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
   const auto against_start =
-      u_by_hand(points, Approach::forward, std::vector<Reference>(3, Reference{1, 0, 0}));
+      expected_series_u(points, Approach::forward, std::vector<Reference>(3, Reference{1, 0, 0}));
   expect_u(against_start, {0, 2 * kMeanVarianceForward, 2 * kMeanVarianceForward});
   const auto back =
-      u_by_hand(points, Approach::reverse, std::vector<Reference>(3, Reference{1, 0, 0}));
+      expected_series_u(points, Approach::reverse, std::vector<Reference>(3, Reference{1, 0, 0}));
   for (const auto& of_error : back)
     for (const double u : of_error) EXPECT_TRUE(std::isnan(u));
 }
@@ -137,10 +138,11 @@ TEST(TableUncertaintyByHand, SingleRunHasItsNoiseOnly) {
   for (MeasuredPoint& p : points)
     for (std::size_t k = 0; k < 5; ++k)
       p.errors.covariance[6 * k] = static_cast<double>((k + 1) * (k + 1)) * 0.25;
-  expect_u(u_by_hand(points, Approach::reverse, std::vector<Reference>(3, as_measured(3))),
+  expect_u(expected_series_u(points, Approach::reverse, std::vector<Reference>(3, as_measured(3))),
            {0.25, 0.25, 0.25});
-  expect_u(u_by_hand(points, Approach::forward, std::vector<Reference>(3, Reference{1, 0, 0})),
-           {0.25 * (0.25 + 0.25), 0.25 * 1.5, 0.25 * 1.5});
+  expect_u(
+      expected_series_u(points, Approach::forward, std::vector<Reference>(3, Reference{1, 0, 0})),
+      {0.25 * (0.25 + 0.25), 0.25 * 1.5, 0.25 * 1.5});
 }
 
 constexpr double kMissingTableValue = std::numeric_limits<double>::quiet_NaN();
@@ -148,8 +150,8 @@ using Series = std::vector<double>;
 
 // Square of the second derivative of the parabola through three values, by divided differences,
 // less the contribution of their u.
-double square_of_curvature(const Series& x, const Series& y, const Series& u, std::size_t a,
-                           std::size_t b, std::size_t c) {
+double squared_curvature(const Series& x, const Series& y, const Series& u, std::size_t a,
+                         std::size_t b, std::size_t c) {
   const auto bend = [&](double ya, double yb, double yc) {
     return 2 * ((yc - yb) / (x[c] - x[b]) - (yb - ya) / (x[b] - x[a])) / (x[c] - x[a]);
   };
@@ -160,7 +162,7 @@ double square_of_curvature(const Series& x, const Series& y, const Series& u, st
 double mean_squared_curvature(const Series& x, const Series& y, const Series& u, std::size_t step) {
   double sum = 0, n = 0;
   for (std::size_t i = step; i + step < x.size(); ++i, n += 1)
-    sum += square_of_curvature(x, y, u, i - step, i, i + step);
+    sum += squared_curvature(x, y, u, i - step, i, i + step);
   return std::max(0.0, sum / n);
 }
 // Between values i and i + 1, by algo/README.md: the values i - 1 to i + 2 are the nearest.
@@ -169,7 +171,7 @@ double expected_curvature(const Series& x, const Series& y, const Series& u, std
   double near = 0, n = 0;
   for (std::size_t at = 1; at + 1 < x.size(); ++at)
     if (at + 1 >= i && at <= i + 2) {
-      near += square_of_curvature(x, y, u, at - 1, at, at + 1);
+      near += squared_curvature(x, y, u, at - 1, at, at + 1);
       n += 1;
     }
   return R * std::sqrt(std::max(0.0, 6 * mean_squared_curvature(x, y, u, 1) + near) / (6 + n));

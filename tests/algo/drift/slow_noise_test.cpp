@@ -164,17 +164,17 @@ TEST(DriftDesignByHand, RowsHaveNoMeansOfPlaces) {
     while (visits[visit].time_s != rows.time_s[r]) ++visit;
     EXPECT_EQ(rows.place[r], visits[visit].place);
     Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(2);
-    Eigen::RowVectorXd mean_of_orders = Eigen::RowVectorXd::Zero(design.orders());
+    Eigen::RowVectorXd order_means = Eigen::RowVectorXd::Zero(design.orders());
     for (std::size_t i = 0; i < 24; ++i)
       if (visits[i].place == visits[visit].place) {
         mean += y.row(static_cast<Eigen::Index>(i)) / 8;
-        mean_of_orders += design.polynomials(visits[i].time_s).transpose() / 8;
+        order_means += design.polynomials(visits[i].time_s).transpose() / 8;
       }
     const auto row = static_cast<Eigen::Index>(r);
     EXPECT_NEAR((rows.y.row(row) - (y.row(static_cast<Eigen::Index>(visit)) - mean)).norm(), 0,
                 1e-10);
     EXPECT_NEAR((rows.polynomials.row(row) -
-                 (design.polynomials(visits[visit].time_s).transpose() - mean_of_orders))
+                 (design.polynomials(visits[visit].time_s).transpose() - order_means))
                     .norm(),
                 0, 1e-10);
   }

@@ -145,8 +145,8 @@ TEST(DftByDefinition, AllLengthsUpToSixty) {
 }
 
 // Passes over 2 x 2 pixels with the wanted height 0.
-CuttingPasses passes_by_hand(std::vector<std::vector<double>> cuts, bool repeated,
-                             CuttingGain gain) {
+CuttingPasses make_cutting_passes(std::vector<std::vector<double>> cuts, bool repeated,
+                                  CuttingGain gain) {
   CuttingPasses passes{small_map(2, 2, {0, 0, 0, 0}), {}, repeated, gain};
   for (std::vector<double>& cut : cuts) passes.cuts.push_back(small_map(2, 2, std::move(cut)));
   return passes;
@@ -156,7 +156,7 @@ CuttingPasses passes_by_hand(std::vector<std::vector<double>> cuts, bool repeate
 // the variance of one pass is 8/4.
 TEST(CuttingByHand, SharesOfTwoRepeatedPasses) {
   const auto found =
-      next_cut(passes_by_hand({{2, -2, 1, -1}, {4, -4, -1, 1}}, true, CuttingGain::one));
+      next_cut(make_cutting_passes({{2, -2, 1, -1}, {4, -4, -1, 1}}, true, CuttingGain::one));
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->error[0].rms_m, std::sqrt(2.5), 1e-12);
   EXPECT_NEAR(found->error[1].rms_m, std::sqrt(8.5), 1e-12);
@@ -169,7 +169,7 @@ TEST(CuttingByHand, SharesOfTwoRepeatedPasses) {
   EXPECT_NEAR(found->next.z_m[2], 1, 1e-12);
   // The piston does not count.
   const auto raised =
-      next_cut(passes_by_hand({{7, 3, 6, 4}, {4, -4, -1, 1}}, true, CuttingGain::mean));
+      next_cut(make_cutting_passes({{7, 3, 6, 4}, {4, -4, -1, 1}}, true, CuttingGain::mean));
   EXPECT_NEAR(*raised->random_rms_m, std::sqrt(2), 1e-12);
   EXPECT_NEAR(raised->next.z_m[0], -(7 + 4) / 2.0, 1e-12);
   EXPECT_NEAR(raised->error[0].mean_m, 5, 1e-12);
@@ -179,13 +179,13 @@ TEST(CuttingByHand, SharesOfTwoRepeatedPasses) {
 // floor of gain 1 is sqrt(6.5), of the mean sqrt(4.875).
 TEST(CuttingByHand, PassesAtTheirFloorDoNotConverge) {
   for (const CuttingGain gain : {CuttingGain::one, CuttingGain::mean}) {
-    const auto found = next_cut(passes_by_hand({{1, -1, 1, -1}, {4, -4, -1, 1}}, true, gain));
+    const auto found = next_cut(make_cutting_passes({{1, -1, 1, -1}, {4, -4, -1, 1}}, true, gain));
     EXPECT_NEAR(*found->floor_mean_m, std::sqrt(4.875), 1e-12);
     EXPECT_FALSE(*found->converges);
   }
   // With a larger repeatable share the mean square of the errors is 6.125, between both floors.
   const auto by = [](CuttingGain gain) {
-    return *next_cut(passes_by_hand({{1.5, -1.5, 1, -1}, {4.5, -4.5, -1, 1}}, true, gain))
+    return *next_cut(make_cutting_passes({{1.5, -1.5, 1, -1}, {4.5, -4.5, -1, 1}}, true, gain))
                 ->converges;
   };
   EXPECT_TRUE(by(CuttingGain::mean));
@@ -196,11 +196,11 @@ TEST(CuttingByHand, PassesAtTheirFloorDoNotConverge) {
 // -1, 1, -1) leave 4, 6 and 9 against their paths with gain 1, and 4, 6 and 8 with the mean.
 TEST(CuttingByHand, PathsOfSuccessivePasses) {
   const std::vector<std::vector<double>> cuts = {{4, -4, 4, -4}, {2, -2, 2, -2}, {3, -3, 3, -3}};
-  const auto one = next_cut(passes_by_hand(cuts, false, CuttingGain::one));
+  const auto one = next_cut(make_cutting_passes(cuts, false, CuttingGain::one));
   EXPECT_NEAR(one->next.z_m[0], -9, 1e-12);
   EXPECT_NEAR(*one->repeatable_rms_m,
               std::sqrt(19 * 19 / 9.0 - (16 + 36 + 81 - 19 * 19 / 3.0) / 2 / 3), 1e-12);
-  const auto mean = next_cut(passes_by_hand(cuts, false, CuttingGain::mean));
+  const auto mean = next_cut(make_cutting_passes(cuts, false, CuttingGain::mean));
   EXPECT_NEAR(mean->next.z_m[0], -6, 1e-12);
   EXPECT_NEAR(*mean->random_rms_m, 2, 1e-12);
   EXPECT_NEAR(*mean->floor_mean_m, 2 * std::sqrt(4 / 3.0), 1e-12);
@@ -212,7 +212,7 @@ TEST(CuttingByHand, ConvergesWhileErrorsStayNearTheBest) {
   const auto of = [](const std::vector<double>& sizes) {
     std::vector<std::vector<double>> cuts;
     for (const double s : sizes) cuts.push_back({s, -s, s, -s});
-    return *next_cut(passes_by_hand(cuts, false, CuttingGain::one))->converges;
+    return *next_cut(make_cutting_passes(cuts, false, CuttingGain::one))->converges;
   };
   EXPECT_TRUE(of({4, 3.5}));
   EXPECT_FALSE(of({4, 4}));
@@ -225,7 +225,7 @@ TEST(CuttingByHand, ConvergesWhileErrorsStayNearTheBest) {
 
 TEST(CuttingByHand, PixelsMissingInAnyMapAreLeftOut) {
   const auto found =
-      next_cut(passes_by_hand({{2, -2, kHole, 5}, {4, -4, 7, 5}}, true, CuttingGain::one));
+      next_cut(make_cutting_passes({{2, -2, kHole, 5}, {4, -4, 7, 5}}, true, CuttingGain::one));
   ASSERT_TRUE(found);
   EXPECT_EQ(found->pixels, 3u);
   EXPECT_EQ(found->error[1].pixels, 3u);
@@ -233,10 +233,10 @@ TEST(CuttingByHand, PixelsMissingInAnyMapAreLeftOut) {
   // Without their means of 5/3 the cuts are 1/3, -11/3, 10/3 and 7/3, -17/3, 10/3. Half of their
   // differences is 1, 1 and 0.
   EXPECT_NEAR(*found->random_rms_m, std::sqrt((2 + 2) / 3.0), 1e-12);
-  EXPECT_FALSE(
-      next_cut(passes_by_hand({{2, -2, kHole, kHole}, {kHole, 4, -4, 5}}, true, CuttingGain::one)));
-  EXPECT_TRUE(
-      next_cut(passes_by_hand({{2, -2, 3, kHole}, {kHole, 4, -4, 5}}, true, CuttingGain::one)));
+  EXPECT_FALSE(next_cut(
+      make_cutting_passes({{2, -2, kHole, kHole}, {kHole, 4, -4, 5}}, true, CuttingGain::one)));
+  EXPECT_TRUE(next_cut(
+      make_cutting_passes({{2, -2, 3, kHole}, {kHole, 4, -4, 5}}, true, CuttingGain::one)));
 }
 
 // Deformation by clamping and its remaining part, over common pixels: a saddle s = 1, -1, -1, 1 at

@@ -19,7 +19,7 @@ struct MeanOfCell {
 };
 
 // Means of the points in each cell; a cell is a quarter of a pixel wide.
-std::vector<MeanOfCell> means_of_cells(const ScanPoints& points, double pixel_m) {
+std::vector<MeanOfCell> expected_cell_means(const ScanPoints& points, double pixel_m) {
   std::map<std::pair<long, long>, MeanOfCell> cells;
   for (std::size_t i = 0; i < points.z_m.size(); ++i) {
     MeanOfCell& cell = cells[{std::lround(points.x_m[i] / (pixel_m / 4)),
@@ -37,7 +37,7 @@ std::vector<MeanOfCell> means_of_cells(const ScanPoints& points, double pixel_m)
 
 using ColumnOfFit = std::vector<double>;
 
-double product_of_columns(const ColumnOfFit& a, const ColumnOfFit& b) {
+double column_product(const ColumnOfFit& a, const ColumnOfFit& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
@@ -58,15 +58,15 @@ Orthogonal orthogonalised(std::vector<ColumnOfFit> columns, ColumnOfFit b) {
   while (!left.empty()) {
     std::size_t best = 0;
     for (std::size_t k = 0; k < left.size(); ++k)
-      if (product_of_columns(columns[left[k]], columns[left[k]]) >
-          product_of_columns(columns[left[best]], columns[left[best]]))
+      if (column_product(columns[left[k]], columns[left[k]]) >
+          column_product(columns[left[best]], columns[left[best]]))
         best = k;
     const ColumnOfFit q = columns[left[best]];
-    const double square = product_of_columns(q, q);
+    const double square = column_product(q, q);
     out.pivot.push_back(std::sqrt(square));
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
     for (const std::size_t k : left) {
-      const double part = product_of_columns(q, columns[k]) / square;
+      const double part = column_product(q, columns[k]) / square;
       for (std::size_t i = 0; i < q.size(); ++i) columns[k][i] -= part * q[i];
     }
   }
@@ -76,14 +76,13 @@ Orthogonal orthogonalised(std::vector<ColumnOfFit> columns, ColumnOfFit b) {
   for (std::size_t k = 0; k < others.size(); ++k) {
     for (std::size_t j = 0; j < k; ++j) {
       const double part =
-          product_of_columns(others[j], others[k]) / product_of_columns(others[j], others[j]);
+          column_product(others[j], others[k]) / column_product(others[j], others[j]);
       for (std::size_t i = 0; i < b.size(); ++i) others[k][i] -= part * others[j][i];
     }
-    const double part =
-        product_of_columns(others[k], across) / product_of_columns(others[k], others[k]);
+    const double part = column_product(others[k], across) / column_product(others[k], others[k]);
     for (std::size_t i = 0; i < b.size(); ++i) across[i] -= part * others[k][i];
   }
-  out.first = product_of_columns(across, b) / product_of_columns(across, given[0]);
+  out.first = column_product(across, b) / column_product(across, given[0]);
   return out;
 }
 
@@ -147,7 +146,7 @@ TEST(ScanMapByHand, MatchesTheSimpleFit) {
     const auto found = scan_map(points, kPixel_m);
     ASSERT_TRUE(found) << found.error().message;
     const SurfaceMap* const map = &found->map;
-    const auto cells = means_of_cells(points, kPixel_m);
+    const auto cells = expected_cell_means(points, kPixel_m);
     for (std::size_t j = 0; j < map->ny; ++j)
       for (std::size_t i = 0; i < map->nx; ++i) {
         const Expected expected = expected_at(cells, map->x_m(i), map->y_m(j), kPixel_m);

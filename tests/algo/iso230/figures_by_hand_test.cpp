@@ -17,10 +17,10 @@ namespace {
 
 using Column = std::vector<double>;
 
-// Run j has y_of(j, target) as its first named error and EBX/EBY = b_of(target), in both
+// Run j has first_error_at(j, target) as its first named error and EBX/EBY = b_of(target), in both
 // directions.
 template <class Y, class B>
-mdof::Run run_by_hand(Axis axis, const Column& x_m, int runs, Y y_of, B b_of) {
+mdof::Run run_by_hand(Axis axis, const Column& x_m, int runs, Y first_error_at, B b_of) {
   mdof::Run run;
   run.header.axis = axis;
   run.header.state = RunState::complete;
@@ -34,7 +34,7 @@ mdof::Run run_by_hand(Axis axis, const Column& x_m, int runs, Y y_of, B b_of) {
         p.point.direction = direction;
         p.point.position_m = p.target_m = x_m[i];
         p.errors.valid = true;
-        p.errors.local = local_from_named(axis, {y_of(j, i), 0, 0, b_of(i), 0});
+        p.errors.local = local_from_named(axis, {first_error_at(j, i), 0, 0, b_of(i), 0});
         run.points.push_back(p);
       }
     }
@@ -101,15 +101,15 @@ TEST(AnglesByHand, AreReferredToANonZeroStart) {
 }
 
 TEST(AnglesByHand, NeedTwoTargets) {
-  const auto figures_of_targets = [](std::size_t n) {
+  const auto count_target_figures = [](std::size_t n) {
     const mdof::Run run = run_by_hand(
         Axis::x, Column(kUneven_m.begin(), kUneven_m.begin() + static_cast<std::ptrdiff_t>(n)), 1,
         [](int, std::size_t) { return 0.0; }, [](std::size_t i) { return kAngle_rad[i]; });
     return angles(run.header.moving(), run.points).size();
   };
-  EXPECT_EQ(figures_of_targets(1), 0u);
+  EXPECT_EQ(count_target_figures(1), 0u);
   // EAX, EBX and ECX; mean, forward and reverse.
-  EXPECT_EQ(figures_of_targets(2), 9u);
+  EXPECT_EQ(count_target_figures(2), 9u);
 }
 
 TEST(TableByHand, AnglesBeginAtZeroAndTheSlopeIsRemoved) {

@@ -21,7 +21,7 @@ struct MotionByHand {
   Sides sides = {};
 };
 
-mdof::Run run_of_motion(const MotionByHand& motion) {
+mdof::Run make_motion_run(const MotionByHand& motion) {
   mdof::Run run;
   run.header.id = motion.id;
   run.header.axis = motion.axis;
@@ -63,7 +63,7 @@ void expect_line(const ParallelismLine& line, double a_urad, double b_urad) {
 }
 
 TEST(ParallelismByHand, IsTheSlopeOfBMinusTheSlopeOfA) {
-  const auto found = parallelism(run_of_motion(motion_a()), run_of_motion(motion_b()));
+  const auto found = parallelism(make_motion_run(motion_a()), make_motion_run(motion_b()));
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(found->run_a, 11);
   EXPECT_EQ(found->run_b, 12);
@@ -89,7 +89,7 @@ TEST(ParallelismByHand, IsOverTheTravelOfTheMovingBody) {
   a.axis = b.axis = Axis::y;
   a.sides.against_encoder = b.sides.against_encoder = true;
   a.sides.fixture_moves = b.sides.fixture_moves = true;
-  const auto found = parallelism(run_of_motion(a), run_of_motion(b));
+  const auto found = parallelism(make_motion_run(a), make_motion_run(b));
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(found->axis, Axis::y);
   EXPECT_NEAR(found->from_m, -0.03, 1e-15);
@@ -103,11 +103,11 @@ TEST(ParallelismByHand, IsOverTheTravelOfTheMovingBody) {
 // Parallelism refers to the errors at the fixture: a yaw of 10 urad at the carriage acts with its
 // lever.
 TEST(ParallelismByHand, IsStatedAtTheFixture) {
-  mdof::Run a = run_of_motion(motion_a());
+  mdof::Run a = make_motion_run(motion_a());
   for (MeasuredPoint& p : a.points) p.errors.local[kEz] = 10e-6;
   a.header.stated = kAtCarriage;
   a.header.provenance.model = "simplified";
-  const auto found = parallelism(a, run_of_motion(motion_b()));
+  const auto found = parallelism(a, make_motion_run(motion_b()));
   ASSERT_TRUE(found) << found.error().message;
   // At the origin of M, -d from the origin of C, the target is lower by the yaw times the travel.
   expect_line(found->planes[0].least_squares, 50, -20);
@@ -120,7 +120,7 @@ TEST(ParallelismByHand, NeedsHalfOfTheTravelInCommon) {
     motion.id = id;
     for (int i = first; i < first + 5; ++i) motion.x_m.push_back(i / 128.0);
     motion.first = motion.second = {0, 1, 0, 1, 0};
-    return run_of_motion(motion);
+    return make_motion_run(motion);
   };
   const auto half = parallelism(over(1, 0), over(2, 2));
   ASSERT_TRUE(half) << half.error().message;
@@ -136,29 +136,29 @@ TEST(ParallelismByHand, NeedsHalfOfTheTravelInCommon) {
   EXPECT_FALSE(parallelism(over(1, 0), over(2, 60)));
   // A short travel within a long one: it must cover half of the long one.
   MotionByHand few{3, Axis::x, {1 / 128.0, 2 / 128.0, 3 / 128.0}, {0, 1, 0}, {0, 1, 0}};
-  EXPECT_TRUE(parallelism(over(1, 0), run_of_motion(few)));
+  EXPECT_TRUE(parallelism(over(1, 0), make_motion_run(few)));
   few.x_m = {1 / 128.0, 1.5 / 128, 2 / 128.0};
-  EXPECT_FALSE(parallelism(over(1, 0), run_of_motion(few)));
+  EXPECT_FALSE(parallelism(over(1, 0), make_motion_run(few)));
 }
 
 TEST(ParallelismByHand, RefusesIncompatibleMotions) {
   MotionByHand y = motion_b();
   y.axis = Axis::y;
-  const auto two_axes = parallelism(run_of_motion(motion_a()), run_of_motion(y));
+  const auto two_axes = parallelism(make_motion_run(motion_a()), make_motion_run(y));
   ASSERT_FALSE(two_axes);
   EXPECT_EQ(two_axes.error().remedy, Remedy::compare_two_axes);
   EXPECT_NE(two_axes.error().message.find("run 11 measures axis X and run 12 measures axis Y"),
             std::string::npos);
   MotionByHand two = motion_b();
   two.x_m.resize(2);
-  const auto few = parallelism(run_of_motion(motion_a()), run_of_motion(two));
+  const auto few = parallelism(make_motion_run(motion_a()), make_motion_run(two));
   ASSERT_FALSE(few);
   EXPECT_EQ(few.error().message.find("run 12"), 0u) << few.error().message;
-  mdof::Run partial = run_of_motion(motion_b());
+  mdof::Run partial = make_motion_run(motion_b());
   partial.header.state = RunState::partial;
-  EXPECT_FALSE(parallelism(run_of_motion(motion_a()), partial));
-  EXPECT_TRUE(parallelism(run_of_motion(motion_a()), partial, true));
-  mdof::Run a = run_of_motion(motion_a()), b = run_of_motion(motion_b());
+  EXPECT_FALSE(parallelism(make_motion_run(motion_a()), partial));
+  EXPECT_TRUE(parallelism(make_motion_run(motion_a()), partial, true));
+  mdof::Run a = make_motion_run(motion_a()), b = make_motion_run(motion_b());
   a.header.simulated = b.header.simulated = true;
   EXPECT_TRUE(parallelism(a, b)->simulated);
   b.header.simulated = false;

@@ -305,11 +305,11 @@ TEST(GroovingStudy, TheNoiseOfEachInstrumentIsInWhatItReads) {
 
   // The defaults of the header: 50 nm, 0.3 µrad, 100 nm, 20 nm and 0.1 µrad, five times each.
   const Off typical = off({}, 30);
-  const double of_lines = 100e-9 / std::sqrt(5.) / kWidth;
-  const double of_heights = 20e-9 / kArm * std::sqrt(2. / 72);
-  EXPECT_NEAR(rms(typical.both), of_lines, 0.35 * of_lines);
-  EXPECT_NEAR(rms(typical.raw), of_heights, 0.35 * of_heights);
-  const double with_level = std::hypot(of_heights, 0.1e-6 * std::sqrt(2. / 72));
+  const double rms_from_lines = 100e-9 / std::sqrt(5.) / kWidth;
+  const double rms_from_heights = 20e-9 / kArm * std::sqrt(2. / 72);
+  EXPECT_NEAR(rms(typical.both), rms_from_lines, 0.35 * rms_from_lines);
+  EXPECT_NEAR(rms(typical.raw), rms_from_heights, 0.35 * rms_from_heights);
+  const double with_level = std::hypot(rms_from_heights, 0.1e-6 * std::sqrt(2. / 72));
   EXPECT_NEAR(rms(typical.tilted), with_level, 0.35 * with_level);
   EXPECT_NEAR(grooving_study(1, {})->before.u_angle_rad,
               std::hypot(0.3e-6, 2 * 50e-9 / std::sqrt(5.) / kWidth), 1e-15);

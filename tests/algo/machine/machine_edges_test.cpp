@@ -26,9 +26,10 @@ CircularPath circular_path_from(double from_rad, double step_rad, std::size_t n)
 }
 
 TEST(CircularEdges, NeedEightAnglesAndNoGapAboveAQuarter) {
-  const double of_seven = 2 * std::numbers::pi / 7;
-  EXPECT_FALSE(circular_figures(circular_path_from(0, of_seven, 7)));
-  EXPECT_TRUE(circular_figures(circular_path_from(0, of_seven, 8)));  // the eighth equals the first
+  const double seventh_turn_rad = 2 * std::numbers::pi / 7;
+  EXPECT_FALSE(circular_figures(circular_path_from(0, seventh_turn_rad, 7)));
+  EXPECT_TRUE(
+      circular_figures(circular_path_from(0, seventh_turn_rad, 8)));  // the eighth equals the first
   // Ten angles leave a gap of a quarter turn, or of 2 mrad more, anywhere and in any turn.
   for (const double from : {0.0, 1.0, 4.0, -3.0, 60.0, -60.0}) {
     EXPECT_TRUE(circular_figures(circular_path_from(from, 3 * kRightAngle / 9, 10))) << from;

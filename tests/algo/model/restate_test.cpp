@@ -127,7 +127,7 @@ TEST(SmallRotation, RotationAloneHasTheSameBits) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z})
     for (int i = -20; i <= 20; ++i) {
       const Errors5 errors = {0, 0, 0.011 * i, -0.007 * i + 0.01, 0.0123 * i - 0.002};
-      EXPECT_EQ(local_rotation_alone(axis, errors), local_rotation(axis, errors).R_MC);
+      EXPECT_EQ(local_rotation_matrix(axis, errors), local_rotation(axis, errors).R_MC);
     }
 }
 

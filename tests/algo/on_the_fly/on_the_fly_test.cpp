@@ -136,8 +136,9 @@ TEST(OnTheFlyRun, DoesNotReportAStopInTheOutermostBins) {
   for (const double at_mm : {1.0, 2.0, 18.0, 19.0}) {
     const OnTheFly run = measured({.stop_at_m = 1e-3 * at_mm, .stop_s = 0.3});
     EXPECT_EQ(run.sequence().points.size(), 37U) << at_mm;
-    const bool is_said = test::shown(run.notices()).find("bin_of_changing") != std::string::npos;
-    EXPECT_EQ(is_said, at_mm == 2 || at_mm == 18) << at_mm;
+    const bool is_bin_reported =
+        test::shown(run.notices()).find("bin_of_changing") != std::string::npos;
+    EXPECT_EQ(is_bin_reported, at_mm == 2 || at_mm == 18) << at_mm;
   }
 }
 
@@ -173,7 +174,7 @@ TEST(OnTheFlyRun, ExplainsWhyThereIsNoPoint) {
   ASSERT_FALSE(too_short);
   expect_in(too_short.error().message, "contains no whole bin of 1 mm around a target");
   OnTheFlyOptions fine;
-  fine.interval_mm = 0.02;  // 2 and 4 scans per bin; the error asks for kFewestOfBin + 1
+  fine.interval_mm = 0.02;  // 2 and 4 scans per bin; the error asks for kLeastReadingsPerBin + 1
   const Status dense = measured({}, fine).check_has_points();
   ASSERT_FALSE(dense);
   expect_in(dense.error().message, "and 1000 Hz a bin of 0.02 mm has ");
@@ -211,10 +212,10 @@ TEST(OnTheFlyRun, LearnsTheResolutionOfTheProbe) {
   run.flush();
   const Sequence sequence = run.sequence();
   ASSERT_EQ(sequence.points.size(), 38U);
-  std::size_t of_rectangle = 0;
+  std::size_t rectangle_u_count = 0;
   for (const MeasuredPoint& p : sequence.points)
-    of_rectangle += p.point.probe_u_m[0] > 0.5e-6 / std::sqrt(12.0) ? 1 : 0;
-  EXPECT_GT(of_rectangle, 30U);
+    rectangle_u_count += p.point.probe_u_m[0] > 0.5e-6 / std::sqrt(12.0) ? 1 : 0;
+  EXPECT_GT(rectangle_u_count, 30U);
 }
 
 // Forward over 20 mm in 2 s and back in 4 s, from -50 mm on: the mean speed is 40 mm / 6 s.

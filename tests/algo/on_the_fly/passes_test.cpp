@@ -28,7 +28,7 @@ FrameBlock frames_over_turns(const std::vector<double>& turns_mm) {
   return frames;
 }
 
-std::vector<PassFound> passes_of(const FrameBlock& frames, std::size_t block) {
+std::vector<PassFound> find_all_passes(const FrameBlock& frames, std::size_t block) {
   std::vector<PassFound> found;
   const auto take = [&](const AxisPass& pass) {
     const auto at = [&](std::size_t row) { return std::round(1e6 * pass.frames.encoder_m[row]); };
@@ -44,17 +44,17 @@ std::vector<PassFound> passes_of(const FrameBlock& frames, std::size_t block) {
 TEST(PassFinder, FindsTheSamePassesForAnyBlockSize) {
   auto frames = frames_over_turns({5, 5, 20, 20, 0, 0.03, 0, 10});
   frames.encoder_m[1500] += 1e-3;  // a spike is no turn
-  const auto whole = passes_of(frames, frames.size());
+  const auto whole = find_all_passes(frames, frames.size());
   ASSERT_EQ(whole.size(), 3U);
   EXPECT_EQ(whole[0], (PassFound{5000, 20000, 1}));
   EXPECT_EQ(std::get<1>(whole[1]), 0);
   EXPECT_EQ(std::get<2>(whole[1]), -1);
   EXPECT_EQ(std::get<2>(whole[2]), 1);
-  for (const std::size_t block : {1U, 7U, 1000U}) EXPECT_EQ(passes_of(frames, block), whole);
+  for (const std::size_t block : {1U, 7U, 1000U}) EXPECT_EQ(find_all_passes(frames, block), whole);
 }
 
 TEST(PassFinder, FindsNoPassesAtStandstill) {
-  EXPECT_TRUE(passes_of(frames_over_turns({3, 3, 3.04, 3}), 100).empty());
+  EXPECT_TRUE(find_all_passes(frames_over_turns({3, 3, 3.04, 3}), 100).empty());
 }
 
 OnTheFlyOptions every(double interval_mm, double bin_mm = 0) {

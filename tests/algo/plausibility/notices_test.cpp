@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-std::vector<DwellEvent> of_kind(const Detected& found, DwellEventKind kind) {
+std::vector<DwellEvent> events_with_kind(const Detected& found, DwellEventKind kind) {
   std::vector<DwellEvent> all;
   for (const DwellEvent& n : found.events)
     if (n.kind == kind) all.push_back(n);
@@ -34,7 +34,7 @@ TEST(Notices, ReportsAnEncoderJumpAndFlagsLaterPoints) {
         const std::size_t row = row_at(frames, 1e-9 * static_cast<double>(at_ns));
         shift_from(frames, row, 100e-6);
         const auto found = detect(log, frames);
-        const auto jumps = of_kind(found, DwellEventKind::jump);
+        const auto jumps = events_with_kind(found, DwellEventKind::jump);
         ASSERT_EQ(jumps.size(), 1u) << rate << " Hz, moving " << moving << ", " << noise_um;
         EXPECT_NEAR(jumps[0].size_m, 100e-6, 10e-6);
         EXPECT_NEAR(static_cast<double>(jumps[0].time_ns - frames.time_ns[row]), 0, 2e9 / rate);
@@ -55,7 +55,7 @@ TEST(Notices, GlitchThatReturnsIsNoJump) {
   const std::size_t row = row_at(frames, 5.0);
   for (std::size_t i = row; i < row + 30; ++i) frames.encoder_m[i] += 200e-6;
   const auto found = detect(log, frames);
-  EXPECT_TRUE(of_kind(found, DwellEventKind::jump).empty());
+  EXPECT_TRUE(events_with_kind(found, DwellEventKind::jump).empty());
   EXPECT_FALSE(has_flag(found.points.back(), Flag::jump));
 }
 
@@ -72,7 +72,7 @@ TEST(Notices, ReportsARecordingHole) {
                              rest.probe_m[k].end());
   for (const std::size_t block : {7u, 100000u}) {
     const auto found = detect(log, frames, block);
-    const auto holes = of_kind(found, DwellEventKind::hole);
+    const auto holes = events_with_kind(found, DwellEventKind::hole);
     ASSERT_EQ(holes.size(), 1u);
     EXPECT_NEAR(holes[0].length_s, 3.0, 0.01);
     EXPECT_NEAR(1e-9 * static_cast<double>(holes[0].time_ns), 5.0, 0.01);
@@ -87,9 +87,9 @@ FrameBlock creeping(const SteppingLog& log, double creep_um, double from_s, doub
   FrameBlock frames = log.frames();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const double t_s = 1e-9 * static_cast<double>(frames.time_ns[i]);
-    const double short_of = t_s < from_s ? std::max(0.0, 1 - (from_s - t_s) / kApproach_s)
-                                         : std::max(0.0, (to_s - t_s) / (to_s - from_s));
-    frames.encoder_m[i] -= 1e-6 * creep_um * short_of;
+    const double remaining_approach = t_s < from_s ? std::max(0.0, 1 - (from_s - t_s) / kApproach_s)
+                                                   : std::max(0.0, (to_s - t_s) / (to_s - from_s));
+    frames.encoder_m[i] -= 1e-6 * creep_um * remaining_approach;
   }
   return frames;
 }
@@ -109,7 +109,7 @@ TEST(Notices, ReportsACreepingStopKeptOrLeftOut) {
   // The stop creeps towards + over nearly its whole length.
   const double length_s =
       1e-9 * static_cast<double>(clean.points[2].end_ns - clean.points[2].begin_ns);
-  const auto crept = of_kind(little, DwellEventKind::crept);
+  const auto crept = events_with_kind(little, DwellEventKind::crept);
   ASSERT_EQ(crept.size(), 1u);
   EXPECT_NEAR(crept[0].length_s, length_s, 0.1 * length_s);
   EXPECT_GT(crept[0].size_m, 5e-6);
@@ -130,7 +130,7 @@ TEST(Notices, ReportsStopsThatAreTooShort) {
   log.move_s = 0.5;
   const auto found = detect(log, log.frames());
   EXPECT_TRUE(found.points.empty());
-  EXPECT_EQ(of_kind(found, DwellEventKind::short_stop).size(), 26u);
+  EXPECT_EQ(events_with_kind(found, DwellEventKind::short_stop).size(), 26u);
   ASSERT_EQ(found.notices.size(), 11u);
   EXPECT_EQ(test::shown(found.notices.back()), "more_alike count=16 alike=stop_too_short");
 }

@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-Rig rig_of_five() {
+Rig five_plain_probes() {
   Rig rig;
   const double l = 10e-3;
   const std::vector<Vec3> at = {
@@ -38,7 +38,7 @@ struct Judged {
 // Evaluates a run as the pipeline does; point i has valid errors if `solved(i)` is true.
 template <class Solved>
 Judged judge(const Machine& machine, const std::vector<double>& targets_m, Solved solved) {
-  Rig rig = rig_of_five();
+  Rig rig = five_plain_probes();
   rig.probes.resize(1);  // the machine has one probe
   DwellDetector detector({}, {"A"}, {200e-6});
   std::vector<Point> points;
@@ -230,45 +230,46 @@ void scale(ProbeFigures& p, double factor) {
 }
 
 TEST(Units, CorrectRunHasNoNotices) {
-  EXPECT_EQ(said(rig_of_five(), right()), "");
+  EXPECT_EQ(said(five_plain_probes(), right()), "");
   Plausibility quiet = right();  // a good, well adjusted axis
   for (auto& p : quiet.probes) p = {p.id, 78, 1e-9, 0.1e-6, -0.05e-6, 0.05e-6};
-  EXPECT_EQ(said(rig_of_five(), quiet), "");
+  EXPECT_EQ(said(five_plain_probes(), quiet), "");
 }
 
 TEST(Units, ReportsWrongUnitOfTheEncoder) {
   Plausibility p = right();
   p.encoder_max_m = 61;
-  EXPECT_EQ(said(rig_of_five(), p), "travel_too_long travel_m=61.001\n");
+  EXPECT_EQ(said(five_plain_probes(), p), "travel_too_long travel_m=61.001\n");
   p.encoder_min_m = 0, p.encoder_max_m = 60e-6;
-  EXPECT_EQ(said(rig_of_five(), p).find("travel_too_short travel_mm=0.06\n"), 0u);
+  EXPECT_EQ(said(five_plain_probes(), p).find("travel_too_short travel_mm=0.06\n"), 0u);
 }
 
 TEST(Units, ReportsWrongUnitOfTime) {
   Plausibility p = right();
   p.rate_hz = 1;
-  EXPECT_EQ(said(rig_of_five(), p), "rate_too_low rate_hz=1\n");
+  EXPECT_EQ(said(five_plain_probes(), p), "rate_too_low rate_hz=1\n");
 }
 
 TEST(Units, ReportsWrongUnitOfEachProbe) {
   for (std::size_t k = 0; k < 5; ++k) {
     Plausibility p = right();
     scale(p.probes[k], 1e-3);
-    EXPECT_EQ(said(rig_of_five(), p),
+    EXPECT_EQ(said(five_plain_probes(), p),
               "reading_too_small " + p.probes[k].id + " largest_um=0.012\n");
     scale(p.probes[k], 1e6);
-    EXPECT_EQ(said(rig_of_five(), p), "reading_too_noisy " + p.probes[k].id + " noise_um=10\n");
+    EXPECT_EQ(said(five_plain_probes(), p),
+              "reading_too_noisy " + p.probes[k].id + " noise_um=10\n");
   }
 }
 
 TEST(Units, FrozenProbeHasNoUnitNotice) {
   Plausibility p = right();
   p.probes[2] = {"C", 78, 0, 0, 0, 0};
-  EXPECT_EQ(said(rig_of_five(), p), "");
+  EXPECT_EQ(said(five_plain_probes(), p), "");
 }
 
 TEST(Units, ReportsAGapWithoutOffset) {
-  Rig rig = rig_of_five();
+  Rig rig = five_plain_probes();
   Plausibility p = right();
   rig.probes[1].calibration.reads_gap = true;
   EXPECT_EQ(said(rig, p), "");
@@ -281,7 +282,7 @@ TEST(Units, ReportsAGapWithoutOffset) {
 TEST(Units, ReportsWrongUnitOfTheFixture) {
   for (const auto& [factor, code] :
        {std::pair(1e3, "fixture_too_large reach_m=25\n"), std::pair(1e-3, "fixture_too_small ")}) {
-    Rig rig = rig_of_five();
+    Rig rig = five_plain_probes();
     for (auto& probe : rig.probes)
       for (double& x : probe.position_m) x *= factor;
     EXPECT_EQ(said(rig, right()).find(code), 0u) << said(rig, right());
@@ -308,7 +309,7 @@ TEST(Plausibility, ReportsShiftedTargetsWithTimeAndShift) {
       p.errors.valid = true;
       sequence.points.push_back(p);
     }
-  const Rig rig = rig_of_five();
+  const Rig rig = five_plain_probes();
   const DwellDetector::Summary dwells;
   const RunToJudge run{rig, sequence, dwells};
   EXPECT_EQ(run.scans_lost, 0u);
@@ -341,7 +342,7 @@ TEST(Plausibility, ReportsShiftedTargetsWithTimeAndShift) {
 // One stop is enough to detect noise above 1 µm or 0.25 % of the range. Without stops there is no
 // notice.
 TEST(Plausibility, OneStopShowsANoisyProbe) {
-  const Rig rig = rig_of_five();  // ranges of 400 µm
+  const Rig rig = five_plain_probes();  // ranges of 400 µm
   const auto noisy = [&](std::size_t points, double sd_m) {
     Plausibility figures;
     for (const Probe& probe : rig.probes) {

@@ -98,14 +98,14 @@ TEST(Resolution, NeedsRepeatedReadingsOnBothSides) {
 // Other steps that grow by 6 % do not agree. Eight of 64 steps must agree; later larger steps
 // change nothing.
 TEST(Resolution, NeedsEightOfSixtyFourSteps) {
-  const auto with_strays = [](std::size_t strays, std::size_t equal) {
+  const auto steps_with_outliers = [](std::size_t strays, std::size_t equal) {
     std::vector<double> steps;
     for (std::size_t i = 0; i < strays; ++i) steps.push_back(std::pow(1.06, i));
     return repeated(128, equal, steps);
   };
-  EXPECT_NEAR(step_of(with_strays(56, 8)), 128, 1e-9);
-  EXPECT_EQ(step_of(with_strays(57, 7)), 0);
-  std::vector<double> later = with_strays(56, 8);
+  EXPECT_NEAR(step_of(steps_with_outliers(56, 8)), 128, 1e-9);
+  EXPECT_EQ(step_of(steps_with_outliers(57, 7)), 0);
+  std::vector<double> later = steps_with_outliers(56, 8);
   later.push_back(1024);
   EXPECT_NEAR(step_of(later), 128, 1e-9);
 }

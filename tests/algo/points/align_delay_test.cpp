@@ -75,7 +75,7 @@ TEST(AlignDelay, IsRemovedFromItsChannel) {
 // until the last input is read (drivers/README.md).
 TEST(AlignDelay, SequentialInputsHaveTheTimeToTheLast) {
   constexpr double kTurn_s = 0.5e-3;
-  const auto frames_of = [&](const AlignOptions& options) {
+  const auto read_aligned_frames = [&](const AlignOptions& options) {
     Aligner aligner(options, {"A", "B"});
     FrameBlock out;
     SampleBlock b = scans(0, 2000, 0);
@@ -90,9 +90,9 @@ TEST(AlignDelay, SequentialInputsHaveTheTimeToTheLast) {
     return out;
   };
   const double error_m = kSlope * kSpeed_m_s * kTurn_s;
-  const FrameBlock plain = frames_of({}),
-                   right = frames_of({.delay_s = {{"A", 2 * kTurn_s}, {"B", kTurn_s}}}),
-                   wrong = frames_of({.delay_s = {{"A", -2 * kTurn_s}, {"B", -kTurn_s}}});
+  const FrameBlock plain = read_aligned_frames({}),
+                   right = read_aligned_frames({.delay_s = {{"A", 2 * kTurn_s}, {"B", kTurn_s}}}),
+                   wrong = read_aligned_frames({.delay_s = {{"A", -2 * kTurn_s}, {"B", -kTurn_s}}});
   EXPECT_NEAR(worst_m(plain, 0), 2 * error_m, 1e-15);
   EXPECT_NEAR(worst_m(plain, 1), error_m, 1e-15);
   EXPECT_LT(worst_m(right, 0), 1e-15);

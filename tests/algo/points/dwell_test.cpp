@@ -241,15 +241,15 @@ TEST(Dwell, KnockOfTwoSlotsIsNoApproach) {
 
 // A probe needs half of the scans of a stop.
 TEST(Dwell, ProbeIsLostIfMostScansAreMissing) {
-  for (const int of_ten : {4, 6}) {
+  for (const int good_per_ten : {4, 6}) {
     Stepper axis;
     axis.passes({0, 2e-3}, 1);
     auto& quality = axis.frames.probe_quality[0];
     for (std::size_t i = 0; i < axis.frames.size(); ++i)
-      quality.push_back(static_cast<int>(i % 10) < of_ten ? Quality::good : Quality::missing);
+      quality.push_back(static_cast<int>(i % 10) < good_per_ten ? Quality::good : Quality::missing);
     for (const Point& p : detect(axis.frames, 1000)) {
-      EXPECT_EQ(std::isnan(p.probe_m[0]), of_ten == 4);
-      EXPECT_EQ(to_string(p.flags), of_ten == 4 ? "lost:A" : "missing:A");
+      EXPECT_EQ(std::isnan(p.probe_m[0]), good_per_ten == 4);
+      EXPECT_EQ(to_string(p.flags), good_per_ten == 4 ? "lost:A" : "missing:A");
     }
   }
 }

@@ -48,7 +48,7 @@ Errors5 tilting(double d) {
 }
 
 // ε - 1 from the coefficients; at 20 °C they give 537 ppm, -1.83 ppm/K, 5.3 ppm/kPa, 2.03 ppm/%.
-double permittivity_by_hand(double t_C, double p_kPa, double rh) {
+double expected_permittivity(double t_C, double p_kPa, double rh) {
   const double T = t_C + 273.15,
                e_kPa = rh / 100 * 0.61094 * std::exp(17.625 * t_C / (t_C + 243.04));
   return 1 + 2e-6 * (776 * p_kPa / T + 3.73e6 * e_kPa / (T * T));
@@ -65,7 +65,7 @@ double shown_m(std::size_t k, const Errors5& e, double s_m, double factor, doubl
 
 struct TrueConditions {
   std::vector<double> factor = std::vector<double>(5, 5.0);
-  double ratio = permittivity_by_hand(23, 99, 65) / permittivity_by_hand(20, 101.325, 40);
+  double ratio = expected_permittivity(23, 99, 65) / expected_permittivity(20, 101.325, 40);
 };
 
 SyntheticRun disturbed_run(const Rig& rig, const TrueConditions& nature) {
@@ -192,7 +192,7 @@ TEST(ReadingCorrection, StatedUncertaintyCoversUnknownParameters) {
     for (double& factor : nature.factor) factor += 0.4 * normal(source);
     const double t = 23 + normal(source), p = 99 + 0.5 * normal(source),
                  rh = 65 + 5 * normal(source);
-    nature.ratio = permittivity_by_hand(t, p, rh) / permittivity_by_hand(20, 101.325, 40);
+    nature.ratio = expected_permittivity(t, p, rh) / expected_permittivity(20, 101.325, 40);
     auto run = corrected(rig, disturbed_run(rig, nature).measure());
     const std::size_t last = 8;
     run.points.resize(last + 1);

@@ -48,8 +48,11 @@ TEST(Allocation, FindsTheTolerancesOfALinearOutput) {
       allocate_first(plan_of(drift("A", 6) + drift("B", 8) +
                              allocation("\"probe.A.drift_nm\", \"probe.B.drift_nm\"", limit)));
   const double allowed = limit * 10 / k95;  // of √(a² + b²/4), nm
-  const auto p_of = [&](double sd) { return std::erf(limit * 10 / sd / std::sqrt(2.0)); };
-  EXPECT_NEAR(found.reached, p_of(std::sqrt(36 + 16.0)), 5 * std::sqrt(0.05 / 10000));
+  const auto expected_probability = [&](double sd) {
+    return std::erf(limit * 10 / sd / std::sqrt(2.0));
+  };
+  EXPECT_NEAR(found.reached, expected_probability(std::sqrt(36 + 16.0)),
+              5 * std::sqrt(0.05 / 10000));
   ASSERT_EQ(found.alone.size(), 2U);
   const double a = std::sqrt(allowed * allowed - 16), b = 2 * std::sqrt(allowed * allowed - 36);
   EXPECT_EQ(found.alone[0].tolerance, "probe.A.drift_nm");

@@ -14,7 +14,7 @@ namespace {
 
 const OutputScale kIntervalScale{-1, 0x1p-12};
 
-double edge_of(std::size_t bin) {
+double bin_edge_value(std::size_t bin) {
   return kIntervalScale.low + static_cast<double>(bin) * kIntervalScale.width;
 }
 
@@ -56,7 +56,8 @@ TEST(IntervalRanks, ShortestIsTheFirstOfTheSmallestLength) {
       if (k == 0) first = bin;
       last = bin, n += count, bin += 1 + next(3);
     }
-    const OrderedTrials trials(counts, kIntervalScale, edge_of(first), edge_of(last + 1));
+    const OrderedTrials trials(counts, kIntervalScale, bin_edge_value(first),
+                               bin_edge_value(last + 1));
     ASSERT_EQ(trials.size(), n);
     for (const double coverage : {0.2, 0.5, 0.75, 0.999}) {
       const IntervalRanks found = shortest_ranks(coverage, trials);
@@ -81,9 +82,9 @@ TEST(HistogramForDrawing, ShowsTheCentralTrialsAndATenthMore) {
   for (const auto& [bin, n] : {std::pair(50u, 2u), std::pair(1000u, 1u), std::pair(1500u, 1000u),
                                std::pair(1700u, 2193u), std::pair(2400u, 1u), std::pair(8000u, 3u)})
     counts.add_core(bin, n);
-  const OrderedTrials trials(counts, kIntervalScale, edge_of(50), edge_of(8001));
+  const OrderedTrials trials(counts, kIntervalScale, bin_edge_value(50), bin_edge_value(8001));
   const Histogram h = histogram_for_drawing(counts, kIntervalScale, trials);
-  EXPECT_EQ(h.from, edge_of(860));
+  EXPECT_EQ(h.from, bin_edge_value(860));
   EXPECT_EQ(h.width, 15 * kIntervalScale.width);
   ASSERT_EQ(h.counts.size(), 113u);
   EXPECT_EQ(h.below, 2u);
@@ -103,14 +104,14 @@ TEST(HistogramForDrawing, EndsWithTheCore) {
     counts.add_core(first, 40);
     if (below > 0) counts.add_tail(-200, below);
     counts.add_tail(200, 11);
-    const OrderedTrials trials(counts, kIntervalScale, below > 0 ? -9 : edge_of(first), 9);
+    const OrderedTrials trials(counts, kIntervalScale, below > 0 ? -9 : bin_edge_value(first), 9);
     return histogram_for_drawing(counts, kIntervalScale, trials);
   };
   EXPECT_EQ(drawn_from(6992, 0).width, 10 * kIntervalScale.width);
   EXPECT_EQ(drawn_from(6991, 0).width, 11 * kIntervalScale.width);
   EXPECT_EQ(drawn_from(6992, 0).above, 11u);
   const Histogram whole = drawn_from(0, 13);
-  EXPECT_EQ(whole.from, edge_of(0));
+  EXPECT_EQ(whole.from, bin_edge_value(0));
   EXPECT_EQ(whole.below, 13u);
   EXPECT_EQ(whole.counts.at(0), 40u);
 }

@@ -130,10 +130,11 @@ TEST(PlanRules, NormalTravelCoversTwoStandardDeviations) {
   const auto range = series("travel_mm = [10, 50]\n", "");
   const auto normal_travel =
       series("", quantity("travel_mm", "distribution = \"normal\"\nmean = 30\nsd = 10"));
-  const auto of_range = first_output(*range, 20), of_normal = first_output(*normal_travel, 20);
+  const auto range_travel_output = first_output(*range, 20),
+             of_normal = first_output(*normal_travel, 20);
   for (std::size_t j = 0; j < 20; ++j) {
-    EXPECT_GT(of_range[j], 0.01);
-    EXPECT_NEAR(of_normal[j], of_range[j], 1e-12) << j;
+    EXPECT_GT(range_travel_output[j], 0.01);
+    EXPECT_NEAR(of_normal[j], range_travel_output[j], 1e-12) << j;
   }
 }
 

@@ -127,9 +127,9 @@ TEST(StatisticsByHand, IsCorrectForAnyNumberAndInstructionSet) {
   const Given e(squares);
   for (const InstructionSet set : available_instruction_sets()) {
     for (std::uint64_t n = 2; n <= 17; ++n) {
-      StudyStatistics study_of_n(e, pilot_scale(e, 17), set);
-      study_of_n.add_block(e, 0, n);
-      const OutputSummary s = study_of_n.overall().at(0);
+      StudyStatistics n_trial_study(e, pilot_scale(e, 17), set);
+      n_trial_study.add_block(e, 0, n);
+      const OutputSummary s = n_trial_study.overall().at(0);
       const auto x = static_cast<double>(n);
       EXPECT_EQ(s.n, n);
       EXPECT_NEAR(s.mean, (x + 1) * (2 * x + 1) / 6, 1e-9) << n;

@@ -36,7 +36,7 @@ SeparationRequest noise_only(std::uint32_t n, std::uint32_t trial) {
 TEST(SeparationExpanded, UCoversTheTruthWithStudentsT) {
   constexpr std::uint32_t kTrials = 3000;
   for (const std::uint32_t n : {4U, 6U}) {
-    int held = 0, held_by_two = 0;
+    int held = 0, covered_by_two_u = 0;
     for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
       const auto found = separate(noise_only(n, trial));
       ASSERT_TRUE(found) << found.error().message;
@@ -44,11 +44,11 @@ TEST(SeparationExpanded, UCoversTheTruthWithStudentsT) {
       EXPECT_EQ(found->machine.freedom[1], n - 3);
       const double off_m = std::abs(found->machine.seen_m[1]);
       held += off_m <= found->machine.U_m(1);
-      held_by_two += off_m <= 2 * found->machine.u_m[1];
+      covered_by_two_u += off_m <= 2 * found->machine.u_m[1];
     }
     // 95 %, within three standard deviations for 3,000 trials.
     EXPECT_NEAR(100.0 * held / kTrials, 95, 1.2) << n;
-    EXPECT_LT(100.0 * held_by_two / kTrials, 88) << n;
+    EXPECT_LT(100.0 * covered_by_two_u / kTrials, 88) << n;
   }
 }
 

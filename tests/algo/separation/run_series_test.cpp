@@ -10,7 +10,7 @@ namespace mdof::algo {
 namespace {
 
 // A δy of 2 µm/m and a yaw of 30 µrad/m: at the fixture, EYX = δy - d εz.
-mdof::Run of_slopes(const Rig& rig) {
+mdof::Run make_slope_run(const Rig& rig) {
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .targets_m = {0, 10e-3, 30e-3}};
   synthetic.truth = [](double d) { return Errors5{2e-6 * d, 0, 0, 0, 30e-6 * d}; };
   synthetic.u_reading_m = 10e-9;
@@ -18,7 +18,7 @@ mdof::Run of_slopes(const Rig& rig) {
 }
 
 TEST(RunSeries, ErrorSeriesIsTheMeanAtEachTarget) {
-  const auto run = of_slopes(test::rig_x());
+  const auto run = make_slope_run(test::rig_x());
   const auto series = error_series(run, 0);
   ASSERT_EQ(series.position_m, (std::vector<double>{0, 10e-3, 30e-3}));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -30,7 +30,7 @@ TEST(RunSeries, ErrorSeriesIsTheMeanAtEachTarget) {
 // Probe D is at x = 0 and reads δy - εz d. Three runs of two visits give u/√6.
 TEST(RunSeries, ProbeSeriesIsTheReading) {
   for (const char* id : {"D", "E"}) {
-    const auto run = of_slopes(test::rig_x());
+    const auto run = make_slope_run(test::rig_x());
     const std::size_t k = id[0] == 'D' ? 3 : 4;
     const ProbeSeries series = probe_series(run, test::rig_x(), id, Axis::y).value();
     EXPECT_EQ(series.position_m, (Vec3{k == 3 ? 0.0 : 10e-3, 15e-3, 20e-3}));
@@ -39,7 +39,7 @@ TEST(RunSeries, ProbeSeriesIsTheReading) {
       EXPECT_NEAR(series.set_up.u_m[i], 10e-9 / std::sqrt(6.0), 1e-13) << id;
     }
   }
-  auto run = of_slopes(test::rig_x());
+  auto run = make_slope_run(test::rig_x());
   const double before = probe_series(run, test::rig_x(), "D", Axis::y)->set_up.error_m[2];
   run.header.sides.fixture_moves = true;
   EXPECT_NEAR(probe_series(run, test::rig_x(), "D", Axis::y)->set_up.error_m[2], -before, 1e-18);
@@ -78,8 +78,8 @@ TEST(RunSeries, ContainsFlatnessOfTheOtherSurface) {
       "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.05\n"
       "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n";
   const Rig side = test::rig_x_with("", "", planes);
-  EXPECT_TRUE(declared_shifts(of_slopes(side), side, 0, Axis::y)->empty());
-  EXPECT_FALSE(declared_shifts(of_slopes(side), side, 0, Axis::z)->empty());
+  EXPECT_TRUE(declared_shifts(make_slope_run(side), side, 0, Axis::y)->empty());
+  EXPECT_FALSE(declared_shifts(make_slope_run(side), side, 0, Axis::z)->empty());
 }
 
 // A plane needs no id.
@@ -87,12 +87,12 @@ TEST(RunSeries, OmitsFlatnessOfThisSurfaceWithoutAnId) {
   const Rig side = test::rig_x_with("", "",
                                     "[[plane]]\nnormal = \"+Y\"\nu_flatness_um = "
                                     "0.05\n[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n");
-  EXPECT_TRUE(declared_shifts(of_slopes(side), side, 0, Axis::y)->empty());
-  EXPECT_FALSE(declared_shifts(of_slopes(side), side, 0, Axis::z)->empty());
+  EXPECT_TRUE(declared_shifts(make_slope_run(side), side, 0, Axis::y)->empty());
+  EXPECT_FALSE(declared_shifts(make_slope_run(side), side, 0, Axis::z)->empty());
 }
 
 TEST(RunSeries, RejectsAProbeOfAnotherDirection) {
-  const auto run = of_slopes(test::rig_x());
+  const auto run = make_slope_run(test::rig_x());
   const auto other = probe_series(run, test::rig_x(), "A", Axis::y);
   ASSERT_FALSE(other);
   EXPECT_NE(other.error().message.find("probe \"A\" does not measure along Y"), std::string::npos);
@@ -108,7 +108,7 @@ TEST(RunSeries, RejectsAProbeOfAnotherDirection) {
 TEST(RunSeries, ProbeHasItsOwnSensitivityAndDrift) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 20000",
                                    "[drift]\nu_um_per_h = 3.6\n");  // 1 nm/s
-  const auto run = of_slopes(rig);
+  const auto run = make_slope_run(rig);
   for (const auto& [id, scales] :
        {std::pair("D", true), std::pair("E", false), std::pair("A", false)}) {
     const auto own = probe_series(run, rig, id, id[0] == 'A' ? Axis::z : Axis::y)->set_up;

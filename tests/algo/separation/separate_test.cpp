@@ -36,9 +36,9 @@ struct TargetPose {
   bool upside_down = false, end_for_end = false;
   double shift_m = 0;
 };
-double target_coordinate(double in_C, const TargetPose& lain) {
-  const double from_zero = in_C - lain.shift_m;  // towards + of the motion
-  return lain.end_for_end ? -from_zero : from_zero;
+double target_coordinate(double in_C, const TargetPose& target_pose) {
+  const double from_zero = in_C - target_pose.shift_m;  // towards + of the motion
+  return target_pose.end_for_end ? -from_zero : from_zero;
 }
 
 struct World {
@@ -57,14 +57,14 @@ double normal(std::uint64_t seed, int number, std::size_t i) {
 
 // Reading of an instrument: the displacement of the surface along +, as an error of the moving
 // body.
-SetUp measured(const World& world, const TargetPose& lain, int number) {
+SetUp measured(const World& world, const TargetPose& target_pose, int number) {
   SetUp s;
-  s.turn = {lain.upside_down ? -1.0 : 1.0, lain.end_for_end};
-  s.shift_m = lain.shift_m;
+  s.turn = {target_pose.upside_down ? -1.0 : 1.0, target_pose.end_for_end};
+  s.shift_m = target_pose.shift_m;
   for (const double x : world.x_m) {
     const double target_went = world.sides.fixture_moves != world.sides.against_encoder ? -x : x;
-    const double bump = (lain.upside_down ? -1 : 1) *
-                        height_at(target_coordinate(world.probe_at_m - target_went, lain));
+    const double bump = (target_pose.upside_down ? -1 : 1) *
+                        height_at(target_coordinate(world.probe_at_m - target_went, target_pose));
     const double own_error = machine_at(x);
     const double of_target = world.sides.fixture_moves ? -own_error : own_error;
     const double displacement = of_target + bump + number * 5e-6 + number * 30e-6 * x / 0.06;
@@ -76,10 +76,10 @@ SetUp measured(const World& world, const TargetPose& lain, int number) {
   return s;
 }
 
-SeparationRequest request_of(const World& world, const std::vector<TargetPose>& lain) {
+SeparationRequest request_of(const World& world, const std::vector<TargetPose>& target_pose) {
   SeparationRequest request;
   request.at = {world.sides, world.probe_at_m};
-  for (const TargetPose& l : lain)
+  for (const TargetPose& l : target_pose)
     request.set_ups.push_back(measured(world, l, static_cast<int>(request.set_ups.size()) + 1));
   return request;
 }
@@ -238,12 +238,12 @@ TEST(Separation, EndForEndTurnSeesHalfOfTheShapes) {
 
 TEST(Separation, UncertaintyMatchesTheNoise) {
   World world{{}, 0, steps(13, 5 * kMm), 5 * kNm};
-  const std::vector<TargetPose> lain = {{}, {true, false, 0}, {false, false, 5 * kMm}};
+  const std::vector<TargetPose> target_pose = {{}, {true, false, 0}, {false, false, 5 * kMm}};
   constexpr int kTrials = 2000;
   Column sum(14), square(14), u;
   for (int trial = 0; trial < kTrials; ++trial) {
     world.seed = static_cast<std::uint64_t>(trial) + 1;
-    const auto found = separate(request_of(world, lain));
+    const auto found = separate(request_of(world, target_pose));
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_TRUE(found->notices.empty());
     u = found->target.u_m;

@@ -89,7 +89,7 @@ TEST(Turns, TurnsAtTheEndsDecide) {
 }
 
 // Each group of targets is visited twice upwards and twice in the same order from above.
-Cycle cycle_of_groups(const std::vector<Row>& groups, int targets) {
+Cycle group_cycle(const std::vector<Row>& groups, int targets) {
   Row row;
   for (const Row& group : groups) {
     for (int k = 0; k < 4; ++k)
@@ -100,12 +100,12 @@ Cycle cycle_of_groups(const std::vector<Row>& groups, int targets) {
 
 // Most targets are visited while the axis stays within half of the targets.
 TEST(QuasiPilgrimLimit, StaysWithinHalfOfTheTargets) {
-  EXPECT_EQ(cycle_of_groups({{1, 2, 3, 4}, {5, 6, 7, 8}}, 8), Cycle::quasi_pilgrim);
+  EXPECT_EQ(group_cycle({{1, 2, 3, 4}, {5, 6, 7, 8}}, 8), Cycle::quasi_pilgrim);
   // Five of nine targets within 5, four within 4: the median is 5.
-  EXPECT_EQ(cycle_of_groups({{1, 2, 3, 4}, {5, 6, 7, 8, 9}}, 9), Cycle::none);
-  EXPECT_EQ(cycle_of_groups({{1, 2, 3, 4, 5}, {6, 7, 8, 9}}, 9), Cycle::none);
+  EXPECT_EQ(group_cycle({{1, 2, 3, 4}, {5, 6, 7, 8, 9}}, 9), Cycle::none);
+  EXPECT_EQ(group_cycle({{1, 2, 3, 4, 5}, {6, 7, 8, 9}}, 9), Cycle::none);
   // Five within 3, four within 9: the median is 3.
-  EXPECT_EQ(cycle_of_groups({{2, 4}, {9, 1, 3, 5}, {6, 7, 8}}, 9), Cycle::quasi_pilgrim);
+  EXPECT_EQ(group_cycle({{2, 4}, {9, 1, 3, 5}, {6, 7, 8}}, 9), Cycle::quasi_pilgrim);
 }
 
 // Between the first and the last visit of each target, the axis was four targets away.

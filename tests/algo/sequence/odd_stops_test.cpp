@@ -165,12 +165,12 @@ TEST(OddStops, LeavesOutAParkedStartOfASinglePass) {
 // ---- typical values of the other places ----
 
 // Places for which the order of the visits has no effect.
-std::vector<double> kept_of(const std::vector<Visited>& places) {
+std::vector<double> kept_positions_mm(const std::vector<Visited>& places) {
   return left_out_stops(places).kept_mm;
 }
 
 void expect_kept(const std::vector<Visited>& places, const std::vector<double>& expected_mm) {
-  const std::vector<double> kept_mm = kept_of(places);
+  const std::vector<double> kept_mm = kept_positions_mm(places);
   ASSERT_EQ(kept_mm.size(), expected_mm.size());
   for (std::size_t i = 0; i < kept_mm.size(); ++i) EXPECT_NEAR(kept_mm[i], expected_mm[i], 1e-9);
 }
@@ -229,7 +229,7 @@ TEST(OddStopsTypical, OneVisitNearATargetIsNoTarget) {
     const double near_mm = below ? -6.5 : 66.5, far_mm = below ? -15 : 75;
     places.insert(below ? places.begin() : places.end(), {near_mm, 1, 0});
     places.insert(below ? places.begin() : places.end(), {far_mm, 1, 0});
-    const std::vector<double> kept_mm = kept_of(places);
+    const std::vector<double> kept_mm = kept_positions_mm(places);
     ASSERT_EQ(kept_mm.size(), 8u);
     EXPECT_NEAR(below ? kept_mm.front() : kept_mm.back(), far_mm, 1e-9);
   }
@@ -242,7 +242,8 @@ struct Stop {
   int direction;
 };
 
-std::vector<std::string> reasons_of(const std::vector<Stop>& stops, bool parked_first = false) {
+std::vector<std::string> left_out_reasons(const std::vector<Stop>& stops,
+                                          bool parked_first = false) {
   std::vector<double> targets_m;
   for (const Stop& stop : stops) targets_m.push_back(1e-3 * stop.position_mm);
   std::sort(targets_m.begin(), targets_m.end());
@@ -267,11 +268,11 @@ TEST(OddStopsOfALog, LastStopHasTheReasonEndOfLog) {
   for (int pass = 0; pass < 5; ++pass)
     for (int i = 0; i < 7; ++i) stops.push_back({10.0 * i, 1});
   stops.push_back({63, 1});
-  EXPECT_EQ(reasons_of(stops), std::vector<std::string>{"stop_at_end_of_log"});
+  EXPECT_EQ(left_out_reasons(stops), std::vector<std::string>{"stop_at_end_of_log"});
   stops.push_back({60, 1});  // no longer the last stop
-  EXPECT_EQ(reasons_of(stops), std::vector<std::string>{"stop_beyond_targets"});
+  EXPECT_EQ(left_out_reasons(stops), std::vector<std::string>{"stop_beyond_targets"});
   stops.push_back({63, 1});  // again, as the last stop
-  EXPECT_EQ(reasons_of(stops), std::vector<std::string>(2, "stop_beyond_targets"));
+  EXPECT_EQ(left_out_reasons(stops), std::vector<std::string>(2, "stop_beyond_targets"));
 }
 
 // The axis is parked above the targets, then makes a single pass down.
@@ -279,7 +280,7 @@ TEST(OddStopsOfALog, LeavesOutAParkedStartAboveTheTargets) {
   const auto kept = [](double parked_mm, bool parked) {
     std::vector<Stop> stops = {{parked_mm, -1}};
     for (int i = 4; i >= 1; --i) stops.push_back({10.0 * i, -1});
-    return reasons_of(stops, parked).empty();
+    return left_out_reasons(stops, parked).empty();
   };
   EXPECT_FALSE(kept(45.9, true));
   EXPECT_TRUE(kept(46.1, true));
@@ -290,7 +291,7 @@ TEST(OddStopsOfALog, LeavesOutAParkedStartAboveTheTargets) {
 
 // With one visit each, no side has more visits.
 TEST(OddStopsOfALog, KeepsAllPlacesWithOneVisitEach) {
-  EXPECT_TRUE(reasons_of({{0, 1}, {10, 1}, {30, 1}, {20, -1}}).empty());
+  EXPECT_TRUE(left_out_reasons({{0, 1}, {10, 1}, {30, 1}, {20, -1}}).empty());
 }
 
 }  // namespace

@@ -64,9 +64,9 @@ double squareness_error(const test_faults::DrawnSurface& top, const std::vector<
   return -slope(travel, eyx) - slope(travel, exy);
 }
 
-double stated_u(double length_mm, const std::string& top_of_y) {
+double stated_u(double length_mm, const std::string& y_top_name) {
   const Rig along_x = test::rig_x_with("", "", planes(length_mm, "+Y", "top"));
-  const Rig along_y = rig_along_y(planes(length_mm, "-X", top_of_y));
+  const Rig along_y = rig_along_y(planes(length_mm, "-X", y_top_name));
   const auto budget =
       squareness_budget(along_x, SyntheticRun{.rig = along_x}.measure(), along_y,
                         SyntheticRun{.rig = along_y}.measure(), SquareArtefact{1, 0, 0});

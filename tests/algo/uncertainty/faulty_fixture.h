@@ -72,7 +72,7 @@ class FaultyFixture {
   void take_gains(const std::vector<double>& gains) { gain_ = gains; }
   // The top of the target, the first plane, is the same for a run along X and a run along Y.
   const DrawnSurface& top() const { return surfaces_.front(); }
-  void take_top_of_x(const DrawnSurface& top) {
+  void share_x_top(const DrawnSurface& top) {
     surfaces_.front() = top;
     shares_top_ = true;
   }

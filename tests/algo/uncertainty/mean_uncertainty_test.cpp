@@ -13,7 +13,7 @@ namespace mdof::algo {
 namespace {
 
 // Runs of `length` readings, alternately +1 and -1: the mean is 0, the sd √(n/(n - 1)).
-double u_of_runs(int length, int runs) {
+double alternating_run_u(int length, int runs) {
   std::vector<double> x;
   for (int k = 0; k < runs; ++k)
     x.insert(x.end(), static_cast<std::size_t>(length), k % 2 ? -1 : 1);
@@ -25,19 +25,19 @@ double u_of_runs(int length, int runs) {
 // two: 2/16; nine of 13 at distance three: -5/16. So the first pair of lags, 25/16, counts and the
 // next one does not: (2 × 25/16 - 1) / (16 - 3).
 TEST(MeanUncertainty, UsesOnePairOfLags) {
-  EXPECT_NEAR(u_of_runs(4, 4), std::sqrt((50 / 16.0 - 1) / 13), 1e-14);
+  EXPECT_NEAR(alternating_run_u(4, 4), std::sqrt((50 / 16.0 - 1) / 13), 1e-14);
 }
 
 // Thirty-two readings, four runs of eight: 1, 25/32 | 18/32, 11/32 | 4/32, -3/32. The last pair is
 // below the noise √(2/32).
 TEST(MeanUncertainty, UsesTwoPairsOfLags) {
-  EXPECT_NEAR(u_of_runs(8, 4), std::sqrt((2 * 86 / 32.0 - 1) / 25), 1e-14);
+  EXPECT_NEAR(alternating_run_u(8, 4), std::sqrt((2 * 86 / 32.0 - 1) / 25), 1e-14);
 }
 
 // For alternating readings, the sum of the pairs is below the variance of one reading. u is then
 // that of independent readings.
 TEST(MeanUncertainty, IsAtLeastThatOfIndependentReadings) {
-  EXPECT_NEAR(u_of_runs(1, 16), 1 / std::sqrt(15), 1e-14);
+  EXPECT_NEAR(alternating_run_u(1, 16), 1 / std::sqrt(15), 1e-14);
 }
 
 TEST(MeanUncertainty, IsCorrectForFewReadings) {
@@ -49,7 +49,7 @@ TEST(MeanUncertainty, IsCorrectForFewReadings) {
 // More than 256 readings are replaced by means of equal numbers of readings. Of 1024 readings, four
 // are averaged, so each run of sixteen becomes a run of four.
 TEST(MeanUncertainty, AveragesManyReadings) {
-  const double few = u_of_runs(4, 64), many = u_of_runs(16, 64);
+  const double few = alternating_run_u(4, 64), many = alternating_run_u(16, 64);
   EXPECT_NEAR(many, few, 1e-12);
 }
 

@@ -91,12 +91,12 @@ TEST(NoiseOfRuns, EqualDeviationsKeepAnUncertainty) {
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
   synthetic.u_reading_m = kNoise_m;
   const RunBudgets budgets(rig, synthetic.measure());
-  const double u_of_mean_rad = kNoise_m * std::sqrt(2.0) / 10e-3 / std::sqrt(6.0);
+  const double mean_u_rad = kNoise_m * std::sqrt(2.0) / 10e-3 / std::sqrt(6.0);
   const Budget yaw = budgets.of(range_figure(Axis::x, 4));
   EXPECT_EQ(yaw.value, 0);
-  EXPECT_NEAR(yaw.U / u_of_mean_rad, 4.387, 0.1);
+  EXPECT_NEAR(yaw.U / mean_u_rad, 4.387, 0.1);
   // The mean square of the range of nine normal numbers is 2.970² + 0.808² (Tippett).
-  EXPECT_NEAR(yaw.u / u_of_mean_rad, std::hypot(2.970, 0.808), 0.06);
+  EXPECT_NEAR(yaw.u / mean_u_rad, std::hypot(2.970, 0.808), 0.06);
   EXPECT_NEAR(yaw.coverage_factor, yaw.U / yaw.u, 1e-12);
   synthetic.u_reading_m = 0;  // there is no noise, and the rig declares nothing
   EXPECT_TRUE(std::isnan(RunBudgets(rig, synthetic.measure()).of(range_figure(Axis::x, 4)).U));
@@ -184,8 +184,7 @@ struct UncertaintyRatio {
 
 // A perfect axis. Its second run ends at the sixth target of the reverse pass, its third run at the
 // third target. Probes D and E drift together, from pass to pass or from run to run.
-std::map<std::string, UncertaintyRatio> u_ratio_of_incomplete_runs(double level_m,
-                                                                   bool of_each_pass) {
+std::map<std::string, UncertaintyRatio> incomplete_run_u_ratios(double level_m, bool of_each_pass) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(test::coverage_seed(6));
   std::normal_distribution<> normal;
@@ -234,7 +233,7 @@ std::map<std::string, UncertaintyRatio> u_ratio_of_incomplete_runs(double level_
 // A common level of all targets of a run cancels, even if the run lacks visits.
 TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelCancelsAsOfWholeOnes) {
   for (const double level_m : {0.0, 200e-9})
-    for (const auto& [name, of] : u_ratio_of_incomplete_runs(level_m, false)) {
+    for (const auto& [name, of] : incomplete_run_u_ratios(level_m, false)) {
       // The level itself is known from three runs only.
       const bool has_level = name == "error EYX_um" || name.starts_with("table with slope");
       EXPECT_GT(of.ratio(), 0.95) << name << " " << level_m;
@@ -244,7 +243,7 @@ TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelCancelsAsOfWholeOnes) {
 
 // A separate level of each pass does not cancel if a run lacks a part of a pass.
 TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelOfEachPassStays) {
-  for (const auto& [name, of] : u_ratio_of_incomplete_runs(200e-9, true)) {
+  for (const auto& [name, of] : incomplete_run_u_ratios(200e-9, true)) {
     EXPECT_GT(of.ratio(), 0.9) << name;
     EXPECT_LT(of.ratio(), 1.35) << name;
   }
@@ -279,10 +278,10 @@ std::vector<MeasuredPoint> incomplete_runs_points() {
   return points;
 }
 
-std::map<TargetAndWay, double> means_without_drift(const std::vector<MeasuredPoint>& points) {
-  std::map<TargetAndWay, double> sum, n;
+std::map<TargetAndApproach, double> means_without_drift(const std::vector<MeasuredPoint>& points) {
+  std::map<TargetAndApproach, double> sum, n;
   for (const MeasuredPoint& p : subtract_run_drifts(points).points) {
-    const TargetAndWay at{p.target, p.point.direction > 0 ? 1 : 0};
+    const TargetAndApproach at{p.target, p.point.direction > 0 ? 1 : 0};
     sum[at] += p.errors.local[0];
     n[at] += 1;
   }
@@ -294,8 +293,8 @@ std::map<TargetAndWay, double> means_without_drift(const std::vector<MeasuredPoi
 // covariances.
 TEST(RunShifts, PartsGiveTheCovarianceOfTheMeans) {
   const std::vector<MeasuredPoint> points = incomplete_runs_points();
-  std::map<std::pair<TargetAndWay, TargetAndWay>, double> covariance;
-  std::map<TargetAndWay, double> visits;
+  std::map<std::pair<TargetAndApproach, TargetAndApproach>, double> covariance;
+  std::map<TargetAndApproach, double> visits;
   for (std::size_t j = 0; j < points.size(); ++j) {
     std::vector<MeasuredPoint> moved = points;
     moved[j].errors.local[0] = 1;

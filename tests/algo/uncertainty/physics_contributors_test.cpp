@@ -27,8 +27,8 @@ const std::string kMeasuringConditions =
     "temperature_C = 23\npressure_kPa = 99\nhumidity_percent = 65\n";
 
 // `keys` are added to each probe, `of_b` to probe B only.
-Rig rig_of_physics(const std::string& keys, const std::string& of_b, const std::string& end,
-                   const std::string& measures_of_b = "measures = \"+Z\"") {
+Rig declared_physics_rig(const std::string& keys, const std::string& of_b, const std::string& end,
+                         const std::string& measures_of_b = "measures = \"+Z\"") {
   std::string toml = test::rig_x_toml();
   for (const char id : {'A', 'B', 'C', 'D', 'E'}) {
     const std::size_t at = toml.find('\n', toml.find(std::string("id = \"") + id + "\"")) + 1;
@@ -50,7 +50,7 @@ Errors5 tilting_axis(double d) {
 Errors5 rising_axis(double d) {
   return {3e-6 + 1e-4 * d, 20e-6 - 2e-4 * d, 0, 0, 0};
 }
-Run run_of_physics(const Rig& rig, Errors5 (*truth)(double)) {
+Run simulated_physics_run(const Rig& rig, Errors5 (*truth)(double)) {
   return SyntheticRun{.rig = rig, .runs = 1, .truth = truth}.measure();
 }
 
@@ -74,13 +74,13 @@ void expect_shown(const Contributor& c, const char* key, double value, const cha
 }
 
 // Change of the reading of B or of D, m.
-double of_reading_b(const Errors5& shift) {
+double reading_b_shift(const Errors5& shift) {
   return shift[kEx] * 2 * kArm_m;
 }
-double of_reading_d(const Errors5& shift) {
+double reading_d_shift(const Errors5& shift) {
   return -shift[kEz] * kArm_m;
 }
-double gap_by_hand(const Run& run, std::size_t j, std::size_t probe) {
+double expected_gap_m(const Run& run, std::size_t j, std::size_t probe) {
   return kGap_m - run.points[j].point.probe_m[probe];
 }
 
@@ -91,17 +91,17 @@ void expect_tilts(const Contributor& of_b, const Contributor& of_d, const Run& r
   ASSERT_EQ(d.size(), 1u);
   for (std::size_t j = 0; j < run.points.size(); ++j) {
     const double part = run.points[j].point.position_m / 0.04, square = part * part * 1e-6;
-    const double by_b = u * kDisc_m2 * 5 * square / (4 * gap_by_hand(run, j, kOfB));
-    const double by_d = u * kDisc_m2 * 10 * square / (4 * gap_by_hand(run, j, kOfD));
-    EXPECT_NEAR(of_reading_b(b[0][j]), by_b, 0.02 * by_b + 1e-15) << j;
-    EXPECT_NEAR(of_reading_d(d[0][j]), by_d, 0.02 * by_d + 1e-15) << j;
+    const double by_b = u * kDisc_m2 * 5 * square / (4 * expected_gap_m(run, j, kOfB));
+    const double by_d = u * kDisc_m2 * 10 * square / (4 * expected_gap_m(run, j, kOfD));
+    EXPECT_NEAR(reading_b_shift(b[0][j]), by_b, 0.02 * by_b + 1e-15) << j;
+    EXPECT_NEAR(reading_d_shift(d[0][j]), by_d, 0.02 * by_d + 1e-15) << j;
   }
 }
 
 TEST(PhysicsContributors, CorrectedTiltHasTheUOfItsFactor) {
   const Rig rig =
-      rig_of_physics(kGapKeys + "u_tilt_factor = 0.4\n", "", "[corrections]\ntilt = true\n");
-  const mdof::Run run = run_of_physics(rig, tilting_axis);
+      declared_physics_rig(kGapKeys + "u_tilt_factor = 0.4\n", "", "[corrections]\ntilt = true\n");
+  const mdof::Run run = simulated_physics_run(rig, tilting_axis);
   const Contributor b = named_contributor(rig, run, "probe B: tilt");
   expect_shown(b, "u_tilt_factor", 0.4, "");
   expect_tilts(b, named_contributor(rig, run, "probe D: tilt"), run, 0.4);
@@ -111,8 +111,8 @@ TEST(PhysicsContributors, CorrectedTiltHasTheUOfItsFactor) {
 
 TEST(PhysicsContributors, UncorrectedTiltCountsWhole) {
   const Rig rig =
-      rig_of_physics(kGapKeys + "u_tilt_factor = 0.4\n", "", "[corrections]\ntilt = false\n");
-  const mdof::Run run = run_of_physics(rig, tilting_axis);
+      declared_physics_rig(kGapKeys + "u_tilt_factor = 0.4\n", "", "[corrections]\ntilt = false\n");
+  const mdof::Run run = simulated_physics_run(rig, tilting_axis);
   const Contributor b = named_contributor(rig, run, "probe B: uncorrected tilt");
   const double whole = std::sqrt(5 * 5 + 0.4 * 0.4);
   expect_shown(b, "tilt_factor", whole, "");
@@ -137,27 +137,27 @@ constexpr double kMisalignmentSquare =
     kMisalignment_rad * kMisalignment_rad / (1 + kMisalignment_rad * kMisalignment_rad);
 MisalignedProbe misaligned_probe(const Run& run, std::size_t j) {
   const double part = run.points[j].point.position_m / 0.04;
-  return {gap_by_hand(run, j, kOfB), 1e-3 * part, 2e-3 * part};
+  return {expected_gap_m(run, j, kOfB), 1e-3 * part, 2e-3 * part};
 }
 
 TEST(PhysicsContributors, TiltActsByItsChangeSinceTheZero) {
-  const Rig rig = rig_of_physics(kGapKeys, "u_tilt_factor = 0.4\n", kCorrectedOverPlanes,
-                                 "direction = [0, 0.02, 1]");
-  const mdof::Run run = run_of_physics(rig, tilting_axis);
+  const Rig rig = declared_physics_rig(kGapKeys, "u_tilt_factor = 0.4\n", kCorrectedOverPlanes,
+                                       "direction = [0, 0.02, 1]");
+  const mdof::Run run = simulated_physics_run(rig, tilting_axis);
   const auto parts = named_contributor(rig, run, "probe B: tilt").parts();
   for (std::size_t j = 0; j < run.points.size(); ++j) {
     const MisalignedProbe b = misaligned_probe(run, j);
     const double expected =
         0.4 * kDisc_m2 / 4 * (b.square() / b.gap_m - kMisalignmentSquare / kGap_m);
-    EXPECT_NEAR(of_reading_b(parts[0][j]), expected, 0.02 * std::abs(expected) + 1e-15) << j;
+    EXPECT_NEAR(reading_b_shift(parts[0][j]), expected, 0.02 * std::abs(expected) + 1e-15) << j;
   }
 }
 
 // A tilt c of 3 mrad in the clamp gives (t + c)²: 2 t c about each axis, and c² of both axes.
 TEST(PhysicsContributors, ProbeMayBeTiltedInItsClamp) {
-  const Rig rig = rig_of_physics(kGapKeys, "u_direction_mrad = 3\n", kCorrectedOverPlanes,
-                                 "direction = [0, 0.02, 1]");
-  const mdof::Run run = run_of_physics(rig, tilting_axis);
+  const Rig rig = declared_physics_rig(kGapKeys, "u_direction_mrad = 3\n", kCorrectedOverPlanes,
+                                       "direction = [0, 0.02, 1]");
+  const mdof::Run run = simulated_physics_run(rig, tilting_axis);
   const Contributor found = named_contributor(rig, run, "probe B: tilt in its clamp");
   expect_shown(found, "u_direction_mrad", 3, "mrad");
   EXPECT_FALSE(has_contributor(rig, run, "probe D: tilt in its clamp"));
@@ -170,18 +170,18 @@ TEST(PhysicsContributors, ProbeMayBeTiltedInItsClamp) {
         -(b.roll + kMisalignment_rad) / norm / b.gap_m + kMisalignment_rad / norm / kGap_m;
     const double about_y = -b.pitch / b.gap_m;  // across the probe, except for 2e-4 of it
     const double expected = 5 * kDisc_m2 / 4 * 2 * c * std::hypot(about_x, about_y);
-    const double both = std::hypot(of_reading_b(parts[0][j]), of_reading_b(parts[1][j]));
+    const double both = std::hypot(reading_b_shift(parts[0][j]), reading_b_shift(parts[1][j]));
     EXPECT_NEAR(both, expected, 0.02 * expected + 1e-15) << j;
     const double of_square = 5 * kDisc_m2 / 4 * 2 * c * c * (1 / b.gap_m - 1 / kGap_m);
-    EXPECT_NEAR(of_reading_b(parts[2][j]), of_square, 0.02 * std::abs(of_square) + 1e-15) << j;
+    EXPECT_NEAR(reading_b_shift(parts[2][j]), of_square, 0.02 * std::abs(of_square) + 1e-15) << j;
   }
 }
 
 // Waves with the length of the range and of a half, a third and a fourth of it, with the weights 1,
 // 1/4, 1/9 and 1/16. At each reading the sum of squares is u².
 TEST(PhysicsContributors, LinearityIsASumOfWavesOverTheRange) {
-  const Rig rig = rig_of_physics("", "u_linearity_um = 0.05\n", "");
-  const mdof::Run run = run_of_physics(rig, tilting_axis);
+  const Rig rig = declared_physics_rig("", "u_linearity_um = 0.05\n", "");
+  const mdof::Run run = simulated_physics_run(rig, tilting_axis);
   const Contributor found = named_contributor(rig, run, "probe B: linearity");
   expect_shown(found, "u_linearity_um", 0.05, "µm");
   const auto parts = found.parts();
@@ -193,8 +193,8 @@ TEST(PhysicsContributors, LinearityIsASumOfWavesOverTheRange) {
     for (std::size_t w = 1; w <= 4; ++w) {
       const auto wave = static_cast<double>(w);
       const double size = 0.05e-6 / (wave * wave * std::sqrt(norm));
-      const double sine = of_reading_b(parts[2 * w - 2][j]),
-                   cosine = of_reading_b(parts[2 * w - 1][j]);
+      const double sine = reading_b_shift(parts[2 * w - 2][j]),
+                   cosine = reading_b_shift(parts[2 * w - 1][j]);
       EXPECT_NEAR(sine, size * std::sin(wave * turn), 0.02 * size) << j << ' ' << w;
       EXPECT_NEAR(cosine, size * std::cos(wave * turn), 0.02 * size) << j << ' ' << w;
       square += sine * sine + cosine * cosine;
@@ -218,8 +218,8 @@ TEST(PhysicsContributors, UncorrectedCurveCountsWhole) {
                {"linearity = [[-100, -0.3], [0, 0.1], [100, 0.6]]\n", "linearity",
                 [](double s) { return 0.1 + s * (s < 0 ? 0.004 : 0.005); }}};
   for (const auto& c : cases) {
-    const Rig rig = rig_of_physics("", c.keys, off);
-    mdof::Run run = run_of_physics(rig, rising_axis);
+    const Rig rig = declared_physics_rig("", c.keys, off);
+    mdof::Run run = simulated_physics_run(rig, rising_axis);
     run.points.resize(9);  // one direction, so only the first reading is the largest
     const Contributor found = named_contributor(rig, run, "probe B: uncorrected linearity");
     EXPECT_FALSE(has_contributor(rig, run, "probe C: uncorrected linearity"));
@@ -227,7 +227,8 @@ TEST(PhysicsContributors, UncorrectedCurveCountsWhole) {
     double most_um = 0;
     for (std::size_t j = 0; j < run.points.size(); ++j) {
       const double s_um = run.points[j].point.probe_m[kOfB] * 1e6;
-      EXPECT_NEAR(of_reading_b(parts[0][j]) * 1e6, c.correction_um(s_um), 1e-5) << c.keys << s_um;
+      EXPECT_NEAR(reading_b_shift(parts[0][j]) * 1e6, c.correction_um(s_um), 1e-5)
+          << c.keys << s_um;
       most_um = std::max(most_um, std::abs(c.correction_um(s_um)));
     }
     expect_shown(found, c.key, most_um, "µm");
@@ -236,7 +237,7 @@ TEST(PhysicsContributors, UncorrectedCurveCountsWhole) {
 
 // ε - 1 = 2e-6 (776 p/T + 3.73e6 e/T²), with p and the vapour pressure e in kPa; e by the formula
 // of Magnus.
-double permittivity_of_air(double t_C, double p_kPa, double humidity) {
+double independent_permittivity(double t_C, double p_kPa, double humidity) {
   const double T = t_C + 273.15,
                e_kPa = humidity / 100 * 0.61094 * std::exp(17.625 * t_C / (t_C + 243.04));
   return 1 + 2e-6 * (776 * p_kPa / T + 3.73e6 * e_kPa / (T * T));
@@ -246,8 +247,8 @@ struct AirState {
   double slope(int quantity) const {
     const double step[] = {quantity == 0 ? 0.1 : 0, quantity == 1 ? 0.1 : 0,
                            quantity == 2 ? 0.1 : 0};
-    return (permittivity_of_air(t_C + step[0], p_kPa + step[1], humidity + step[2]) -
-            permittivity_of_air(t_C - step[0], p_kPa - step[1], humidity - step[2])) /
+    return (independent_permittivity(t_C + step[0], p_kPa + step[1], humidity + step[2]) -
+            independent_permittivity(t_C - step[0], p_kPa - step[1], humidity - step[2])) /
            0.2;
   }
 };
@@ -276,7 +277,7 @@ const std::string kAirUncertainties =
     "u_calibration_temperature_C = 0.7\nu_calibration_pressure_kPa = 0.3\n"
     "u_calibration_humidity_percent = 4\n";
 
-void expect_quantities_of_air(const Rig& rig, const Run& run, const AirState& slopes_at) {
+void expect_air_quantities(const Rig& rig, const Run& run, const AirState& slopes_at) {
   for (int q = 0; q < 3; ++q) {
     const auto name = std::string(kQuantity[q]), key = std::string(kQuantityKey[q]);
     const Contributor now = named_contributor(rig, run, "air: " + name);
@@ -290,23 +291,23 @@ void expect_quantities_of_air(const Rig& rig, const Run& run, const AirState& sl
 
 TEST(PhysicsContributors, CorrectedAirHasTheUOfItsConditions) {
   const Rig rig =
-      rig_of_physics(kGapKeys, "",
-                     "[corrections]\ndielectric = true\n[air]\n" + kCalibrationConditions +
-                         kMeasuringConditions + kAirUncertainties);
-  const mdof::Run run = run_of_physics(rig, rising_axis);
+      declared_physics_rig(kGapKeys, "",
+                           "[corrections]\ndielectric = true\n[air]\n" + kCalibrationConditions +
+                               kMeasuringConditions + kAirUncertainties);
+  const mdof::Run run = simulated_physics_run(rig, rising_axis);
   EXPECT_FALSE(has_contributor(rig, run, "air: uncorrected permittivity"));
-  expect_quantities_of_air(rig, run, kNow);
+  expect_air_quantities(rig, run, kNow);
 }
 
 TEST(PhysicsContributors, UncorrectedAirCountsWhole) {
   const Rig rig =
-      rig_of_physics(kGapKeys, "",
-                     "[corrections]\ndielectric = false\n[air]\n" + kCalibrationConditions +
-                         kMeasuringConditions + kAirUncertainties);
-  const mdof::Run run = run_of_physics(rig, rising_axis);
+      declared_physics_rig(kGapKeys, "",
+                           "[corrections]\ndielectric = false\n[air]\n" + kCalibrationConditions +
+                               kMeasuringConditions + kAirUncertainties);
+  const mdof::Run run = simulated_physics_run(rig, rising_axis);
   const Contributor whole = named_contributor(rig, run, "air: uncorrected permittivity");
   const double relative =
-      permittivity_of_air(23, 99, 65) / permittivity_of_air(20, 101.325, 40) - 1;
+      independent_permittivity(23, 99, 65) / independent_permittivity(20, 101.325, 40) - 1;
   EXPECT_EQ(whole.key, "[air]");
   EXPECT_EQ(whole.unit, "ppm");
   EXPECT_NEAR(whole.declared.u * whole.to_unit, std::abs(relative) * 1e6, 0.3);
@@ -316,32 +317,32 @@ TEST(PhysicsContributors, UncorrectedAirCountsWhole) {
     const double gap_m = kGap_m - rising_axis(run.points[j].point.position_m)[kDz];
     EXPECT_NEAR(std::abs(parts[0][j][kDz]), std::abs(relative) * gap_m, 0.3e-6 * gap_m);
   }
-  expect_quantities_of_air(rig, run, kNow);
+  expect_air_quantities(rig, run, kNow);
 }
 
 // If the log contains the ambient conditions, the rig does not know them. The slopes are taken at
 // the conditions of the calibration.
 TEST(PhysicsContributors, AirFromTheLogHasTheSlopesOfTheCalibration) {
-  const Rig rig = rig_of_physics(
+  const Rig rig = declared_physics_rig(
       kGapKeys, "",
       "[corrections]\ndielectric = false\n[air]\n" + kCalibrationConditions + kAirUncertainties);
-  const mdof::Run run = run_of_physics(rig, rising_axis);
+  const mdof::Run run = simulated_physics_run(rig, rising_axis);
   EXPECT_FALSE(has_contributor(rig, run, "air: uncorrected permittivity"));
-  expect_quantities_of_air(rig, run, kAtCalibration);
+  expect_air_quantities(rig, run, kAtCalibration);
   // The same applies if the log contains one quantity.
   const Rig partly =
-      rig_of_physics(kGapKeys, "",
-                     "[corrections]\ndielectric = false\n[air]\n" + kCalibrationConditions +
-                         "temperature_C = 23\nhumidity_percent = 65\n" + kAirUncertainties);
+      declared_physics_rig(kGapKeys, "",
+                           "[corrections]\ndielectric = false\n[air]\n" + kCalibrationConditions +
+                               "temperature_C = 23\nhumidity_percent = 65\n" + kAirUncertainties);
   EXPECT_FALSE(has_contributor(partly, run, "air: uncorrected permittivity"));
 }
 
 TEST(PhysicsContributors, PointsWithoutErrorsHaveNone) {
   const Rig rig =
-      rig_of_physics(kGapKeys, "",
-                     "[corrections]\ndielectric = true\n[air]\n" + kCalibrationConditions +
-                         kMeasuringConditions + kAirUncertainties);
-  mdof::Run run = run_of_physics(rig, rising_axis);
+      declared_physics_rig(kGapKeys, "",
+                           "[corrections]\ndielectric = true\n[air]\n" + kCalibrationConditions +
+                               kMeasuringConditions + kAirUncertainties);
+  mdof::Run run = simulated_physics_run(rig, rising_axis);
   run.points[3].errors.valid = false;
   const auto parts = named_contributor(rig, run, "air: pressure").parts();
   EXPECT_EQ(parts[0][3], Errors5{});

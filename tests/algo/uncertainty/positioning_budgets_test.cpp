@@ -237,7 +237,7 @@ TEST(Repeatability, UncertaintyMatchesAnExhaustiveSearch) {
   std::vector<double> measured, errors;
   for (int i = 0; i < 12; ++i) measured.push_back(numbers.between(-2, 2) + (i % 2 ? 1.5 : 0));
   for (int i = 0; i < 12 * 40; ++i) errors.push_back(numbers.between(-1, 1));
-  const auto R_of = [&](const std::vector<double>& v, RepeatabilityKind of) {
+  const auto expected_R = [&](const std::vector<double>& v, RepeatabilityKind of) {
     double most = 0;
     for (std::size_t target = 0; target < 2; ++target) {
       std::array<double, 2> mean{}, s{};
@@ -259,14 +259,14 @@ TEST(Repeatability, UncertaintyMatchesAnExhaustiveSearch) {
     for (const RepeatabilityKind of : kRepeatabilities) {
       std::vector<double> scaled = errors;
       for (double& e : scaled) e *= size;
-      const double R = R_of(measured, of);
+      const double R = expected_R(measured, of);
       EXPECT_NEAR(repeatability_R(groups, measured.data(), of), R, 1e-12);
       const auto distance = [&](double part) {
         std::vector<double> off;
         for (std::size_t t = 0; t < 40; ++t) {
           std::vector<double> v;
           for (std::size_t j = 0; j < 12; ++j) v.push_back(part * measured[j] + scaled[12 * t + j]);
-          off.push_back(std::abs(R_of(v, of) - part * R));
+          off.push_back(std::abs(expected_R(v, of) - part * R));
         }
         std::sort(off.begin(), off.end());
         return off[38];

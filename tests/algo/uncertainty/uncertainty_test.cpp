@@ -216,7 +216,7 @@ TimedVisits timed_visits(int runs, double per_s) {
 }
 
 // Sum of squares of the residuals of places and a slope over time.
-std::vector<double> left_of_slope(const TimedVisits& all) {
+std::vector<double> slope_residual_squares(const TimedVisits& all) {
   std::map<std::pair<int, int>, Eigen::Index> places;
   for (const MeasuredPoint& p : all.points)
     if (p.errors.valid) places.emplace(std::pair(p.target, p.point.direction), places.size());
@@ -240,8 +240,8 @@ TEST(SteadyScatter, IsTheResidualOfASlopeOverTime) {
   for (const double per_s : {0.0, 2.0}) {
     const TimedVisits all = timed_visits(3, per_s);
     const VisitScatter scatter(all.points);
-    const auto found = scatter.of_steady(all.values, all.time_s);
-    const std::vector<double> squares = left_of_slope(all);
+    const auto found = scatter.without_trend(all.values, all.time_s);
+    const std::vector<double> squares = slope_residual_squares(all);
     for (std::size_t k = 0; k < 5; ++k)
       EXPECT_NEAR(found.variance[k], squares[k] / (22 - 8 - 1), 1e-9 * squares[k]);
   }
@@ -252,8 +252,9 @@ TEST(SteadyScatter, EqualsTheVisitScatterAtOneTime) {
   TimedVisits all = timed_visits(3, 0);
   const VisitScatter scatter(all.points);
   all.time_s.assign(all.time_s.size(), 5);
-  EXPECT_EQ(scatter.of_steady(all.values, all.time_s).variance, scatter.of(all.values).variance);
-  EXPECT_EQ(scatter.of_steady(all.values, all.time_s).freedom, scatter.of(all.values).freedom);
+  EXPECT_EQ(scatter.without_trend(all.values, all.time_s).variance,
+            scatter.of(all.values).variance);
+  EXPECT_EQ(scatter.without_trend(all.values, all.time_s).freedom, scatter.of(all.values).freedom);
 }
 
 // With one degree of freedom, a slope would leave none.
@@ -265,7 +266,7 @@ TEST(SteadyScatter, HasOneDegreeOfFreedomForTwoVisits) {
   all.values.push_back(all.values[2]);
   for (double& v : all.values.back()) v += 4;
   all.time_s.push_back(1000);
-  const auto found = VisitScatter(all.points).of_steady(all.values, all.time_s);
+  const auto found = VisitScatter(all.points).without_trend(all.values, all.time_s);
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_NEAR(found.variance[k], 8, 1e-9);
     EXPECT_EQ(found.freedom[k], 1);  // not 64/25, because passes and the rest have one in common

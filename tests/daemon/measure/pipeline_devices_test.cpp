@@ -59,9 +59,10 @@ TEST(PipelineOfTwoDevices, ReportsASilentDeviceAndContinuesAfterAWhile) {
   const auto waits = pipeline.waiting_for();
   ASSERT_TRUE(waits);
   EXPECT_TRUE(*waits == "D" || *waits == "E") << *waits;
-  const std::size_t held_up = pipeline.points().size();
+  const std::size_t points_before_lag = pipeline.points().size();
   while (devices.feed(pipeline)) continue;
-  EXPECT_GT(pipeline.points().size(), held_up + 5) << "after the lag bound points come again";
+  EXPECT_GT(pipeline.points().size(), points_before_lag + 5)
+      << "after the lag bound points come again";
   const auto run = pipeline.finish();
   ASSERT_TRUE(run) << run.error().message;
   ASSERT_EQ(run->points.size(), 20u);

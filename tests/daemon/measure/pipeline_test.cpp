@@ -38,7 +38,7 @@ Result<Run> measured(const TestAxis& axis, const std::function<void(SampleBlock&
 
 // Channel `c` of the blocks of both_ways(), and the scans of one stop, 0 ... 9.
 constexpr std::size_t kWay = 100, kStand = 400, kC = 3;
-std::size_t begin_of_stop(std::size_t stop) {
+std::size_t stop_begin_scan(std::size_t stop) {
   return kWay + stop * (kWay + kStand) + (stop >= kStops_mm.size() ? kWay : 0);
 }
 void lose(SampleBlock& block, std::size_t c, std::size_t begin, std::size_t end) {
@@ -132,7 +132,7 @@ TEST(Pipeline, TheDivisionIntoBlocksChangesNoBit) {
 
 TEST(Pipeline, AProbeMissingAtOneStopCostsOnlyThatPoint) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
-    lose(block, kC, begin_of_stop(2), begin_of_stop(2) + kStand);
+    lose(block, kC, stop_begin_scan(2), stop_begin_scan(2) + kStand);
   });
   ASSERT_TRUE(run) << run.error().message;
   ASSERT_EQ(run->points.size(), 10u);
@@ -153,7 +153,7 @@ TEST(Pipeline, AProbeMissingAtOneStopCostsOnlyThatPoint) {
 TEST(Pipeline, AProbeAtTheEndOfItsRangeGivesNoReading) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
     for (std::size_t i = 0; i < kStand; ++i)
-      block.value[kC][begin_of_stop(2) + i] =
+      block.value[kC][stop_begin_scan(2) + i] =
           i % 10 == 0 ? 100.5 : 99 + 0.9 * (static_cast<double>(i % 3) - 1);
   });
   ASSERT_TRUE(run) << run.error().message;
@@ -166,7 +166,7 @@ TEST(Pipeline, AProbeAtTheEndOfItsRangeGivesNoReading) {
 
 TEST(Pipeline, AFewMissingReadingsOfAStopCostNoPoint) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
-    lose(block, kC, begin_of_stop(2) + 200, begin_of_stop(2) + 220);
+    lose(block, kC, stop_begin_scan(2) + 200, stop_begin_scan(2) + 220);
   });
   ASSERT_TRUE(run) << run.error().message;
   ASSERT_EQ(run->points.size(), 10u);
@@ -275,7 +275,8 @@ TEST(Pipeline, TheTemperatureIsTheMeanOfItsReadings) {
 TEST(Pipeline, LostScansAreCountedAndHideTheTravel) {
   const TestAxis axis = both_ways();
   Pipeline pipeline = pipeline_of();
-  const std::size_t unseen = begin_of_stop(7) - kWay;  // the travel to that stop, and a little more
+  const std::size_t unseen =
+      stop_begin_scan(7) - kWay;  // the travel to that stop, and a little more
   SampleBlock before = axis.block(0, unseen), after = axis.block(unseen + kWay + 50, axis.scans());
   after.lost = kWay + 50;
   ASSERT_TRUE(pipeline.push(before));
@@ -294,7 +295,7 @@ TEST(Pipeline, TheLiveViewShowsTheNewestInstantAndKeepsNoPoints) {
   Pipeline view = pipeline_of(five_probe_rig(), options);
   EXPECT_EQ(view.newest().size(), 0u);
   const TestAxis axis = both_ways();
-  const std::size_t shown = begin_of_stop(3) + 300;
+  const std::size_t shown = stop_begin_scan(3) + 300;
   SampleBlock block = axis.block(0, shown);
   ASSERT_TRUE(view.push(block));
   const FrameBlock& newest = view.newest();

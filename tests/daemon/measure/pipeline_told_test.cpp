@@ -17,7 +17,7 @@ TestAxis pass_over_five() {
 
 // First scans of the stops of pass_over_five(), 0 ... 9.
 constexpr std::size_t kToStop = 100, kAtStop = 400;
-constexpr std::size_t first_scan_of(std::size_t stop) {
+constexpr std::size_t stop_first_scan(std::size_t stop) {
   return kToStop + stop * (kToStop + kAtStop) + (stop >= 5 ? kToStop : 0);
 }
 
@@ -83,7 +83,7 @@ TEST(PipelineTold, AStopWithoutAPositionIsOmittedWithItsTime) {
   SampleBlock block = axis.whole();
   block.quality.assign(6, {});
   block.quality[0].assign(block.scans(), Quality::good);
-  const std::size_t begin = first_scan_of(7);
+  const std::size_t begin = stop_first_scan(7);
   std::fill_n(block.quality[0].begin() + static_cast<std::ptrdiff_t>(begin - 10), kAtStop + 20,
               Quality::suspect);
   const auto run = run_of(pipeline, {block});
@@ -98,7 +98,7 @@ TEST(PipelineTold, AStopWithoutAPositionIsOmittedWithItsTime) {
 TEST(PipelineTold, ReportsAHoleInTheRecording) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
-  const std::size_t unseen = first_scan_of(7) - kToStop;
+  const std::size_t unseen = stop_first_scan(7) - kToStop;
   SampleBlock after = axis.block(unseen + kToStop + 50, axis.scans());
   after.lost = kToStop + 50;
   const auto run = run_of(pipeline, {axis.block(0, unseen), after});
@@ -110,7 +110,7 @@ TEST(PipelineTold, ReportsAHoleInTheRecording) {
 TEST(PipelineTold, AFewLostScansDoNotEndAStop) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
-  const std::size_t lost_at = first_scan_of(7) + 200;
+  const std::size_t lost_at = stop_first_scan(7) + 200;
   SampleBlock after = axis.block(lost_at + 20, axis.scans());
   after.lost = 20;
   const auto run = run_of(pipeline, {axis.block(0, lost_at), after});

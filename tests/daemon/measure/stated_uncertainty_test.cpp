@@ -138,7 +138,7 @@ class MeasuredAxis {
     block_.channels.push_back({kEncoderChannel, Unit::mm});
     for (const Probe& probe : rig_.probes) block_.channels.push_back({probe.id, Unit::um});
     block_.value.resize(block_.channels.size());
-    stand_at(-1, 0.02);
+    dwell_at(-1, 0.02);
     for (int r = 0; r < kRepeats; ++r) {
       for (const double mm : kTargets_mm) stop_at(mm);
       go_to(kTargets_mm.back() + 1);
@@ -173,7 +173,7 @@ class MeasuredAxis {
   double in_steps(double reading_m) const {
     return step_m_ > 0 ? step_m_ * std::round(reading_m / step_m_) : reading_m;
   }
-  void stand_at(double mm, double for_s) {
+  void dwell_at(double mm, double for_s) {
     const auto readings = readings_at(at_mm_ = mm);
     for (int i = 0; i < static_cast<int>(for_s * kRate_hz); ++i) scan(mm, readings);
   }
@@ -192,7 +192,7 @@ class MeasuredAxis {
   }
   void stop_at(double mm) {
     go_to(mm);
-    stand_at(mm, kDwell_s);
+    dwell_at(mm, kDwell_s);
   }
 
   const Rig& rig_;
@@ -245,7 +245,7 @@ void count_table(Coverage& coverage, const Rig& rig, const Run& run, const Run& 
   const auto together = algo::error_covariances(table, {rig}, {run}, options).value();
   for (const Eigen::Vector3d& p : {kTool_m, kFar_m}) {
     const Eigen::Vector3d u =
-        test::u_of_tool(test::machine_of(table, p, together), table, kWatched - 1);
+        test::tool_uncertainty(test::machine_of(table, p, together), table, kWatched - 1);
     const Eigen::Vector3d value = test::moved_by(table, kWatched - 1, p);
     const Eigen::Vector3d true_value = test::moved_by(true_table, kWatched - 1, p);
     for (int k = 0; k < 3; ++k)
@@ -283,7 +283,7 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
     MeasuredAxis machine(rigs[axis], faulty[axis], kind, 2 * seed + (axis == Axis::y ? 1 : 0));
     if (of.shop) machine.quantise();
     if (axis == Axis::y) machine.fixture().take_gains(gains);
-    if (top) machine.fixture().take_top_of_x(*top);
+    if (top) machine.fixture().share_x_top(*top);
     gains = machine.fixture().gains();
     if (!rigs[axis].planes.empty()) top = machine.fixture().top();
     Run& run = runs[axis] = machine.measure();

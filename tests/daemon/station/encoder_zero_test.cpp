@@ -94,21 +94,21 @@ TEST(EncoderZero, AnOffsetFoundBeforeALossIsRejected) {
 
 TEST(EncoderZero, ItsCountContinuesFromItsStartOrLastLoss) {
   EncoderZero zero({counting()});
-  EXPECT_FALSE(zero.counts_on_since(6));  // from an earlier start
+  EXPECT_FALSE(zero.has_counted_since(6));  // from an earlier start
   zero.begins(7);
-  EXPECT_TRUE(zero.counts_on_since(7));
+  EXPECT_TRUE(zero.has_counted_since(7));
   SampleBlock block = resting_at(3);
   zero.apply(block);
   zero.lose("another");
-  EXPECT_TRUE(zero.counts_on_since(7));
+  EXPECT_TRUE(zero.has_counted_since(7));
   zero.lose("t7");
-  EXPECT_FALSE(zero.counts_on_since(7));
+  EXPECT_FALSE(zero.has_counted_since(7));
   zero.begins(8);
-  EXPECT_TRUE(zero.counts_on_since(8));
-  EXPECT_FALSE(zero.counts_on_since(7));
+  EXPECT_TRUE(zero.has_counted_since(8));
+  EXPECT_FALSE(zero.has_counted_since(7));
   auto absolute = counting();
   absolute.encoder.counts = false;
-  EXPECT_TRUE(EncoderZero({absolute}).counts_on_since(6));
+  EXPECT_TRUE(EncoderZero({absolute}).has_counted_since(6));
 }
 
 // The notice for Y at 12.5 mm, for any cause.

@@ -7,7 +7,7 @@
 namespace mdof::daemon {
 namespace {
 
-#define EXPECT_TOLD(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+#define EXPECT_TEXT_CONTAINS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 class StationTrouble : public FedStation {
  protected:
@@ -20,7 +20,7 @@ TEST_F(StationTrouble, ADeviceLossCostsOnlyTheUnseenPoints) {
   const auto id = start();
   give(axis_, 0, kAtThird);
   feed_->go();
-  EXPECT_TOLD(events_.wait_for_trouble({"lost"}), std::to_string(*id) + " device \"daq\"");
+  EXPECT_TEXT_CONTAINS(events_.wait_for_trouble({"lost"}), std::to_string(*id) + " device \"daq\"");
   EXPECT_EQ(station_->devices().front().state, "failed: reopening");
   EXPECT_EQ(station_->run(), *id) << "the run goes on";
   feed_->come_back();
@@ -33,8 +33,8 @@ TEST_F(StationTrouble, ADeviceLossCostsOnlyTheUnseenPoints) {
   EXPECT_GE(run.points.size(), 5u);
   for (const auto& p : run.points) expect_true_errors(p, 1e3 * p.target_m);
   EXPECT_GE(run.header.scans_lost, 299u);
-  EXPECT_TOLD(notices(run), "device_trouble daq kind=lost");
-  EXPECT_TOLD(notices(run), "10.0.0.9: connection lost");
+  EXPECT_TEXT_CONTAINS(notices(run), "device_trouble daq kind=lost");
+  EXPECT_TEXT_CONTAINS(notices(run), "10.0.0.9: connection lost");
 }
 
 TEST_F(StationTrouble, ARunWithoutItsDeviceCanBeStopped) {
@@ -45,12 +45,12 @@ TEST_F(StationTrouble, ARunWithoutItsDeviceCanBeStopped) {
   ASSERT_TRUE(stop());
   const mdof::Run run = stored(*id);
   EXPECT_GE(run.points.size(), 2u);
-  EXPECT_TOLD(notices(run), "connection lost");
+  EXPECT_TEXT_CONTAINS(notices(run), "connection lost");
   const auto next = start();
   ASSERT_TRUE(next);
   ASSERT_TRUE(stop());
   EXPECT_EQ(stored(*next).header.state, RunState::failed);
-  EXPECT_TOLD(notices(stored(*next)), "no samples");
+  EXPECT_TEXT_CONTAINS(notices(stored(*next)), "no samples");
 }
 
 TEST_F(StationTrouble, TheEndOfTheProgramEndsAnOpenRunAsAborted) {
@@ -61,7 +61,7 @@ TEST_F(StationTrouble, TheEndOfTheProgramEndsAnOpenRunAsAborted) {
   keeper_.reset();
   const mdof::Run run = stored(*id);
   EXPECT_EQ(run.header.state, RunState::aborted);
-  EXPECT_TOLD(notices(run), "daemon_stopped");
+  EXPECT_TEXT_CONTAINS(notices(run), "daemon_stopped");
   EXPECT_GE(run.points.size(), 2u);
   EXPECT_EQ(run.header.provenance.recording_sha256.size(), 64u) << "its recording is sealed";
 }
@@ -119,7 +119,7 @@ TEST_F(StationTrouble, ALogIsReadOnceForEachRunAndEndsIt) {
     const auto id = start();
     ASSERT_TRUE(id) << id.error().message;
     const std::string run = "\"run\":" + std::to_string(*id);
-    EXPECT_TOLD(events_.wait_for({"\"ended\"", run}), pass == 0 ? "complete" : "failed");
+    EXPECT_TEXT_CONTAINS(events_.wait_for({"\"ended\"", run}), pass == 0 ? "complete" : "failed");
     const mdof::Run read = stored(*id);
     EXPECT_EQ(read.points.size(), pass == 0 ? 6u : 0u);  // the feed is empty the second time
     EXPECT_EQ(read.header.provenance.recording_kind, "replay");
@@ -132,7 +132,7 @@ TEST_F(StationTrouble, TheLiveViewShowsTheAxisWithAndWithoutARun) {
   station_->watch(std::chrono::milliseconds(20));
   give(axis_, 0, kAtThird);
   const std::string live = events_.wait_for_live({"\"run\":null"});
-  EXPECT_TOLD(live, "\"axis\":\"X\"");
+  EXPECT_TEXT_CONTAINS(live, "\"axis\":\"X\"");
   const auto id = start();
   give(axis_, kAtThird);
   EXPECT_FALSE(events_.wait_for_live({"\"run\":" + std::to_string(*id)}).empty());
@@ -165,7 +165,7 @@ TEST_F(StationDatum, IsThePositionThatTheUserSets) {
   EXPECT_EQ(station_->encoder().datum.kind, EncoderDatum::Kind::none);
   const auto nothing = set(12.5);
   ASSERT_FALSE(nothing);
-  EXPECT_TOLD(nothing.error().message, "the encoder has sent no sample");
+  EXPECT_TEXT_CONTAINS(nothing.error().message, "the encoder has sent no sample");
   EXPECT_EQ(station_->run(), 0);
   Result<EncoderDatum> datum = nothing;
   for (int i = 0; i < 20 && !datum; ++i) {  // a busy machine may be too slow
@@ -185,7 +185,7 @@ TEST_F(StationDatum, CannotBeSetDuringARun) {
   const auto datum = set(12.5);
   ASSERT_FALSE(datum);
   EXPECT_EQ(datum.error().code, ErrorCode::conflict);
-  EXPECT_TOLD(datum.error().message, "stop this run first");
+  EXPECT_TEXT_CONTAINS(datum.error().message, "stop this run first");
   EXPECT_EQ(station_->encoder().datum.kind, EncoderDatum::Kind::none);
 }
 
@@ -195,7 +195,7 @@ TEST_F(StationDatum, CannotBeSetForALog) {
   const auto datum = set(12.5);
   ASSERT_FALSE(datum);
   EXPECT_EQ(datum.error().code, ErrorCode::conflict);
-  EXPECT_TOLD(datum.error().message, "is read from a log");
+  EXPECT_TEXT_CONTAINS(datum.error().message, "is read from a log");
 }
 
 }  // namespace

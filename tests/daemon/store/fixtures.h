@@ -156,7 +156,7 @@ inline VolumetricTable make_volume(const std::vector<std::int64_t>& runs = {}) {
   for (std::size_t k = 0; k < 3; ++k)
     if (t.command_m[k].size() > 1) t.noise[k].resize(t.command_m[k].size());
   for (auto& axis : t.noise)
-    for (auto& node : axis) node.with_next[2] = {1e-18 / 3, 0, -2e-18, 0, 0, 3e-18};
+    for (auto& node : axis) node.covariance_with_next[2] = {1e-18 / 3, 0, -2e-18, 0, 0, 3e-18};
   t.interpolation_m = {1e-9, 2e-9, 3e-9};
   t.reversal_m = {5e-9, 0, 6e-9};
   t.place_left_m = 4e-9;

@@ -51,7 +51,7 @@ TEST_F(Deeds, ARenumberedRunIsNotListedAsAResult) {
 TEST_F(Deeds, EachChangeHasItsAction) {
   auto store = writer();
   const auto run = measured(*store);
-  const auto actions = store->actions_of_run(run).value();
+  const auto actions = store->run_actions(run).value();
   EXPECT_EQ(names(actions),
             "run.start run 1; run.stop run 1; ");  // the actions of the run that it supersedes
   EXPECT_EQ(actions[1].by.uid, 1000);

@@ -91,7 +91,7 @@ TEST_F(Notify, TheWatchdogIsFedTwicePerTimeout) {
 
 // Runs a child whose descriptors from 3 on are `sockets`, as systemd starts it; returns the results
 // of calling take_listen_sockets() twice.
-std::string taken_with(const std::vector<int>& sockets, const char* listen_fds) {
+std::string list_child_sockets(const std::vector<int>& sockets, const char* listen_fds) {
   int pipe_fds[2];
   EXPECT_EQ(::pipe(pipe_fds), 0);
   const pid_t child = ::fork();
@@ -138,8 +138,8 @@ class ListenSockets : public testing::Test {
 
 TEST_F(ListenSockets, AreTakenInOrderAndOnce) {
   ASSERT_EQ(::listen(socket_, 1), 0);
-  EXPECT_EQ(taken_with({socket_}, "1"), "3 ; ; ");
-  EXPECT_EQ(taken_with({socket_, socket_}, "2"), "3 4 ; ; ");
+  EXPECT_EQ(list_child_sockets({socket_}, "1"), "3 ; ; ");
+  EXPECT_EQ(list_child_sockets({socket_, socket_}, "2"), "3 4 ; ; ");
 }
 
 TEST_F(ListenSockets, AreEmptyWithoutSystemd) {
@@ -150,14 +150,15 @@ TEST_F(ListenSockets, AreEmptyWithoutSystemd) {
 }
 
 TEST_F(ListenSockets, RejectsSocketsThatDoNotListen) {
-  EXPECT_NE(taken_with({socket_}, "1").find("descriptor 3 is not a listening stream socket"),
-            std::string::npos);
+  EXPECT_NE(
+      list_child_sockets({socket_}, "1").find("descriptor 3 is not a listening stream socket"),
+      std::string::npos);
 }
 
 TEST_F(ListenSockets, TooLargeCountsAreAnErrorNotACrash) {
   ASSERT_EQ(::listen(socket_, 1), 0);
-  EXPECT_NE(taken_with({socket_}, "900").find("sockets from systemd"), std::string::npos);
-  EXPECT_NE(taken_with({socket_}, "lots").find("sockets from systemd"), std::string::npos);
+  EXPECT_NE(list_child_sockets({socket_}, "900").find("sockets from systemd"), std::string::npos);
+  EXPECT_NE(list_child_sockets({socket_}, "lots").find("sockets from systemd"), std::string::npos);
 }
 
 }  // namespace

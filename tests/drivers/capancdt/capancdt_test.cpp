@@ -152,7 +152,7 @@ TEST(Capancdt, DropsDuplicates) {
 
 TEST(Capancdt, VanishedChannelIsMissing) {
   SimulatedCapancdt::Options device;
-  device.faults.vanishing = 1;
+  device.faults.missing_channel = 1;
   device.faults.vanish_from = 20;
   device.faults.vanish_packets = 15;
   for (const CounterUnit unit : {CounterUnit::frame, CounterUnit::value}) {
@@ -292,7 +292,7 @@ TEST(Capancdt, InvalidDataAloneIsAnError) {
   SimulatedCapancdt::Options device;
   device.frames_per_packet = 1000;
   device.faults.rate = 500;
-  device.faults.spoil_preamble = true;
+  device.faults.has_invalid_preamble = true;
   Rack rack(device);
   Capancdt driver(rack.options);
   ASSERT_EQ(error_of(driver.open()), "");

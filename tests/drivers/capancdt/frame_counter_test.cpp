@@ -209,11 +209,11 @@ TEST(CapancdtRateWatch, ReportsAnotherRate) {
 
 TEST(CapancdtRateWatch, ToleratesDelays) {
   RateWatch watch(1e6);
-  std::int64_t held_ns = 0;
+  std::int64_t network_delay_ns = 0;
   for (int i = 0; i < 60'000; ++i) {
-    if (i % 7000 == 0) held_ns = 900'000'000;  // a delay of the network that is caught up
-    held_ns = std::max<std::int64_t>(0, held_ns - 900'000);
-    EXPECT_FALSE(watch.add(i, i * std::int64_t{1'000'000} + held_ns)) << i;
+    if (i % 7000 == 0) network_delay_ns = 900'000'000;  // a delay of the network that is caught up
+    network_delay_ns = std::max<std::int64_t>(0, network_delay_ns - 900'000);
+    EXPECT_FALSE(watch.add(i, i * std::int64_t{1'000'000} + network_delay_ns)) << i;
   }
 }
 

@@ -54,7 +54,7 @@ void texts(std::string_view text) {
     if (const auto reply = find_reply(command, text)) {
       parse_integer(reply->text);
       parse_channel_list(reply->text);
-      if (const auto range = range_um_of(reply->text)) check(*range > 0);
+      if (const auto range = channel_range_um(reply->text)) check(*range > 0);
     }
   check(parse_welcome(text).lines >= 0);
 }

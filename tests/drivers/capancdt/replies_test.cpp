@@ -66,15 +66,15 @@ TEST(CapancdtReplies, FindsFields) {
 }
 
 TEST(CapancdtReplies, ReadsRanges) {
-  EXPECT_EQ(range_um_of(":RNG2000,UNTum"), 2000.0);
-  EXPECT_EQ(range_um_of(":RNG500,UNT\xB5m"), 500.0);
-  EXPECT_EQ(range_um_of(":RNG500,UNT\xC2\xB5m"), 500.0);
-  EXPECT_EQ(range_um_of(":RNG500,UNT\xCE\xBCm"), 500.0);
-  EXPECT_EQ(range_um_of(":RNG0.5,UNTmm"), 500.0);
-  EXPECT_EQ(range_um_of(":RNG50,UNTnm"), 0.05);
+  EXPECT_EQ(channel_range_um(":RNG2000,UNTum"), 2000.0);
+  EXPECT_EQ(channel_range_um(":RNG500,UNT\xB5m"), 500.0);
+  EXPECT_EQ(channel_range_um(":RNG500,UNT\xC2\xB5m"), 500.0);
+  EXPECT_EQ(channel_range_um(":RNG500,UNT\xCE\xBCm"), 500.0);
+  EXPECT_EQ(channel_range_um(":RNG0.5,UNTmm"), 500.0);
+  EXPECT_EQ(channel_range_um(":RNG50,UNTnm"), 0.05);
   for (const char* none : {"", ":RNG2000", ":RNG,UNTum", ":RNGx,UNTum", ":RNG2000,UNTV",
                            ":RNG0,UNTum", ":RNG-1,UNTum", ":RNGinf,UNTum", ":RNGnan,UNTum"})
-    EXPECT_EQ(range_um_of(none), std::nullopt) << none;
+    EXPECT_EQ(channel_range_um(none), std::nullopt) << none;
 }
 
 TEST(CapancdtReplies, ReadsNumbersAndLists) {

@@ -137,11 +137,11 @@ TEST_F(PoKeys57uOnHid, LateReplyIsNeverUsedForAnother) {
 }
 
 TEST_F(PoKeys57uOnHid, MissingReplyIsRequestedAgainThenLost) {
-  run_with({.mute_at = 5, .mutes = 2});
+  run_with({.first_unanswered = 5, .unanswered_requests = 2});
   EXPECT_EQ(got.error, "");
   EXPECT_EQ(got.lost, 0u);
   EXPECT_GE(device.requests(), 30 + 2 + 3);  // and three at opening
-  bus->change([&] { device.set_faults({.mute_at = 5, .mutes = 3}); });
+  bus->change([&] { device.set_faults({.first_unanswered = 5, .unanswered_requests = 3}); });
   got = collect(driver, 30);
   EXPECT_EQ(got.error, "");
   EXPECT_GE(got.lost, 1u);
@@ -154,7 +154,8 @@ TEST_F(PoKeys57uOnHid, SilenceIsAnError) {
   PoKeys57u patient(settings);
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, device));
   ASSERT_TRUE(patient.open());
-  bus->change([&] { device.set_faults({.mute_at = 3, .mutes = 1'000'000}); });
+  bus->change(
+      [&] { device.set_faults({.first_unanswered = 3, .unanswered_requests = 1'000'000}); });
   got = collect(patient, 1000);
   EXPECT_NE(got.error.find("no valid reply for 100 ms"), std::string::npos) << got.error;
   bus->change([&] { device.set_faults({}); });
@@ -287,7 +288,7 @@ TEST_F(PoKeys57uOnHid, DeviceThatVanishesDuringTheSearchIsMissing) {
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, device));
   const auto uevent = bus->uevent_of(0);
   std::atomic<bool> stop = false;
-  std::thread comes_and_goes([&] {
+  std::thread replugging([&] {
     while (!stop) {
       std::filesystem::rename(uevent, uevent.string() + ".gone");
       std::filesystem::rename(uevent.string() + ".gone", uevent);
@@ -297,7 +298,7 @@ TEST_F(PoKeys57uOnHid, DeviceThatVanishesDuringTheSearchIsMissing) {
   const auto end = steady_clock::now() + milliseconds(500);
   while (steady_clock::now() < end) ++(list_hid(kVendor).empty() ? gone : there);
   stop = true;
-  comes_and_goes.join();
+  replugging.join();
   EXPECT_GT(there, 0);
   EXPECT_GT(gone, 0);
 }
@@ -328,7 +329,7 @@ TEST_F(PoKeys57uOnHid, SetsAndChecksTheCountingMode) {
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, device));
   expect_error(settings, "encoder5 is switched off");
   settings.inputs[0].options = kEnabled | kCounts_x2;
-  bus->change([&] { device.set_faults({.deaf_to_options = true}); });
+  bus->change([&] { device.set_faults({.ignores_options = true}); });
   expect_error(settings, "encoder5 does not accept the value of the key \"counting\"");
   bus->change([&] { device.set_faults({}); });
   EXPECT_TRUE(PoKeys57u(settings).open());

@@ -156,7 +156,7 @@ TEST_F(QsbIndex, SuspectAfterAResetUntilTheMarkIsPassed) {
 }
 
 TEST_F(QsbIndex, DamagedLineIsNotTheMark) {
-  serve({.far_from = 20});
+  serve({.first_far_line = 20});
   open();
   const Collected all = collect(*driver_, 60);
   ASSERT_EQ(all.error, "");
@@ -166,7 +166,7 @@ TEST_F(QsbIndex, DamagedLineIsNotTheMark) {
 }
 
 TEST_F(QsbIndex, ManyImpossibleCountsLoseTheDatum) {
-  serve({.far_from = 20, .fars = 12});
+  serve({.first_far_line = 20, .far_line_count = 12});
   open();
   EXPECT_NE(collect(*driver_, 100).error.find("11 malformed lines"), std::string::npos);
   ASSERT_TRUE(driver_->open());

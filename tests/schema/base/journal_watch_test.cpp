@@ -123,7 +123,7 @@ TEST_F(WatchedJournal, ProcessSurvivesATruncatedShm) {
   for (const std::uintmax_t bytes : {std::uintmax_t{0}, std::uintmax_t{4096}}) {
     const fs::path file = folder_ / std::to_string(bytes);
     const int status = in_child([&] {
-      survive_cut_shm();
+      survive_truncated_shm();
       file_ = file;
       auto db = writer();
       auto reader = Connection::open(file, OpenMode::read_only);
@@ -150,7 +150,7 @@ TEST_F(WatchedJournal, ProcessSurvivesATruncatedShm) {
 // pages.
 TEST_F(WatchedJournal, TruncatedShmGivesNoOlderPages) {
   const int status = in_child([&] {
-    survive_cut_shm();
+    survive_truncated_shm();
     auto db = writer();
     auto reader = Connection::open(file_, OpenMode::read_only);
     if (!db.execute("CREATE TABLE u (x, filler); WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT "

@@ -62,7 +62,7 @@ TEST(VolumetricTable, HashContainsEveryStatement) {
       [](auto& t) { t.noise[0].resize(t.command_m[0].size()); },
       [](auto& t) {
         t.noise[0].resize(t.command_m[0].size());
-        t.noise[0][1].with_next[2][5] = 1e-18;
+        t.noise[0][1].covariance_with_next[2][5] = 1e-18;
       },
       [](auto& t) { t.interpolation_m[1] = 1e-9; },
       [](auto& t) { t.reversal_m[2] = 1e-9; },

@@ -105,15 +105,15 @@ TEST_F(NetworkAccess, DoctorNamesUnreachableDevices) {
 
 TEST_F(NetworkAccess, ConnectErrorsNameTheSetupCommand) {
   const drivers::Endpoint to{"192.168.0.7", 502};
-  const auto names_it = [&](int error, bool service) {
+  const auto names_setup_command = [&](int error, bool service) {
     const std::string text = words::text(drivers::connect_error(to, error, service));
     return text.find("mdof setup network 192.168.0.7") != std::string::npos;
   };
-  EXPECT_TRUE(names_it(EPERM, true));
-  EXPECT_TRUE(names_it(EPERM, false));
-  EXPECT_TRUE(names_it(ETIMEDOUT, true));  // the kernel drops the packets
-  EXPECT_FALSE(names_it(ETIMEDOUT, false));
-  EXPECT_FALSE(names_it(ECONNREFUSED, true));
+  EXPECT_TRUE(names_setup_command(EPERM, true));
+  EXPECT_TRUE(names_setup_command(EPERM, false));
+  EXPECT_TRUE(names_setup_command(ETIMEDOUT, true));  // the kernel drops the packets
+  EXPECT_FALSE(names_setup_command(ETIMEDOUT, false));
+  EXPECT_FALSE(names_setup_command(ECONNREFUSED, true));
 }
 
 }  // namespace

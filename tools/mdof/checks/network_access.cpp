@@ -146,7 +146,7 @@ std::vector<Diagnosis> check_network(const Machine& machine, const daemon::Confi
     for (const auto& device : axis.devices) {
       const std::string address = address_of(device);
       const auto one = parsed(address);
-      if (device.of_other_axis || !one || may_reach(words, *one)) continue;
+      if (device.is_declared_elsewhere || !one || may_reach(words, *one)) continue;
       all.push_back({Level::bad,
                      "network: the service mdofd has no permission to connect to " + address +
                          " (device " + device.name +

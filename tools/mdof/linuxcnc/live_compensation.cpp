@@ -19,9 +19,9 @@ constexpr double kLaggingPeriods = 10, kShareOfFollowingError = 0.1;
 constexpr double kShareOfAxis = 0.05;  // of MAX_VELOCITY and MAX_ACCELERATION
 constexpr double kMostVelocity_mm_s = 1, kMostAcceleration_mm_s2 = 50, kFade_mm_s = 0.04;
 
-class Judge {
+class LiveLimits {
  public:
-  Judge(const LinuxCncIni& ini, const HalWiring& wiring, const LiveRequest& request)
+  LiveLimits(const LinuxCncIni& ini, const HalWiring& wiring, const LiveRequest& request)
       : ini_(ini), wiring_(wiring), request_(request) {}
 
   Result<LiveCompensation> live() {
@@ -295,7 +295,7 @@ class Judge {
 
 Result<LiveCompensation> live_compensation(const LinuxCncIni& ini, const HalWiring& wiring,
                                            const LiveRequest& request) {
-  return Judge(ini, wiring, request).live();
+  return LiveLimits(ini, wiring, request).live();
 }
 
 }  // namespace mdof::tools

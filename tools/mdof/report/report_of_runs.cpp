@@ -168,7 +168,7 @@ void add_report_options(CLI::App& command, ReportRequest& request) {
       ->type_name("NAME=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  add_axis_of_latest(command, request.axis);
+  add_latest_axis_option(command, request.axis);
   add_reference_option(command, request.reference)->capture_default_str();
   add_database_option(command, request.database);
 }

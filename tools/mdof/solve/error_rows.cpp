@@ -33,7 +33,7 @@ double in_key_unit(const ErrorName& name, const SolvedRows& rows, std::size_t ro
 }
 
 // Restores the number in the file: removes the rounding error of the conversion to metres.
-double in_written_mm(double encoder_m) {
+double restore_written_mm(double encoder_m) {
   const double mm = to_mm(encoder_m), written = std::round(mm * 1e9) / 1e9;
   return (std::abs(written - mm) < 4e-16 * std::abs(mm) ? written : mm) + 0.0;
 }
@@ -111,7 +111,7 @@ struct ErrorRows::Texts {
     std::array<double, kAtOnce> x;
     for (std::size_t k = 0; k < kRowColumns; ++k) {
       for (std::size_t j = 0; j < n; ++j)
-        x[j] = k == kErrorCount ? in_written_mm(rows.encoder_m[begin + j])
+        x[j] = k == kErrorCount ? restore_written_mm(rows.encoder_m[begin + j])
                                 : in_key_unit(names[k], rows, begin + j);
       write_doubles_17(x.data(), n, of[k].data());
       for (std::size_t j = 0; j < n; ++j) of[k][j].size = std::isfinite(x[j]) ? of[k][j].size : 0;

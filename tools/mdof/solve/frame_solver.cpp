@@ -33,7 +33,7 @@ FrameSolver::FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channe
   for (const Probe& probe : rig.probes) probes_.push_back(index_of(channels_, probe.id));
   for (std::size_t q = 0; q < kAirQuantities; ++q)
     for (std::size_t c = 0; c < channels_.size(); ++c)
-      if (daemon::is_channel_of(channels_[c], q)) air_[q] = c;
+      if (daemon::has_air_quantity(channels_[c], q)) air_[q] = c;
 }
 
 Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {

@@ -26,7 +26,7 @@ Result<bool> daemon_runs(const std::string& socket) {
   return true;
 }
 
-Status refuse_beside_daemon(const std::string& command, const std::string& socket) {
+Status check_daemon_stopped(const std::string& command, const std::string& socket) {
   const auto runs = daemon_runs(socket);
   if (!runs)
     return in_context(command + ": cannot find out whether mdofd uses the devices", runs.error());

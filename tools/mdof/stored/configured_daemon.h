@@ -24,6 +24,6 @@ Result<bool> daemon_runs(const std::string& socket);
 
 // For commands that open devices themselves. Error: mdofd runs, or it cannot be determined whether
 // it runs.
-Status refuse_beside_daemon(const std::string& command, const std::string& socket);
+Status check_daemon_stopped(const std::string& command, const std::string& socket);
 
 }  // namespace mdof::tools

@@ -37,7 +37,7 @@ bool holds(const fs::path& process, const fs::path& database) {
 }
 
 // "mdofd (process 1234)"; processes of other users are not visible and get a general name.
-std::string writer_of(const fs::path& database) {
+std::string writer_name(const fs::path& database) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator("/proc", ec)) {
     const std::string id = entry.path().filename();
@@ -52,7 +52,7 @@ std::string writer_of(const fs::path& database) {
 }
 
 tl::unexpected<Error> held(const fs::path& database, const std::string& but) {
-  return io_error(database.string() + ": " + writer_of(database) +
+  return io_error(database.string() + ": " + writer_name(database) +
                   " is writing to this database, but " + but);
 }
 
@@ -61,8 +61,8 @@ tl::unexpected<Error> held(const fs::path& database, const std::string& but) {
 Result<std::optional<rpc::Client>> writing_daemon(const std::string& database,
                                                   const std::string& socket) {
   MDOF_TRY(const bool busy, is_locked_by_writer(database));
-  const bool is_asked_for = socket != daemon::default_socket();
-  if (!busy && !is_asked_for) return std::nullopt;
+  const bool socket_is_given = socket != daemon::default_socket();
+  if (!busy && !socket_is_given) return std::nullopt;
   MDOF_TRY(const fs::path file, database_path(database));
   auto client = rpc::Client::connect(socket);
   if (!client && !busy) return std::nullopt;

@@ -34,22 +34,25 @@ Result<std::int64_t> latest(store::Store& store, std::optional<Axis> axis) {
 
 }  // namespace
 
-std::string run_word_error(const std::string& word) {
+std::string run_argument_error(const std::string& word) {
   if (word == kLatest || number_of(word) > 0) return "";
   return "\"" + word + "\" is not a run; give the number of a run (see mdof runs), or \"latest\"";
 }
 
 CLI::Option* add_run_argument(CLI::App& command, const char* name, std::string& run,
                               const char* what) {
-  return command.add_option(name, run, what)->required()->type_name("")->check(run_word_error);
+  return command.add_option(name, run, what)->required()->type_name("")->check(run_argument_error);
 }
 
 CLI::Option* add_run_arguments(CLI::App& command, std::vector<std::string>& runs,
                                const char* what) {
-  return command.add_option("RUN", runs, what)->required()->type_name("")->check(run_word_error);
+  return command.add_option("RUN", runs, what)
+      ->required()
+      ->type_name("")
+      ->check(run_argument_error);
 }
 
-void add_axis_of_latest(CLI::App& command, std::string& axis) {
+void add_latest_axis_option(CLI::App& command, std::string& axis) {
   command.add_option("--axis", axis, "Axis of the run, if the run is \"latest\"")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
 }

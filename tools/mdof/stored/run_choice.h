@@ -19,13 +19,13 @@ class Option;
 namespace mdof::tools {
 
 // Validator for CLI11: accepts a number from 1, or "latest".
-std::string run_word_error(const std::string& word);  // empty: valid
+std::string run_argument_error(const std::string& word);  // empty: valid
 
 // Adds a required argument RUN, or several of them.
 CLI::Option* add_run_argument(CLI::App& command, const char* name, std::string& run,
                               const char* what);
 CLI::Option* add_run_arguments(CLI::App& command, std::vector<std::string>& runs, const char* what);
-void add_axis_of_latest(CLI::App& command, std::string& axis);
+void add_latest_axis_option(CLI::App& command, std::string& axis);
 
 // Returns the number; for "latest" the number of the newest run (of `axis`, if given) that has
 // ended. Error (bad_input): the run measures another axis.

@@ -18,7 +18,7 @@ Result<std::string> read_text(rpc::Client& daemon, std::int64_t id) {
   MDOF_TRY(store::Store store, store::Store::open(database, store::Access::read_only));
   MDOF_TRY(const Run run, daemon::restated_run(store, id, Reference::fixture));
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
-  MDOF_TRY(const auto actions, store.actions_of_run(id));
+  MDOF_TRY(const auto actions, store.run_actions(id));
   const std::size_t width = terminal_columns();
   return run_text(run, daemon::stated_run(run), sha256, width, Extent::brief) +
          history_text(actions, width);

@@ -46,7 +46,7 @@ std::string datum_of(const Options& options) {
 }
 
 std::string lost_of(const RunHeader& h) {
-  return "lost: " + (lost_is_known(h) ? std::to_string(h.scans_lost) : "unknown");
+  return "lost: " + (is_lost_known(h) ? std::to_string(h.scans_lost) : "unknown");
 }
 
 std::string flags_of(const MeasuredPoint& p) {

@@ -38,7 +38,7 @@ AxisPath path_of(const Run& run, std::size_t named, double slope_rad, double tur
       algo::target_means(moving, run.points, algo::Approach::both);
   if (means.empty()) return path;
   const auto along = [&](const algo::TargetMean& m) {
-    return moving.sides.own_travel_m(m.position_m);
+    return moving.sides.moving_body_travel_m(m.position_m);
   };
   std::stable_sort(means.begin(), means.end(),
                    [&](const auto& a, const auto& b) { return along(a) < along(b); });

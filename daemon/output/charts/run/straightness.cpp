@@ -52,7 +52,7 @@ const ReferenceLines* lines_through(const StatedResults& results, const std::str
 
 // The value of the line at the encoder's position; lines are over the body's own travel in M.
 double at_position_m(const ReferenceLine& line, const Sides& sides, double position_m) {
-  return line.intercept_m + line.slope_rad * sides.own_travel_m(position_m);
+  return line.intercept_m + line.slope_rad * sides.moving_body_travel_m(position_m);
 }
 
 StraightnessOfError straightness_of(const StatedResults& results, std::size_t named) {

@@ -94,7 +94,7 @@ Status add_joint(const CompensationTable& table, const ExportOptions& options, E
                     ", but the list of joints has no joint of this axis; add a joint, such as " +
                     letter(table.axis) + "=1");
   MDOF_TRY(const Series s, fitted(*along, table.id, kMostRows, options, out));
-  note_held_reversals(s, options, out);
+  note_unapplied_reversals(s, options, out);
   out.files.push_back({std::string(1, letter(table.axis)) + ".comp",
                        rows_text(s, zero_of(s, options, out), options.inch)});
   ini += ini_of(table, options);

@@ -28,7 +28,7 @@ double reversal_at(const Series& s, std::size_t i) {
 }
 
 void note_ramp(const Series& s, const ExportOptions::Ramp& ramp, Export& out) {
-  const HeldSteps held = held_steps(ramp);
+  const UnappliedSteps held = unapplied_steps(ramp);
   std::size_t worst = s.position_m.size();
   for (std::size_t i = 0; i < s.position_m.size(); ++i)
     if (held.holds(reversal_at(s, i)) &&
@@ -54,7 +54,7 @@ void note_unknown_ramp(const Series& s, Export& out) {
     most = std::max(most, reversal);
   }
   if (!(most > 0)) return;
-  const double up_to_m = held_steps({s.along, 1.0, kLinuxCncPeriod_s}).up_to_m;  // at 1 m/s²
+  const double up_to_m = unapplied_steps({s.along, 1.0, kLinuxCncPeriod_s}).up_to_m;  // at 1 m/s²
   out.notes.push_back(
       s.error +
       ": MAX_ACCELERATION of the joint is unknown. At some positions, LinuxCNC does not apply the "
@@ -67,12 +67,12 @@ void note_unknown_ramp(const Series& s, Export& out) {
 
 }  // namespace
 
-HeldSteps held_steps(const ExportOptions::Ramp& ramp) {
+UnappliedSteps unapplied_steps(const ExportOptions::Ramp& ramp) {
   const double whole = 0.5 * ramp.max_acceleration_m_s2 * ramp.period_s * ramp.period_s;
   return {0.5 * whole, whole};
 }
 
-void note_held_reversals(const Series& series, const ExportOptions& options, Export& out) {
+void note_unapplied_reversals(const Series& series, const ExportOptions& options, Export& out) {
   bool known = false;
   for (const ExportOptions::Ramp& ramp : options.ramps) {
     if (ramp.axis != series.along) continue;

@@ -72,7 +72,7 @@ Status add_errors(const CompensationTable& table, const ExportOptions& options, 
                                              : measured.gap));
       continue;
     }
-    MDOF_TRY(const Series s, fitted(measured, table.id, kMostBeforeSteps, options, out));
+    MDOF_TRY(const Series s, fitted(measured, table.id, kResamplingPointLimit, options, out));
     MDOF_TRY(const EqualSteps e, equal_steps(s, options, out));
     const bool both = e.forward == e.reverse;
     text += cec_text(t++, table_of(s, e, e.forward, both ? 0 : 1), s.error);
@@ -121,9 +121,9 @@ Result<CecTable> read_table(SiemensLines& lines, std::size_t t) {
   }
   const std::size_t n = table.correction_m.size();
   const double last = figures[1] + figures[0] * (static_cast<double>(n) - 1);
-  if (n < 2 || n > kMostBeforeSteps || std::abs(last - figures[2]) > 1e-6 || figures[4] < 0 ||
+  if (n < 2 || n > kResamplingPointLimit || std::abs(last - figures[2]) > 1e-6 || figures[4] < 0 ||
       figures[5] != 0)
-    return lines.expected("a table of 2 to " + std::to_string(kMostBeforeSteps) +
+    return lines.expected("a table of 2 to " + std::to_string(kResamplingPointLimit) +
                           " points with MAX = MIN + (points - 1) * STEP, MULT_BY_TABLE 0 or more "
                           "and IS_MODULO 0");
   table.input = *input;
@@ -209,7 +209,7 @@ Status check_count(std::size_t tables, const ExportOptions& options, Export& out
 std::string left_out_lines(const Export& out) {
   std::string text;
   for (const std::string& left : out.left_out)
-    text += "; NOT IN THIS FILE: " + one_plain_line(left) + "\n";
+    text += "; NOT IN THIS FILE: " + plain_ascii_line(left) + "\n";
   return text;
 }
 
@@ -255,10 +255,10 @@ Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile
 namespace {
 
 constexpr std::string_view kLinearAxes = "XYZ";
-constexpr double kEnough_m = 2e-9;  // accuracy of the common effect of two axes
+constexpr double kProductAccuracy_m = 2e-9;  // accuracy of the common effect of two axes
 
 // Converts a factor in √m to the written number, so that the product of two numbers is in mm.
-std::vector<double> in_root_mm(std::vector<double> factor) {
+std::vector<double> factor_numbers(std::vector<double> factor) {
   for (double& x : factor) x *= std::sqrt(1e-3);
   return factor;
 }
@@ -281,14 +281,14 @@ void add_correction(const VolumetricTable& t, const std::array<double, 3>& step_
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!sum.along[axis].empty()) add(axis, sum.along[axis], false);
   for (const algo::AxisProduct& product : sum.products) {
-    add(product.first, in_root_mm(product.of_first), true);
-    add(product.second, in_root_mm(product.of_second), false);
+    add(product.first, factor_numbers(product.of_first), true);
+    add(product.second, factor_numbers(product.of_second), false);
   }
 }
 
 // The commands of the nodes along an axis, from its tables. All of its tables have the same
 // commands.
-Result<std::vector<double>> commands_of(const std::vector<CecTable>& tables, char axis) {
+Result<std::vector<double>> node_commands(const std::vector<CecTable>& tables, char axis) {
   std::vector<double> commands;
   for (const CecTable& table : tables) {
     if (table.input != axis) continue;
@@ -343,7 +343,7 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
   std::vector<CecTable> tables;
   for (std::size_t k = 0; k < 3; ++k) {
     if (!t.machine.find(kLinearAxes[k])) continue;
-    const auto sum = algo::separate(t, k, kEnough_m);
+    const auto sum = algo::separate(t, k, kProductAccuracy_m);
     out.left_m = std::max(out.left_m, sum.left_m);
     add_correction(t, step_m, kLinearAxes[k], sum, tables);
   }
@@ -379,7 +379,7 @@ Result<VolumetricTable> read_cec_volume(const std::vector<ControllerFile>& files
   MDOF_TRY(const auto tables, read_tables(files));
   VolumetricTable t;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    MDOF_TRY(t.command_m[axis], commands_of(tables, kLinearAxes[axis]));
+    MDOF_TRY(t.command_m[axis], node_commands(tables, kLinearAxes[axis]));
   }
   for (std::size_t node = 0; node < t.nodes(); ++node) {
     const std::size_t nx = t.command_m[0].size(), ny = t.command_m[1].size();

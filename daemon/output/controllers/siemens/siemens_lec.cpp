@@ -124,9 +124,9 @@ Result<AppliedCorrection> read_lec_file(const ControllerFile& file) {
     figures[k] = *value;
   }
   const auto n = static_cast<double>(read.forward.size());
-  if (at + 1 != lines.size() || lines[at] != "M17" || n < 2 || n > kMostBeforeSteps ||
+  if (at + 1 != lines.size() || lines[at] != "M17" || n < 2 || n > kResamplingPointLimit ||
       figures[3] != 0 || std::abs(figures[1] + figures[0] * (n - 1) - figures[2]) > 1e-7)
-    return bad_input(file.name + ": 2 to " + std::to_string(kMostBeforeSteps) +
+    return bad_input(file.name + ": 2 to " + std::to_string(kResamplingPointLimit) +
                      " points are expected, with MAX = MIN + (points - 1) * STEP, IS_MODULO = 0 "
                      "and M17 as the last line");
   for (std::size_t i = 0; i < read.forward.size(); ++i)
@@ -144,7 +144,8 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
   ExportOptions as_measured = without_tolerance(options, out);
   as_measured.homes.clear();  // zeroed_at_home() takes the home into account
   for (const CompensationTable& table : tables) {
-    MDOF_TRY(const Series s, positioning_of(table, kMostBeforeSteps, as_measured, "ENC_COMP", out));
+    MDOF_TRY(const Series s,
+             positioning_of(table, kResamplingPointLimit, as_measured, "ENC_COMP", out));
     const std::size_t told = out.left_out.size();
     MDOF_CHECK(check_reversal(table, s, as_measured, out));
     ExportOptions marked = options;

@@ -54,7 +54,7 @@ double largest_error_m(const Series& s) {
 }
 
 std::size_t most_points(const ExportOptions& options) {
-  return options.siemens_points > 0 ? options.siemens_points : kMostOfSiemens;
+  return options.siemens_points > 0 ? options.siemens_points : kSiemensPointLimit;
 }
 
 Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Export& out) {

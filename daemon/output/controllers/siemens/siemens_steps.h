@@ -9,8 +9,8 @@
 
 namespace mdof::controllers {
 
-constexpr std::size_t kMostOfSiemens = 200;       // points of a table: 808D, 828D; others MD38000
-constexpr std::size_t kMostBeforeSteps = 20'000;  // points of a series before resampling
+constexpr std::size_t kSiemensPointLimit = 200;  // points of a table: 808D, 828D; others MD38000
+constexpr std::size_t kResamplingPointLimit = 20'000;  // points of a series before resampling
 
 struct EqualSteps {
   double first_m = 0, step_m = 0;
@@ -25,7 +25,7 @@ struct EqualSteps {
 // nanometres, as in the file. The change becomes a note of `out`; its last `written` gets the
 // number of points. Error (bad_input): fewer than two points.
 Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Export& out);
-// ExportOptions::siemens_points, or kMostOfSiemens.
+// ExportOptions::siemens_points, or kSiemensPointLimit.
 std::size_t most_points(const ExportOptions& options);
 
 // Largest absolute error of both approaches.

@@ -11,8 +11,8 @@ namespace {
 
 using CorrectionFunction = double (*)(double x, double y, double z);
 
-VolumetricTable table_of_function(CorrectionFunction f, std::size_t nx = 5, std::size_t ny = 4,
-                                  std::size_t nz = 3) {
+VolumetricTable function_table(CorrectionFunction f, std::size_t nx = 5, std::size_t ny = 4,
+                               std::size_t nz = 3) {
   VolumetricTable t;
   const std::array<std::size_t, 3> n{nx, ny, nz};
   for (std::size_t k = 0; k < 3; ++k)
@@ -41,7 +41,7 @@ double largest_left(const VolumetricTable& t, const SeparableCorrection& sum) {
 }
 
 TEST(Separable, SumsNeedNoProducts) {
-  const auto t = table_of_function(
+  const auto t = function_table(
       [](double x, double y, double z) { return 3e-6 + 1e-4 * x * x - 2e-5 * y + 1e-5 * z * z; });
   const auto sum = separate(t, 1, 1e-12);
   EXPECT_TRUE(sum.products.empty());
@@ -51,7 +51,7 @@ TEST(Separable, SumsNeedNoProducts) {
 
 TEST(Separable, AngleWithItsLeverIsOneProduct) {
   // Roll of X with the lever Z, yaw of X with the lever Y.
-  const auto t = table_of_function([](double x, double y, double z) {
+  const auto t = function_table([](double x, double y, double z) {
     return 1e-6 * std::sin(100 * x) * (z - 0.02) + 2e-3 * x * x * y;
   });
   const auto sum = separate(t, 1, 1e-13);
@@ -66,15 +66,14 @@ TEST(Separable, AngleWithItsLeverIsOneProduct) {
 }
 
 TEST(Separable, ReportsTheResidualOfThreeAxes) {
-  const auto t = table_of_function([](double x, double y, double z) { return x * y * z; });
+  const auto t = function_table([](double x, double y, double z) { return x * y * z; });
   const auto sum = separate(t, 1, 1e-12);
   EXPECT_GT(sum.left_m, 1e-7);
   EXPECT_NEAR(largest_left(t, sum), sum.left_m, 1e-18);
 }
 
 TEST(Separable, PlaneHasTheTablesOfItsAxes) {
-  const auto t =
-      table_of_function([](double x, double y, double) { return 1e-3 * x * y; }, 5, 4, 1);
+  const auto t = function_table([](double x, double y, double) { return 1e-3 * x * y; }, 5, 4, 1);
   const auto sum = separate(t, 1, 1e-12);
   EXPECT_EQ(sum.along[0].size(), 5U);
   EXPECT_TRUE(sum.along[2].empty());
@@ -86,19 +85,18 @@ TEST(Separable, PlaneHasTheTablesOfItsAxes) {
 // With two nodes of each axis the result has the mean, half the differences and a quarter of the
 // alternating sum.
 TEST(Separable, TwoNodesOfEachAxisAreEnough) {
-  const auto t =
-      table_of_function([](double x, double y, double) { return 1e-3 * x * y; }, 2, 2, 1);
+  const auto t = function_table([](double x, double y, double) { return 1e-3 * x * y; }, 2, 2, 1);
   const auto sum = separate(t, 1, 1e-12);
   ASSERT_EQ(sum.products.size(), 1U);
   EXPECT_NEAR(sum.products[0].of_first[1] * sum.products[0].of_second[1], 1e-7 / 4, 1e-20);
   EXPECT_LT(largest_left(t, sum), 1e-20);
   for (const auto& [nx, ny] : {std::pair<std::size_t, std::size_t>{2, 1}, {1, 2}})
-    EXPECT_TRUE(separate(table_of_function([](double x, double y, double z) { return x + y + z; },
-                                           nx, ny, 2),
-                         1, 1e-12)
-                    .products.empty());
-  const auto upright = table_of_function(
-      [](double x, double y, double z) { return 1e-3 * (x * z + y * z); }, 2, 2, 2);
+    EXPECT_TRUE(
+        separate(function_table([](double x, double y, double z) { return x + y + z; }, nx, ny, 2),
+                 1, 1e-12)
+            .products.empty());
+  const auto upright =
+      function_table([](double x, double y, double z) { return 1e-3 * (x * z + y * z); }, 2, 2, 2);
   EXPECT_EQ(separate(upright, 1, 1e-12).products.size(), 2U);
   EXPECT_LT(separate(upright, 1, 1e-12).left_m, 1e-20);
 }

@@ -30,7 +30,7 @@ TEST(VolumetricNoise, IsInterpolatedForEachAxis) {
   for (const std::size_t axis : {1, 2})
     for (AxisNoise& node : table.noise[axis]) {
       fill(node.variance);
-      fill(node.with_next);
+      fill(node.covariance_with_next);
     }
   const std::array<GridCell, 3> cell{{{0, 0.6, true}, {1, 0.3, true}, {0, 0.8, true}}};
   const auto& [y0, y1] = std::tie(table.noise[1][1], table.noise[1][2]);
@@ -40,12 +40,12 @@ TEST(VolumetricNoise, IsInterpolatedForEachAxis) {
     const Vec3 variance = noise_variance(table, cell, {x, y, z});
     for (std::size_t k = 0; k < 3; ++k) {
       const double of_y = 0.49 * form(y0.variance[k], at_x, z) +
-                          0.42 * form(y0.with_next[k], at_x, z) +
+                          0.42 * form(y0.covariance_with_next[k], at_x, z) +
                           0.09 * form(y1.variance[k], at_x, z);
-      const double of_z = 0.04 * form(z0.variance[k], at_x, y) +
-                          0.32 * form(z0.with_next[k], at_x, y) +
-                          0.64 * form(z1.variance[k], at_x, y);
-      EXPECT_NEAR(variance[k], of_y + of_z, 1e-12) << x << k;
+      const double z_part_variance = 0.04 * form(z0.variance[k], at_x, y) +
+                                     0.32 * form(z0.covariance_with_next[k], at_x, y) +
+                                     0.64 * form(z1.variance[k], at_x, y);
+      EXPECT_NEAR(variance[k], of_y + z_part_variance, 1e-12) << x << k;
     }
   }
   // The last node has no next one.
@@ -111,13 +111,13 @@ TEST(VolumetricNoise, NodesShareTheNoiseOfCommonTargets) {
   const double first = 0.18 * shared(0.004, 0.007, 0, 0.2) + 0.28 * shared(0.004, 0.007, 1, -0.1);
   const double second = 0.49 * shared(0.007, 0.013, 1, -0.1);
   EXPECT_GT(std::abs(second), 1e-15);
-  EXPECT_NEAR(table.noise[0][0].with_next[1][0] / first, 1, 1e-12);
-  EXPECT_NEAR(table.noise[0][1].with_next[1][0] / second, 1, 1e-12);
+  EXPECT_NEAR(table.noise[0][0].covariance_with_next[1][0] / first, 1, 1e-12);
+  EXPECT_NEAR(table.noise[0][1].covariance_with_next[1][0] / second, 1, 1e-12);
   // Without a known covariance both errors are independent, each with its own targets.
   known = {};
   frame.error[5].position[2] = 0.021;
   set_axis_noise(table, *machine, {}, MachineApproach::forward);
-  EXPECT_NEAR(table.noise[0][1].with_next[1][0] /
+  EXPECT_NEAR(table.noise[0][1].covariance_with_next[1][0] /
                   (0.49 * (on_y(0.007, 1) * on_y(0.013, 1) * 9e-14 +
                            on_y(0.007, 5) * on_y(0.013, 5) * 25e-12 * (8.0 / 11 / 0.7))),
               1, 1e-12);

@@ -215,7 +215,7 @@ Vec3 true_correction(const Machine& machine, const Vec3& place) {
 }
 
 void count_coverage(const Simulated& s, int simulations, std::mt19937_64& source, Held& held,
-                    Held& held_by_wrong_rule) {
+                    Held& covered_by_wrong_rule) {
   constexpr double k95 = 1.959964;
   VolumetricRequest request;
   request.step_m = kPartsTravel_m;
@@ -232,7 +232,7 @@ void count_coverage(const Simulated& s, int simulations, std::mt19937_64& source
       for (std::size_t k = 0; k < 3; ++k) {
         const double off = std::abs(value.correction_m[k] - truth[k]);
         held[i][k] += off <= k95 * value.u_m[k] ? 1 : 0;
-        held_by_wrong_rule[i][k] += off <= k95 * u_with_common_noise(*table, part, k);
+        covered_by_wrong_rule[i][k] += off <= k95 * u_with_common_noise(*table, part, k);
       }
     }
   }

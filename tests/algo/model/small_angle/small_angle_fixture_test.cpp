@@ -14,7 +14,7 @@
 namespace mdof::algo {
 namespace {
 
-Fixture fixture_of_five() {
+Fixture five_probe_fixture() {
   return make_fixture(test::rig_x()).value();
 }
 
@@ -30,17 +30,17 @@ testing::AssertionResult says(const std::string& message, const std::string& par
 }
 
 TEST(SmallAngleFixture, HasThreeTopProbesAndTwoSideProbes) {
-  EXPECT_EQ(refused(fixture_of_five()), "");
+  EXPECT_EQ(refused(five_probe_fixture()), "");
   for (const std::size_t more : {0u, 3u}) {
-    Fixture fixture = fixture_of_five();
+    Fixture fixture = five_probe_fixture();
     fixture.probes.push_back(fixture.probes[more]);
     EXPECT_TRUE(says(refused(fixture), more == 0 ? "has 4 probes along ±z and 2 along ±y"
                                                  : "has 3 probes along ±z and 3 along ±y"));
   }
-  Fixture fixture = fixture_of_five();
+  Fixture fixture = five_probe_fixture();
   fixture.probes.pop_back();
   EXPECT_TRUE(says(refused(fixture), "has 3 probes along ±z and 1 along ±y"));
-  fixture = fixture_of_five();
+  fixture = five_probe_fixture();
   fixture.probes.erase(fixture.probes.begin());
   EXPECT_TRUE(says(refused(fixture), "has 2 probes along ±z and 2 along ±y"));
 }
@@ -48,7 +48,7 @@ TEST(SmallAngleFixture, HasThreeTopProbesAndTwoSideProbes) {
 // D and E are 1 mm apart along the motion: `exact` was wrong by 76 µm at 30 mrad with 20 mm along
 // z.
 TEST(SmallAngleFixture, RefusesSideProbesTooCloseAlongTheMotion) {
-  Fixture fixture = fixture_of_five();
+  Fixture fixture = five_probe_fixture();
   fixture.probes[4].p_MP.x() = fixture.probes[3].p_MP.x() + 1e-3;
   fixture.probes[4].p_MP.z() = fixture.probes[3].p_MP.z() + 3e-3;
   EXPECT_EQ(refused(fixture), "");
@@ -58,17 +58,17 @@ TEST(SmallAngleFixture, RefusesSideProbesTooCloseAlongTheMotion) {
 
 TEST(SmallAngleFixture, MeasuresAlongTheAxes) {
   for (const std::size_t k : {0u, 3u}) {
-    Fixture fixture = fixture_of_five();
+    Fixture fixture = five_probe_fixture();
     const Eigen::Vector3d tilted = fixture.probes[k].u_M + Eigen::Vector3d(1e-4, 0, 0);
     fixture.probes[k].n_C = fixture.probes[k].u_M = tilted / std::sqrt(tilted.dot(tilted));
     EXPECT_TRUE(says(refused(fixture), "measures along neither")) << k;
-    fixture = fixture_of_five();
+    fixture = five_probe_fixture();
     fixture.probes[k].n_C = Eigen::Vector3d(0, 0.6, 0.8);
     EXPECT_TRUE(says(refused(fixture), "is not square to its plane")) << k;
-    fixture = fixture_of_five();
+    fixture = five_probe_fixture();
     fixture.probes[k].n_C = fixture.probes[k].u_M = Eigen::Vector3d::UnitX();
     EXPECT_TRUE(says(refused(fixture), "measures along neither")) << k;
-    fixture = fixture_of_five();
+    fixture = five_probe_fixture();
     fixture.probes[k].flatness = {{0, 1}, {0, 1}, {0, 0, 0, 0}};
     EXPECT_TRUE(says(refused(fixture), "a flatness map")) << k;
   }
@@ -79,12 +79,12 @@ TEST(SmallAngleFixture, UsesOneTopPlaneAndOneSidePlane) {
   for (const double off_m : {0.9e-9, 1.1e-9, -1.1e-9}) {
     const bool taken = off_m < 1e-9 && off_m > 0;
     for (const std::size_t k : {0u, 1u, 2u}) {
-      Fixture fixture = fixture_of_five();
+      Fixture fixture = five_probe_fixture();
       fixture.probes[k].p_MP.z() += off_m;
       EXPECT_EQ(refused(fixture).empty(), taken) << k << " " << off_m;
     }
     for (const std::size_t k : {3u, 4u}) {
-      Fixture fixture = fixture_of_five();
+      Fixture fixture = five_probe_fixture();
       fixture.probes[k].p_MP.y() += off_m;
       EXPECT_EQ(refused(fixture).empty(), taken) << k << " " << off_m;
     }
@@ -95,14 +95,14 @@ TEST(SmallAngleFixture, UsesOneTopPlaneAndOneSidePlane) {
 // um apart, in either order.
 TEST(SmallAngleFixture, IsWideEnough) {
   for (const double height_m : {0.9e-6, 1.1e-6}) {
-    Fixture flat = fixture_of_five();
+    Fixture flat = five_probe_fixture();
     flat.probes[0].p_MP = {0, 0, 0};
     flat.probes[1].p_MP = {1e-3, 0, 0};
     flat.probes[2].p_MP = {0, height_m, 0};
     EXPECT_EQ(refused(flat).empty(), height_m > 1e-6) << height_m;
   }
   for (const double apart_m : {0.9e-5, 1.1e-5, -0.9e-5, -1.1e-5}) {
-    Fixture narrow = fixture_of_five();
+    Fixture narrow = five_probe_fixture();
     narrow.probes[4].p_MP.x() = narrow.probes[3].p_MP.x() + apart_m;
     EXPECT_EQ(refused(narrow).empty(), std::abs(apart_m) > 1e-5) << apart_m;
   }

@@ -17,8 +17,8 @@ struct EncoderShift {
   double by_m;
 };
 
-std::vector<DwellEvent> events_of(const std::vector<EncoderShift>& shifts,
-                                  std::size_t lost_from = 0, std::size_t lost_to = 0) {
+std::vector<DwellEvent> find_shift_events(const std::vector<EncoderShift>& shifts,
+                                          std::size_t lost_from = 0, std::size_t lost_to = 0) {
   SteppingAxis axis;
   axis.rate_hz = 1000;
   axis.wait(2.5);
@@ -50,9 +50,9 @@ std::vector<DwellEvent> events_of(const std::vector<EncoderShift>& shifts,
   return detector.events();
 }
 
-std::vector<DwellEvent> jumps_of(const std::vector<EncoderShift>& shifts) {
+std::vector<DwellEvent> find_shift_jumps(const std::vector<EncoderShift>& shifts) {
   std::vector<DwellEvent> jumps;
-  for (const DwellEvent& event : events_of(shifts))
+  for (const DwellEvent& event : find_shift_events(shifts))
     if (event.kind == DwellEventKind::jump) jumps.push_back(event);
   return jumps;
 }
@@ -60,7 +60,7 @@ std::vector<DwellEvent> jumps_of(const std::vector<EncoderShift>& shifts) {
 // A slot of the detection has 12 or 13 rows; a window has four slots.
 TEST(EncoderJumpInALog, IsFoundOnceAtEachPhaseOfTheSlot) {
   for (std::size_t row = 1000; row < 1054; ++row) {
-    const auto jumps = jumps_of({{row, 100e-6}});
+    const auto jumps = find_shift_jumps({{row, 100e-6}});
     ASSERT_EQ(jumps.size(), 1u) << row;
     EXPECT_EQ(jumps[0].time_ns, static_cast<std::int64_t>(row) * 1'000'000) << row;
     EXPECT_NEAR(jumps[0].size_m, 100e-6, 0.1e-6) << row;
@@ -71,21 +71,21 @@ TEST(EncoderJumpInALog, IsFoundOnceAtEachPhaseOfTheSlot) {
 
 // The limit is ten tolerances of 2 µm.
 TEST(EncoderJumpInALog, LimitIsTenTolerances) {
-  EXPECT_TRUE(jumps_of({{1020, 19.8e-6}}).empty());
-  EXPECT_EQ(jumps_of({{1020, 20.2e-6}}).size(), 1u);
-  EXPECT_EQ(jumps_of({{1020, -20.2e-6}}).size(), 1u);
+  EXPECT_TRUE(find_shift_jumps({{1020, 19.8e-6}}).empty());
+  EXPECT_EQ(find_shift_jumps({{1020, 20.2e-6}}).size(), 1u);
+  EXPECT_EQ(find_shift_jumps({{1020, -20.2e-6}}).size(), 1u);
 }
 
 // A jump is a wrong count if the count returns within a second and less than half of the limit is
 // left.
 TEST(EncoderJumpInALog, IgnoresAJumpThatReturnsWithinASecond) {
-  EXPECT_TRUE(jumps_of({{1000, 100e-6}, {1990, -100e-6}}).empty());
-  EXPECT_EQ(jumps_of({{1000, 100e-6}, {2010, -100e-6}}).size(), 2u);
-  EXPECT_TRUE(jumps_of({{1000, 100e-6}, {1500, -109e-6}}).empty());
-  EXPECT_EQ(jumps_of({{1000, 100e-6}, {1500, -111e-6}}).size(), 2u);
-  EXPECT_EQ(jumps_of({{1000, 100e-6}, {1500, 100e-6}}).size(), 2u);
+  EXPECT_TRUE(find_shift_jumps({{1000, 100e-6}, {1990, -100e-6}}).empty());
+  EXPECT_EQ(find_shift_jumps({{1000, 100e-6}, {2010, -100e-6}}).size(), 2u);
+  EXPECT_TRUE(find_shift_jumps({{1000, 100e-6}, {1500, -109e-6}}).empty());
+  EXPECT_EQ(find_shift_jumps({{1000, 100e-6}, {1500, -111e-6}}).size(), 2u);
+  EXPECT_EQ(find_shift_jumps({{1000, 100e-6}, {1500, 100e-6}}).size(), 2u);
   // The last two of three jumps are a wrong count.
-  const auto three = jumps_of({{500, 60e-6}, {1000, 100e-6}, {1500, -100e-6}});
+  const auto three = find_shift_jumps({{500, 60e-6}, {1000, 100e-6}, {1500, -100e-6}});
   ASSERT_EQ(three.size(), 1u);
   EXPECT_NEAR(three[0].size_m, 60e-6, 0.1e-6);
 }
@@ -93,7 +93,7 @@ TEST(EncoderJumpInALog, IgnoresAJumpThatReturnsWithinASecond) {
 // The axis moved by 100 µm during the hole; the jump after the hole does not cancel this movement.
 TEST(EncoderJumpInALog, HoleIsNoJump) {
   std::size_t holes = 0, jumps = 0;
-  for (const DwellEvent& event : events_of({{1000, 100e-6}, {1800, -100e-6}}, 1000, 1600)) {
+  for (const DwellEvent& event : find_shift_events({{1000, 100e-6}, {1800, -100e-6}}, 1000, 1600)) {
     holes += event.kind == DwellEventKind::hole;
     jumps += event.kind == DwellEventKind::jump;
   }

@@ -69,8 +69,8 @@ TEST_F(SameDevice, EachAxisHasItsEncoderAndBothTheProbes) {
       (Part{{"A", "A"}, {"B", "B"}, {"C", "C"}, {"D", "D"}, {"E", "E"}, {"encoder_Y", "encoder"}}));
   EXPECT_EQ(x.channels, (std::vector<std::string>{"A", "B", "C", "D", "E", "encoder"}));
   EXPECT_EQ(y.channels, (std::vector<std::string>{"encoder", "A", "B", "C", "D", "E"}));
-  EXPECT_FALSE(x.of_other_axis);
-  EXPECT_TRUE(y.of_other_axis);
+  EXPECT_FALSE(x.is_declared_elsewhere);
+  EXPECT_TRUE(y.is_declared_elsewhere);
   EXPECT_TRUE(x.encoder.counts && y.encoder.counts);
   EXPECT_EQ(x.encoder.offset_mm, std::nullopt);
   EXPECT_EQ(y.encoder.offset_mm, 7.0);

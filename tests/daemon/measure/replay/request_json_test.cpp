@@ -24,7 +24,7 @@ PipelineOptions asked_options() {
 }
 
 TEST(RequestJson, IsReadBackUnchanged) {
-  const AskedFor asked{
+  const RecordedRequest asked{
       "after \"scraping\"\n",
       {notice(NoticeCode::cycle_unknown), notice(NoticeCode::clock_not_settled, "t7")},
       asked_options()};

@@ -14,7 +14,7 @@ const std::string kAsk = R"({"jsonrpc":"2.0","method":"get_data","id":1})";
 const std::string kAnswer = R"({"jsonrpc":"2.0","result":["hello",5],"id":1})";
 constexpr uid_t kNobody = 65534;
 
-std::vector<std::unique_ptr<RawClient>> clients_of(const TestServer& server, int count) {
+std::vector<std::unique_ptr<RawClient>> connect_clients(const TestServer& server, int count) {
   std::vector<std::unique_ptr<RawClient>> clients;
   for (int i = 0; i < count; ++i) {
     clients.push_back(std::make_unique<RawClient>(server.path));
@@ -40,7 +40,7 @@ ServerOptions limits(std::size_t of_user) {
 TEST(Places, OneUserCannotUseAllConnections) {
   TestServer server(limits(3));
   server.start();
-  auto clients = clients_of(server, 3);
+  auto clients = connect_clients(server, 3);
   const std::string why = refusal(server);
   EXPECT_NE(why.find("uid " + std::to_string(::getuid()) + " has 3 connections"), std::string::npos)
       << why;
@@ -65,7 +65,7 @@ TEST(Places, TwoTransportsShareTheLimitOfAUser) {
   const auto port = server.server->listen_tcp("127.0.0.1", 0);
   ASSERT_TRUE(port.has_value());
   server.start();
-  const auto clients = clients_of(server, 2);
+  const auto clients = connect_clients(server, 2);
   RawClient third = tcp_client(*port);
   EXPECT_EQ(third.ask(kAsk), kAnswer);
   EXPECT_NE(refusal(server).find(" has 3 connections"), std::string::npos);
@@ -75,7 +75,7 @@ TEST(Places, TwoTransportsShareTheLimitOfAUser) {
 }
 
 // A process of another user, whose exit code states whether it was accepted.
-int exit_code_of_nobody(const TestServer& server) {
+int unprivileged_exit_code(const TestServer& server) {
   const pid_t child = ::fork();
   if (child == 0) {
     if (::setgid(kNobody) != 0 || ::setuid(kNobody) != 0) ::_exit(2);
@@ -91,8 +91,8 @@ TEST(Places, OthersAreAcceptedBesideAUserAtHisLimit) {
   TestServer server(limits(3));
   ::chmod(server.path.c_str(), 0666);
   server.start();
-  const auto clients = clients_of(server, 3);
-  EXPECT_EQ(exit_code_of_nobody(server), 0);
+  const auto clients = connect_clients(server, 3);
+  EXPECT_EQ(unprivileged_exit_code(server), 0);
 }
 
 TEST(Places, OneIsReservedForTheControlGroup) {
@@ -100,7 +100,7 @@ TEST(Places, OneIsReservedForTheControlGroup) {
   options.kept_for_group = ::getgid();
   TestServer server(options);
   server.start();
-  const auto all = clients_of(server, 6);
+  const auto all = connect_clients(server, 6);
   EXPECT_NE(refusal(server).find("all 6 connections are in use"), std::string::npos);
 }
 
@@ -109,7 +109,7 @@ TEST(Places, AUserAtHisLimitGetsTheReservedConnection) {
   options.kept_for_group = ::getgid();
   TestServer server(options);
   server.start();
-  const auto mine = clients_of(server, 3);
+  const auto mine = connect_clients(server, 3);
   EXPECT_NE(refusal(server).find("has 2 connections"), std::string::npos);
 }
 
@@ -118,7 +118,7 @@ TEST(Places, OthersDoNotGetTheReservedConnection) {
   options.kept_for_group = 4'000'000;  // a group that does not exist
   TestServer server(options);
   server.start();
-  const auto others = clients_of(server, 5);
+  const auto others = connect_clients(server, 5);
   EXPECT_NE(refusal(server).find("reserved for the group in cnc_group"), std::string::npos);
 }
 

@@ -8,7 +8,7 @@ namespace {
 constexpr HttpLimits kLimits{8192, 65536};
 
 // The head of `text` as a connection reads it, or the status that rejects it; 0: incomplete.
-int status_of_head(const std::string& text, HttpHead* head = nullptr) {
+int head_status(const std::string& text, HttpHead* head = nullptr) {
   std::size_t scanned = 0;
   const auto end = head_length(text, scanned, kLimits.head_bytes);
   if (!end) return end.error().status;
@@ -25,12 +25,12 @@ std::string with_fields(const std::string& fields) {
 
 TEST(HttpHead, IsReadWithAllFieldsThatMdofdNeeds) {
   HttpHead head;
-  ASSERT_EQ(status_of_head("GET /events?topics=a%2Cb&interval_ms=20 HTTP/1.1\r\n"
-                           "host: localhost:8080\r\nOrigin: http://localhost:8080\r\n"
-                           "Accept-Encoding: br, gzip\r\nlast-event-id:  17 \r\n"
-                           "Sec-Fetch-Site: same-origin\r\nIf-None-Match: \"x\"\r\n"
-                           "Authorization: Bearer t\r\n\r\n",
-                           &head),
+  ASSERT_EQ(head_status("GET /events?topics=a%2Cb&interval_ms=20 HTTP/1.1\r\n"
+                        "host: localhost:8080\r\nOrigin: http://localhost:8080\r\n"
+                        "Accept-Encoding: br, gzip\r\nlast-event-id:  17 \r\n"
+                        "Sec-Fetch-Site: same-origin\r\nIf-None-Match: \"x\"\r\n"
+                        "Authorization: Bearer t\r\n\r\n",
+                        &head),
             200);
   EXPECT_EQ(head.method, "GET");
   EXPECT_EQ(head.path, "/events");
@@ -48,69 +48,64 @@ TEST(HttpHead, IsReadWithAllFieldsThatMdofdNeeds) {
 
 TEST(HttpHead, StatesWhetherTheConnectionIsKept) {
   HttpHead head;
-  ASSERT_EQ(status_of_head("GET / HTTP/1.0\r\nHost: localhost\r\n\r\n", &head), 200);
+  ASSERT_EQ(head_status("GET / HTTP/1.0\r\nHost: localhost\r\n\r\n", &head), 200);
   EXPECT_FALSE(head.keep_alive);
-  ASSERT_EQ(status_of_head(with_fields("Connection: close\r\n"), &head), 200);
+  ASSERT_EQ(head_status(with_fields("Connection: close\r\n"), &head), 200);
   EXPECT_FALSE(head.keep_alive);
-  ASSERT_EQ(status_of_head(with_fields("Content-Length: 5\r\nExpect: 100-continue\r\n"), &head),
-            200);
+  ASSERT_EQ(head_status(with_fields("Content-Length: 5\r\nExpect: 100-continue\r\n"), &head), 200);
   EXPECT_TRUE(head.expects_continue);
   EXPECT_EQ(head.body_bytes, 5U);
-  ASSERT_EQ(status_of_head(with_fields("Accept-Encoding: gzip;q=0\r\n"), &head), 200);
+  ASSERT_EQ(head_status(with_fields("Accept-Encoding: gzip;q=0\r\n"), &head), 200);
   EXPECT_FALSE(head.takes_gzip);
 }
 
 // Bytes that two readers could interpret differently are rejected (RFC 9112, 11.2).
 TEST(HttpHead, RejectsAmbiguousHeads) {
-  EXPECT_EQ(status_of_head(with_fields("Content-Length: 5\r\n")), 200);
-  EXPECT_EQ(status_of_head(with_fields("Content-Length: 5\r\nContent-Length: 6\r\n")), 400);
-  EXPECT_EQ(status_of_head(with_fields("Content-Length: 5\r\nContent-Length: 5\r\n")), 400);
+  EXPECT_EQ(head_status(with_fields("Content-Length: 5\r\n")), 200);
+  EXPECT_EQ(head_status(with_fields("Content-Length: 5\r\nContent-Length: 6\r\n")), 400);
+  EXPECT_EQ(head_status(with_fields("Content-Length: 5\r\nContent-Length: 5\r\n")), 400);
   for (const char* length : {"5, 5", "+5", "-1", "0x5", "5 5", "", "5;", "٥"})
-    EXPECT_EQ(status_of_head(with_fields("Content-Length: " + std::string(length) + "\r\n")), 400)
+    EXPECT_EQ(head_status(with_fields("Content-Length: " + std::string(length) + "\r\n")), 400)
         << length;
-  EXPECT_NE(status_of_head(with_fields("Content-Length: 5\r\nTransfer-Encoding: chunked\r\n")),
-            200);
-  EXPECT_NE(status_of_head(with_fields("Transfer-Encoding: chunked\r\nContent-Length: 5\r\n")),
-            200);
+  EXPECT_NE(head_status(with_fields("Content-Length: 5\r\nTransfer-Encoding: chunked\r\n")), 200);
+  EXPECT_NE(head_status(with_fields("Transfer-Encoding: chunked\r\nContent-Length: 5\r\n")), 200);
   for (const char* coding :
        {"chunked", "identity", "xchunked", "chunked, chunked", "gzip, chunked"})
-    EXPECT_EQ(status_of_head(with_fields("Transfer-Encoding: " + std::string(coding) + "\r\n")),
-              501)
+    EXPECT_EQ(head_status(with_fields("Transfer-Encoding: " + std::string(coding) + "\r\n")), 501)
         << coding;
-  EXPECT_EQ(status_of_head(with_fields("Transfer-Encoding : chunked\r\n")), 400);
-  EXPECT_EQ(status_of_head(with_fields("X: a\r\n b\r\n")), 400);
-  EXPECT_EQ(status_of_head(with_fields("X: a\r\n\tb\r\n")), 400);
-  EXPECT_EQ(status_of_head("POST /rpc HTTP/1.1\r\n Host: a\r\n\r\n"), 400);
-  EXPECT_EQ(status_of_head("POST /rpc HTTP/1.1\nHost: localhost\n\n"), 400);
-  EXPECT_EQ(status_of_head(with_fields("X: a\nContent-Length: 5\r\n")), 400);
-  EXPECT_EQ(status_of_head(with_fields("X: a\rContent-Length: 5\r\n")), 400);
-  EXPECT_EQ(status_of_head(with_fields(std::string("X: a\0b\r\n", 8))), 400);
-  EXPECT_EQ(status_of_head(with_fields("Host: localhost:1\r\n")), 400);
-  EXPECT_EQ(status_of_head(with_fields("no colon\r\n")), 400);
+  EXPECT_EQ(head_status(with_fields("Transfer-Encoding : chunked\r\n")), 400);
+  EXPECT_EQ(head_status(with_fields("X: a\r\n b\r\n")), 400);
+  EXPECT_EQ(head_status(with_fields("X: a\r\n\tb\r\n")), 400);
+  EXPECT_EQ(head_status("POST /rpc HTTP/1.1\r\n Host: a\r\n\r\n"), 400);
+  EXPECT_EQ(head_status("POST /rpc HTTP/1.1\nHost: localhost\n\n"), 400);
+  EXPECT_EQ(head_status(with_fields("X: a\nContent-Length: 5\r\n")), 400);
+  EXPECT_EQ(head_status(with_fields("X: a\rContent-Length: 5\r\n")), 400);
+  EXPECT_EQ(head_status(with_fields(std::string("X: a\0b\r\n", 8))), 400);
+  EXPECT_EQ(head_status(with_fields("Host: localhost:1\r\n")), 400);
+  EXPECT_EQ(head_status(with_fields("no colon\r\n")), 400);
 }
 
 TEST(HttpHead, NeedsAPathAHostAndAVersion) {
   for (const char* target : {"http://localhost/", "*", "index.html", "/a#b", "localhost:80"})
-    EXPECT_EQ(status_of_head("GET " + std::string(target) + " HTTP/1.1\r\nHost: a\r\n\r\n"), 400)
+    EXPECT_EQ(head_status("GET " + std::string(target) + " HTTP/1.1\r\nHost: a\r\n\r\n"), 400)
         << target;
-  EXPECT_EQ(status_of_head("GET / HTTP/1.1\r\n\r\n"), 400);
+  EXPECT_EQ(head_status("GET / HTTP/1.1\r\n\r\n"), 400);
   for (const char* version : {"HTTP/2.0", "HTTP/1.2", "HTTP/1.11", "http/1.1", "HTTP/0.9", ""})
-    EXPECT_EQ(status_of_head("GET / " + std::string(version) + "\r\nHost: a\r\n\r\n"), 400)
-        << version;
-  EXPECT_EQ(status_of_head("GET /\r\n\r\n"), 400);
-  EXPECT_EQ(status_of_head("\x16\x03\x01"), 400);  // TLS
-  EXPECT_EQ(status_of_head("{\"jsonrpc\""), 400);
+    EXPECT_EQ(head_status("GET / " + std::string(version) + "\r\nHost: a\r\n\r\n"), 400) << version;
+  EXPECT_EQ(head_status("GET /\r\n\r\n"), 400);
+  EXPECT_EQ(head_status("\x16\x03\x01"), 400);  // TLS
+  EXPECT_EQ(head_status("{\"jsonrpc\""), 400);
 }
 
 TEST(HttpHead, HasLimits) {
-  EXPECT_EQ(status_of_head(with_fields("X: " + std::string(9000, 'x') + "\r\n")), 431);
-  EXPECT_EQ(status_of_head("GET /" + std::string(9000, 'x')), 431);
+  EXPECT_EQ(head_status(with_fields("X: " + std::string(9000, 'x') + "\r\n")), 431);
+  EXPECT_EQ(head_status("GET /" + std::string(9000, 'x')), 431);
   std::string many;
   for (int i = 0; i < 3000; ++i) many += "A:\r\n";
-  EXPECT_EQ(status_of_head(with_fields(many)), 431);
-  EXPECT_EQ(status_of_head(with_fields("Content-Length: 65536\r\n")), 200);
-  EXPECT_EQ(status_of_head(with_fields("Content-Length: 65537\r\n")), 413);
-  EXPECT_NE(status_of_head(with_fields("Content-Length: 18446744073709551621\r\n")), 200);
+  EXPECT_EQ(head_status(with_fields(many)), 431);
+  EXPECT_EQ(head_status(with_fields("Content-Length: 65536\r\n")), 200);
+  EXPECT_EQ(head_status(with_fields("Content-Length: 65537\r\n")), 413);
+  EXPECT_NE(head_status(with_fields("Content-Length: 18446744073709551621\r\n")), 200);
 }
 
 // For any division of the bytes.

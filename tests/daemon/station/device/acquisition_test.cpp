@@ -18,7 +18,7 @@ struct Script {
   enum class Act {
     open,
     slow_open,
-    open_anew,
+    reopen_at_zero,
     refuse,
     block,
     late_block,
@@ -41,7 +41,7 @@ class Scripted final : public drivers::Driver {
   const drivers::DeviceClock* clock() const override { return &clock_; }
   Status open() override {
     const auto act = next();
-    if (act == Script::Act::open_anew) datum_lost_ = "it counts from 0 again";
+    if (act == Script::Act::reopen_at_zero) datum_lost_ = "it counts from 0 again";
     if (act == Script::Act::slow_open) std::this_thread::sleep_for(milliseconds(300));
     return act == Script::Act::refuse ? io_error("10.0.0.9: no route") : Status();
   }
@@ -157,7 +157,7 @@ class Collector {
   std::string reason_;
 };
 
-drivers::DriverSpec spec_of(std::deque<Script::Act> acts, bool live = true) {
+drivers::DriverSpec scripted_spec(std::deque<Script::Act> acts, bool live = true) {
   drivers::DriverSpec spec;
   spec.driver = "fake";
   spec.name = "fake";
@@ -173,7 +173,7 @@ using enum Script::Act;
 
 TEST(Acquisition, ReopensAFailedDeviceAndReportsLostSamples) {
   Collector collector;
-  Acquisition acquisition(spec_of({open, block, fail, refuse, refuse, open, silence, block}),
+  Acquisition acquisition(scripted_spec({open, block, fail, refuse, refuse, open, silence, block}),
                           collector.sink());
   acquisition.start();
   ASSERT_TRUE(collector.wait_for(2));
@@ -197,7 +197,7 @@ TEST(Acquisition, ReopensAFailedDeviceAndReportsLostSamples) {
 // Whether healthy() is true during a whole read that takes 0.7 s.
 bool is_healthy_throughout(Script::Act act) {
   Collector collector;
-  Acquisition acquisition(spec_of({open, block, act, block}), collector.sink());
+  Acquisition acquisition(scripted_spec({open, block, act, block}), collector.sink());
   acquisition.start();
   bool healthy = true;
   while (collector.blocks().size() < 2) {
@@ -214,7 +214,7 @@ TEST(Acquisition, AnAnnouncedLongStepIsNotAHangUp) {
 
 TEST(Acquisition, ReportsALossAndARecoveryOnceEach) {
   Collector collector;
-  Acquisition acquisition(spec_of({open, block, fail, refuse, refuse, open, silence, block}),
+  Acquisition acquisition(scripted_spec({open, block, fail, refuse, refuse, open, silence, block}),
                           collector.sink());
   acquisition.start();
   ASSERT_TRUE(collector.wait_for(2));
@@ -229,8 +229,9 @@ TEST(Acquisition, ReportsALossAndARecoveryOnceEach) {
 
 TEST(Acquisition, ReportsALostDatumAndKeepsItSuspect) {
   Collector collector;
-  Acquisition acquisition(spec_of({open, block, fail, open_anew, block, fail, open, block}),
-                          collector.sink());
+  Acquisition acquisition(
+      scripted_spec({open, block, fail, reopen_at_zero, block, fail, open, block}),
+      collector.sink());
   acquisition.start();
   ASSERT_TRUE(collector.wait_for(3));
   const auto reported = collector.troubles();
@@ -245,7 +246,7 @@ TEST(Acquisition, ReportsALostDatumAndKeepsItSuspect) {
 
 TEST(Acquisition, ReportsADeviceThatCannotBeOpenedAlsoLater) {
   Collector collector;
-  Acquisition acquisition(spec_of(std::deque<Script::Act>(100, refuse)), collector.sink());
+  Acquisition acquisition(scripted_spec(std::deque<Script::Act>(100, refuse)), collector.sink());
   acquisition.start();
   while (acquisition.status().reopened < 3) std::this_thread::sleep_for(milliseconds(1));
   EXPECT_EQ(collector.troubles(),
@@ -259,7 +260,7 @@ TEST(Acquisition, ReportsADeviceThatCannotBeOpenedAlsoLater) {
 // At 1 kHz the window of 5 s would have 5000 scans; here it has 10.
 TEST(Acquisition, ReportsASlowDevice) {
   Collector collector;
-  Acquisition acquisition(spec_of({open, block}), collector.sink());
+  Acquisition acquisition(scripted_spec({open, block}), collector.sink());
   acquisition.start();
   const auto begin = steady_clock::now();
   while (collector.troubles().empty() && steady_clock::now() - begin < std::chrono::seconds(20))
@@ -273,7 +274,7 @@ TEST(Acquisition, ReportsASlowDevice) {
 
 TEST(Acquisition, ADeviceThatOpensSlowlyIsNotAHungThread) {
   Collector collector;
-  Acquisition acquisition(spec_of({slow_open, block}), collector.sink());
+  Acquisition acquisition(scripted_spec({slow_open, block}), collector.sink());
   acquisition.start();
   std::this_thread::sleep_for(milliseconds(20));  // the thread has begun
   while (collector.blocks().empty()) {
@@ -287,7 +288,7 @@ TEST(Acquisition, OpensAPluggedInDeviceWithoutDelay) {
   std::deque<Script::Act> acts(40, refuse);
   acts.insert(acts.end(), {open, block});
   Collector collector;
-  Acquisition acquisition(spec_of(acts), collector.sink());
+  Acquisition acquisition(scripted_spec(acts), collector.sink());
   const auto begin = steady_clock::now();
   acquisition.start();
   while (collector.blocks().empty() && steady_clock::now() - begin < std::chrono::seconds(20)) {
@@ -301,7 +302,7 @@ TEST(Acquisition, OpensAPluggedInDeviceWithoutDelay) {
 TEST(Acquisition, ReportsSamplesLostByAFullQueueWithTheNextBlock) {
   Collector collector;
   collector.refuse_after_the_first(2);
-  Acquisition acquisition(spec_of({open, block, block, block, block}), collector.sink());
+  Acquisition acquisition(scripted_spec({open, block, block, block, block}), collector.sink());
   acquisition.start();
   ASSERT_TRUE(collector.wait_for(2));
   EXPECT_EQ(collector.blocks()[1].lost, 20u);
@@ -311,7 +312,7 @@ TEST(Acquisition, ReportsSamplesLostByAFullQueueWithTheNextBlock) {
 
 TEST(Acquisition, AReplayEndsPermanently) {
   Collector collector;
-  Acquisition acquisition(spec_of({open, block, Script::Act::end}, false), collector.sink());
+  Acquisition acquisition(scripted_spec({open, block, Script::Act::end}, false), collector.sink());
   acquisition.start();
   ASSERT_TRUE(collector.wait_for_end());
   EXPECT_EQ(collector.reason(), "");
@@ -321,7 +322,7 @@ TEST(Acquisition, AReplayEndsPermanently) {
 
 TEST(Acquisition, AFailedReplayStatesWhyAndIsNotRetried) {
   Collector collector;
-  Acquisition acquisition(spec_of({open, fail, open, block}, false), collector.sink());
+  Acquisition acquisition(scripted_spec({open, fail, open, block}, false), collector.sink());
   acquisition.start();
   ASSERT_TRUE(collector.wait_for_end());
   EXPECT_EQ(collector.reason(), "10.0.0.9: gone");
@@ -330,7 +331,7 @@ TEST(Acquisition, AFailedReplayStatesWhyAndIsNotRetried) {
 
 TEST(Acquisition, StopsWhileItWaits) {
   Collector collector;
-  Acquisition acquisition(spec_of(std::deque<Script::Act>(1000, refuse)), collector.sink());
+  Acquisition acquisition(scripted_spec(std::deque<Script::Act>(1000, refuse)), collector.sink());
   acquisition.start();
   std::this_thread::sleep_for(milliseconds(20));
   const auto begin = steady_clock::now();
@@ -342,7 +343,8 @@ TEST(Acquisition, StopsWhileItWaits) {
 // Packets that are late for a while: suspect, so that they get no position, and reported.
 TEST(Acquisition, SamplesAreSuspectWhileTheirClockIsUncertain) {
   Collector collector;
-  Acquisition acquisition(spec_of({open, block, late_block, late_block, block}), collector.sink());
+  Acquisition acquisition(scripted_spec({open, block, late_block, late_block, block}),
+                          collector.sink());
   acquisition.start();
   ASSERT_TRUE(collector.wait_for(4));
   acquisition.stop();

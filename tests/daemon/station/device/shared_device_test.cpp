@@ -101,7 +101,7 @@ class TakingAxis {
 };
 
 template <class Condition>
-bool comes_true(const Condition& condition) {
+bool becomes_true(const Condition& condition) {
   for (int i = 0; i < 20'000; ++i) {
     if (condition()) return true;
     std::this_thread::sleep_for(milliseconds(1));
@@ -118,7 +118,7 @@ class SharedDeviceTest : public testing::Test {
     };
     spec_.part = {{"A", "A"}, {"encoder", "encoder"}};
     drivers::DriverSpec of_y = spec_;
-    of_y.of_other_axis = true;
+    of_y.is_declared_elsewhere = true;
     of_y.part = {{"A", "left"}, {"encoder_Y", "encoder"}};
     part_x_ = devices_.part(spec_, x_.sink());
     part_y_ = devices_.part(of_y, y_.sink());
@@ -126,7 +126,7 @@ class SharedDeviceTest : public testing::Test {
   void start() {
     part_x_->start();
     part_y_->start();
-    ASSERT_TRUE(comes_true([&] { return x_.blocks().size() > 2 && y_.blocks().size() > 2; }));
+    ASSERT_TRUE(becomes_true([&] { return x_.blocks().size() > 2 && y_.blocks().size() > 2; }));
   }
   static std::size_t standing(const DeviceReader& part) { return part.status().standing.size(); }
 
@@ -155,11 +155,11 @@ TEST_F(SharedDeviceTest, ALossIsReportedToBothAxes) {
   start();
   state_->gone = true;
   const std::vector<std::string> lost = {"lost"}, back = {"lost", "back"};
-  EXPECT_TRUE(comes_true([&] { return x_.troubles() == lost && y_.troubles() == lost; }));
+  EXPECT_TRUE(becomes_true([&] { return x_.troubles() == lost && y_.troubles() == lost; }));
   EXPECT_EQ(standing(*part_x_), 1u);
   EXPECT_EQ(standing(*part_y_), 1u);
   state_->gone = false;
-  EXPECT_TRUE(comes_true([&] { return x_.troubles() == back && y_.troubles() == back; }));
+  EXPECT_TRUE(becomes_true([&] { return x_.troubles() == back && y_.troubles() == back; }));
 }
 
 // The status is checked once a second.
@@ -167,18 +167,18 @@ TEST_F(SharedDeviceTest, ADatumBelongsToOneAxis) {
   start();
   state_->y_lost = true;
   const std::vector<std::string> suspect = {"suspect"};
-  ASSERT_TRUE(comes_true([&] { return y_.troubles() == suspect; }));
+  ASSERT_TRUE(becomes_true([&] { return y_.troubles() == suspect; }));
   EXPECT_EQ(standing(*part_y_), 1u);
   EXPECT_EQ(standing(*part_x_), 0u);
   EXPECT_TRUE(x_.troubles().empty());
   part_x_->trust_count();  // of the other axis
-  ASSERT_TRUE(comes_true([&] { return state_->x_trusted == 1; }));
+  ASSERT_TRUE(becomes_true([&] { return state_->x_trusted == 1; }));
   EXPECT_TRUE(state_->y_lost);
   EXPECT_EQ(standing(*part_y_), 1u);
   state_->x_lost = true;
-  ASSERT_TRUE(comes_true([&] { return x_.troubles() == suspect; }));
+  ASSERT_TRUE(becomes_true([&] { return x_.troubles() == suspect; }));
   part_y_->trust_count();
-  ASSERT_TRUE(comes_true([&] { return !state_->y_lost; }));
+  ASSERT_TRUE(becomes_true([&] { return !state_->y_lost; }));
   EXPECT_TRUE(state_->x_lost);
   EXPECT_EQ(standing(*part_y_), 0u);
   EXPECT_EQ(standing(*part_x_), 1u);
@@ -188,10 +188,10 @@ TEST_F(SharedDeviceTest, AFullQueueOfOneAxisAffectsThatAxisOnly) {
   start();
   x_.set_full(true);
   const std::size_t had = y_.blocks().size();
-  ASSERT_TRUE(comes_true([&] { return y_.blocks().size() > had + 10; }));
+  ASSERT_TRUE(becomes_true([&] { return y_.blocks().size() > had + 10; }));
   x_.set_full(false);
   const std::size_t before = x_.blocks().size();
-  ASSERT_TRUE(comes_true([&] { return x_.blocks().size() > before; }));
+  ASSERT_TRUE(becomes_true([&] { return x_.blocks().size() > before; }));
   const SampleBlock after = x_.blocks()[before], last = x_.blocks()[before - 1];
   EXPECT_GE(after.lost, 10u);
   EXPECT_EQ(after.time_ns[0] - last.time_ns[0],
@@ -206,7 +206,7 @@ TEST_F(SharedDeviceTest, ContinuesForTheOtherAxisAndClosesWithTheLast) {
   start();
   part_x_.reset();
   const std::size_t had = y_.blocks().size(), x = x_.blocks().size();
-  ASSERT_TRUE(comes_true([&] { return y_.blocks().size() > had + 5; }));
+  ASSERT_TRUE(becomes_true([&] { return y_.blocks().size() > had + 5; }));
   EXPECT_EQ(x_.blocks().size(), x);
   EXPECT_EQ(state_->destroyed, 0);
   part_y_->request_stop();
@@ -222,11 +222,11 @@ TEST(SameProbes, AreThoseThatBothAxesHave) {
   x.devices[0].name = y.devices[0].name = "t7";
   x.devices[0].part = {{"A", "A"}, {"encoder", "encoder"}};
   y.devices[0].part = {{"A_Y", "A"}, {"encoder_Y", "encoder"}};
-  EXPECT_EQ(same_probes(x, y), "");
+  EXPECT_EQ(shared_probes_device(x, y), "");
   y.devices[0].part["A"] = "B";
-  EXPECT_EQ(same_probes(x, y), "t7");
+  EXPECT_EQ(shared_probes_device(x, y), "t7");
   y.devices[0].name = "u6";
-  EXPECT_EQ(same_probes(x, y), "");
+  EXPECT_EQ(shared_probes_device(x, y), "");
 }
 
 }  // namespace

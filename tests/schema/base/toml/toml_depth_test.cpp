@@ -38,8 +38,8 @@ TEST(TomlDepth, IsCountedExactly) {
   EXPECT_NE(refusal(repeated("a.", 33) + "a = 1"), "");
   EXPECT_EQ(refusal("a = " + repeated("[", 32) + repeated("]", 32)), "");
   EXPECT_NE(refusal("a = " + repeated("[", 33) + repeated("]", 33)), "");
-  EXPECT_EQ(toml_line_deeper_than("a.b.c = {d.e = [1]}", 5), std::nullopt);
-  EXPECT_EQ(toml_line_deeper_than("a.b.c = {d.e = [1]}", 4), 1U);
+  EXPECT_EQ(toml_line_over_depth("a.b.c = {d.e = [1]}", 5), std::nullopt);
+  EXPECT_EQ(toml_line_over_depth("a.b.c = {d.e = [1]}", 4), 1U);
 }
 
 // Dots and brackets in strings, comments and numbers are not counted as levels, regardless of their
@@ -59,7 +59,7 @@ TEST(TomlDepth, CountsOnlyKeysAndBrackets) {
 TEST(TomlDepth, RejectsAnUnterminatedString) {
   for (const char* open : {"t = \"\"\"", "t = '''", "t = '''x", "t = \"\"\"x\\", "t = '''x''",
                            "t = \"x\\", "t = \"", "t = '", "'''", "\"\"\"\"", "t = [\"\"\"a\n"}) {
-    EXPECT_EQ(toml_line_deeper_than(open, 32), std::nullopt) << open;
+    EXPECT_EQ(toml_line_over_depth(open, 32), std::nullopt) << open;
     EXPECT_NE(refusal(open).find("rig.toml:"), std::string::npos) << open;
   }
 }

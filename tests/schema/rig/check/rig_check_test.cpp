@@ -44,7 +44,7 @@ void expect_refused(const std::string& text, const std::vector<std::string>& wor
 void expect_warned(const std::string& text, const std::vector<std::string>& words) {
   const Result<Rig> rig = parse_rig(text, "r.toml");
   ASSERT_TRUE(rig) << rig.error().message;
-  const Notices found = doubtful_values(*rig);
+  const Notices found = unusual_values(*rig);
   ASSERT_EQ(found.size(), 1u) << words[0];
   const std::string finding = test::shown(found);
   for (const std::string& word : words)
@@ -54,7 +54,7 @@ void expect_warned(const std::string& text, const std::vector<std::string>& word
 void expect_right(const std::string& text) {
   const Result<Rig> rig = parse_rig(text, "r.toml");
   ASSERT_TRUE(rig) << rig.error().message;
-  EXPECT_EQ(test::shown(doubtful_values(*rig)), "");
+  EXPECT_EQ(test::shown(unusual_values(*rig)), "");
 }
 
 // The rig has more probes than allowed and two equal probes: the number is checked before probes

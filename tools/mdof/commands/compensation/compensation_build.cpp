@@ -121,7 +121,7 @@ Action declare_build(CLI::App& command) {
   add_run_arguments(command, o->words,
                     "Numbers of runs of one axis with the same targets, or \"latest\"")
       ->required(false);
-  add_axis_of_latest(command, o->axis);
+  add_latest_axis_option(command, o->axis);
   command.add_flag("--keep-slope", o->keep_slope,
                    "Keep the slope of straightness; do not subtract the least-squares line");
   command.add_flag("--partial", o->partial, "Also accept partial runs");

@@ -39,7 +39,7 @@ std::string formats_json() {
         .field("sign_confirmed", f.sign_confirmed)
         .end_object();
   json.end_array().key("not_written").begin_array();
-  for (const controllers::NotWritten& one : controllers::not_written())
+  for (const controllers::UnsupportedController& one : controllers::not_written())
     json.begin_object()
         .field("format", one.name)
         .field("of", one.of)
@@ -61,7 +61,7 @@ std::string formats_text(std::size_t width) {
       text += "  " + wrapped(std::string(label) + what, width - 2, 12) + "\n";
     if (!f.sign_confirmed) text += "  SIGN NOT CONFIRMED: an export needs --unverified-sign\n";
   }
-  for (const controllers::NotWritten& one : controllers::not_written()) {
+  for (const controllers::UnsupportedController& one : controllers::not_written()) {
     text += std::string(one.name) + ": " + one.of + "\n  NOT WRITTEN\n";
     text += "  " + wrapped(std::string("reason    ") + one.reason, width - 2, 12) + "\n";
     text += "  " + wrapped(std::string("instead   ") + one.instead, width - 2, 12) + "\n";

@@ -24,7 +24,7 @@ constexpr const char* kNotKept =
 constexpr const char* kFactorRule = "all u are multiplied by the same factor";
 
 // Sorted by the contribution to u_x² + u_y² + u_z², largest first.
-std::vector<std::size_t> by_size(const algo::BudgetModel& model) {
+std::vector<std::size_t> causes_by_contribution(const algo::BudgetModel& model) {
   std::vector<std::size_t> order(model.causes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -66,7 +66,7 @@ void write_stage(JsonWriter& json, const FoundStage& stage) {
 
 void write_contributions(JsonWriter& json, const algo::BudgetModel& model) {
   json.key("contributions").begin_array();
-  for (const std::size_t i : by_size(model)) {
+  for (const std::size_t i : causes_by_contribution(model)) {
     const algo::BudgetCause& cause = model.causes[i];
     json.begin_object()
         .field("name", cause.name)
@@ -85,7 +85,7 @@ void write_allocation(JsonWriter& json, const algo::BudgetModel& model,
   json.field("allocation_rule", kFactorRule).field("allocation_factor", found.common_factor);
   if (found.common_factor == 0) json.field("allocation_reason", kNotKept);
   json.key("allocation").begin_array();
-  for (const std::size_t i : by_size(model)) {
+  for (const std::size_t i : causes_by_contribution(model)) {
     const algo::BudgetCause& cause = model.causes[i];
     json.begin_object()
         .field("name", cause.name)
@@ -146,7 +146,7 @@ std::string contributions_text(const FoundMachineBudget& found) {
   if (found.allocation)
     for (const char* name : {"allowed u", "alone"}) head.push_back(name);
   TextTable table(head);
-  for (const std::size_t i : by_size(model)) {
+  for (const std::size_t i : causes_by_contribution(model)) {
     const algo::BudgetCause& cause = model.causes[i];
     const Eigen::Vector3d part = cause.contribution_m();
     std::vector<std::string> row = {cause.name, plain_number(cause.u, 4), cause.unit};

@@ -95,7 +95,7 @@ Action declare_machine_budget(CLI::App& command) {
       .add_option("--run", o->runs,
                   "Stored run (number, or \"latest\"); the errors of the run replace the declared "
                   "sources of the same errors")
-      ->check(run_word_error)
+      ->check(run_argument_error)
       ->type_name("RUN");
   add_database_option(command, o->database);
   command.add_option("--trials", o->trials, "Number of trials")

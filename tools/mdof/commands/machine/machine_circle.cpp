@@ -100,7 +100,7 @@ Result<algo::CircularPath> read_path(const drivers::CsvTable& csv) {
 }
 
 // A predicted deviation at an angle: values at equal angles from 0, linear between them.
-double at_angle(const std::vector<double>& deviations, double angle_rad) {
+double predicted_at_angle(const std::vector<double>& deviations, double angle_rad) {
   const auto n = static_cast<double>(deviations.size());
   const double turns = angle_rad / (2 * std::numbers::pi);
   const double place = (turns - std::floor(turns)) * n;
@@ -114,7 +114,7 @@ LargestDifference largest_difference(const FoundCircle& measured, const FoundCir
   largest.angle_rad = measured.path.angle_rad.front();
   const auto compare = [&](const std::vector<double>& of, const std::vector<double>& by, bool cw) {
     for (std::size_t i = 0; i < of.size(); ++i) {
-      const double difference = of[i] - at_angle(by, measured.path.angle_rad[i]);
+      const double difference = of[i] - predicted_at_angle(by, measured.path.angle_rad[i]);
       if (std::abs(difference) > std::abs(largest.value_m))
         largest = {difference, measured.path.angle_rad[i], NAN, cw};
     }
@@ -125,7 +125,7 @@ LargestDifference largest_difference(const FoundCircle& measured, const FoundCir
 }
 
 // U of the radius from the u of the tool position there; the directions count as independent.
-double expanded_at(const Machine& machine, const algo::CircleRequest& request, double angle_rad) {
+double radius_U_at(const Machine& machine, const algo::CircleRequest& request, double angle_rad) {
   algo::Command command = request.centre;
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
   command[request.first] += request.radius_m * c;
@@ -314,7 +314,7 @@ Status machine_circle(const MachineCircleCommand& o) {
   }
   if (found.predicted && found.measured) {
     found.largest = largest_difference(*found.measured, *found.predicted);
-    found.largest->U_m = expanded_at(machine, request, found.largest->angle_rad);
+    found.largest->U_m = radius_U_at(machine, request, found.largest->angle_rad);
   }
   warn_outside_tables(found.beyond);
   MDOF_CHECK(draw_circles(o, found));

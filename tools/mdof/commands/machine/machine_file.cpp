@@ -48,7 +48,7 @@ Result<DescribedMachine> described_with_text(const std::string& file) {
 Status add_stored_errors(Machine& machine, const std::string& database) {
   if (!machine.names_stored_rows()) return {};
   MDOF_TRY(store::Store store, open_to_read(database));
-  MDOF_TRY(const auto stored, daemon::take_stored_errors(store, machine));
+  MDOF_TRY(const auto stored, daemon::read_stored_errors(store, machine));
   show_notices(stored.notices, true);
   return {};
 }

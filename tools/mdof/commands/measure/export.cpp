@@ -136,7 +136,7 @@ Result<std::string> document_text(const std::string& format, const report::Repor
 Status export_document(ExportCommand& command) {
   if (command.out.empty()) return fail(ErrorCode::usage, "missing option --out FILE");
   for (const std::string& word : command.sources)
-    if (const std::string why = run_word_error(word); !why.empty())
+    if (const std::string why = run_argument_error(word); !why.empty())
       return fail(ErrorCode::usage, "--format " + command.format + " takes runs: " + why);
   command.request.runs = command.sources;
   MDOF_TRY(const report::Report report, report_of_runs(command.request));
@@ -149,7 +149,7 @@ Status export_document(ExportCommand& command) {
 // Writes a run in the format of mdof show: points as CSV, or the complete run as JSON.
 Status export_run(const ExportCommand& command) {
   const std::string& source = command.sources.front();
-  if (const std::string why = run_word_error(source); !why.empty())
+  if (const std::string why = run_argument_error(source); !why.empty())
     return fail(ErrorCode::usage, "--format " + command.format + " takes a run: " + why);
   if (!command.request.set.empty() || !command.request.tolerances.empty())
     return fail(ErrorCode::usage,
@@ -171,7 +171,7 @@ Status export_samples_or_run(ExportCommand& command) {
         ErrorCode::usage,
         "--format csv takes exactly one recording (FILE.mdofrec) or one run, and --format json "
         "takes exactly one run; to export several runs, give --format dcc or --format qif");
-  if (command.format == "json" || run_word_error(command.sources.front()).empty())
+  if (command.format == "json" || run_argument_error(command.sources.front()).empty())
     return export_run(command);
   if (!command.out.empty())
     return fail(ErrorCode::usage,
@@ -180,7 +180,7 @@ Status export_samples_or_run(ExportCommand& command) {
   return export_recording(command);
 }
 
-Status export_as_asked(ExportCommand& command) {
+Status export_as_requested(ExportCommand& command) {
   const bool is_document = command.format == "dcc" || command.format == "qif";
   return is_document ? export_document(command) : export_samples_or_run(command);
 }
@@ -216,7 +216,7 @@ Action declare_export(CLI::App& command) {
                   "Write the rig of the recording to this file, for use with \"mdof replay\"")
       ->type_name("RIG.toml")
       ->excludes(out);
-  return [o] { return export_as_asked(*o); };
+  return [o] { return export_as_requested(*o); };
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct ReplayCommand {
   bool json = false, keep_out = false, all_warnings = false, all = false;
 };
 
-Result<Run> replay_here(const daemon::ReplayRequest& request) {
+Result<Run> replay_locally(const daemon::ReplayRequest& request) {
   ProgressBar bar("replay");
   return daemon::replay(request, [&](const Progress& progress) {
     bar.show(progress);
@@ -68,7 +68,7 @@ Result<Run> replay_in_daemon(rpc::Client& mdofd, const ReplayCommand& command) {
   return store_in_daemon(mdofd, command.database, "run.replay", params_of(request));
 }
 
-Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
+Result<StatedAt> requested_reference(const ReplayCommand& command, const Run& run) {
   Reference reference{};
   reference_from(command.reference, reference);  // the option accepts only valid names
   MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
@@ -78,8 +78,8 @@ Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
 Result<Run> replay_and_store(const ReplayCommand& command) {
   MDOF_TRY(auto mdofd, writing_daemon(command.database, command.socket));
   if (mdofd) return replay_in_daemon(*mdofd, command);
-  MDOF_TRY(Run run, replay_here(command.request));
-  MDOF_CHECK(asked_reference(command, run));  // a run that cannot be shown is not stored
+  MDOF_TRY(Run run, replay_locally(command.request));
+  MDOF_CHECK(requested_reference(command, run));  // a run that cannot be shown is not stored
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(run.header.id,
            store.add_run(run, daemon::action_now("run.replay", daemon::this_process()),
@@ -92,8 +92,8 @@ Status replay(ReplayCommand command) {
   if (!command.rig.empty()) {
     MDOF_TRY(command.request.rig_text, load_rig_text(command.rig));
   }
-  MDOF_TRY(Run run, command.keep_out ? replay_here(command.request) : replay_and_store(command));
-  MDOF_TRY(const StatedAt at, asked_reference(command, run));
+  MDOF_TRY(Run run, command.keep_out ? replay_locally(command.request) : replay_and_store(command));
+  MDOF_TRY(const StatedAt at, requested_reference(command, run));
   run = algo::restate(std::move(run), at);  // the stored run is stated at the fixture
   show_notices(run.header.notices, command.all_warnings);
   if (command.json) return write_line(daemon::replay_document(run, daemon::stated_run(run)));

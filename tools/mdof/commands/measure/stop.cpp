@@ -22,7 +22,7 @@ struct StopCommand {
   bool abort = false, json = false;
 };
 
-struct UnderWay {
+struct RunInProgress {
   std::string axis;
   std::int64_t run = 0;
 };
@@ -35,9 +35,10 @@ struct Stopped {
 };
 
 // Error: mdofd does not have the requested axis.
-Result<std::vector<UnderWay>> runs_under_way(const std::string& info, const std::string& axis) {
+Result<std::vector<RunInProgress>> runs_in_progress(const std::string& info,
+                                                    const std::string& axis) {
   simdjson::dom::parser parser;
-  std::vector<UnderWay> runs;
+  std::vector<RunInProgress> runs;
   bool known = axis.empty();
   for (const element of : parser.parse(simdjson::padded_string(info)).at_key("axes").get_array()) {
     const std::string name = text(of, "axis");
@@ -53,13 +54,13 @@ Result<std::vector<UnderWay>> runs_under_way(const std::string& info, const std:
 // `info` is the reply of server.info.
 Result<std::vector<Stopped>> stop_all(rpc::Client& client, const std::string& info,
                                       const StopCommand& command) {
-  MDOF_TRY(const auto runs, runs_under_way(info, command.axis));
+  MDOF_TRY(const auto runs, runs_in_progress(info, command.axis));
   if (runs.empty())
     return fail(ErrorCode::not_found,
                 "no run" + (command.axis.empty() ? "" : " of axis " + command.axis) +
                     " is in progress; to list the runs that have ended, use: mdof runs");
   std::vector<Stopped> all;
-  for (const UnderWay& run : runs) {
+  for (const RunInProgress& run : runs) {
     JsonWriter params;
     params.begin_object().field("run", run.run).field("abort", command.abort).end_object();
     MDOF_TRY(const std::string reply, client.call("run.stop", params.text()));

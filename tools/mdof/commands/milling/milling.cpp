@@ -33,7 +33,7 @@ struct MillingCommand {
 };
 
 // One model of a plan with its results.
-struct Milled {
+struct MilledModel {
   MillingPlan plan;
   algo::MillingResult result;
   std::optional<algo::WearOffset> offset;
@@ -44,8 +44,8 @@ MillingSensitivityRequest request_of(const MillingCommand& o) {
   return {static_cast<std::uint64_t>(o.trials), static_cast<std::uint64_t>(o.seed), o.threads};
 }
 
-Result<Milled> mill(const DeclaredMillingPlan& declared, const MillingCommand& o) {
-  Milled milled{declared.plan, {}, {}, {}};
+Result<MilledModel> mill(const DeclaredMillingPlan& declared, const MillingCommand& o) {
+  MilledModel milled{declared.plan, {}, {}, {}};
   MDOF_TRY(milled.result, algo::milling(declared.plan));
   if (o.offset) {
     MDOF_TRY(milled.offset, algo::wear_offset(declared));
@@ -84,7 +84,7 @@ void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
              "diameters");
 }
 
-void write_members(JsonWriter& json, const Milled& milled, const MillingCommand& o) {
+void write_members(JsonWriter& json, const MilledModel& milled, const MillingCommand& o) {
   const MillingPlan& plan = milled.plan;
   const algo::MillingResult& r = milled.result;
   json.key("model")
@@ -124,7 +124,7 @@ void write_members(JsonWriter& json, const Milled& milled, const MillingCommand&
 
 // The members of the first model are at the top level; each further model is under the name of its
 // deflection model.
-std::string milling_json(const std::vector<Milled>& all, const MillingCommand& o) {
+std::string milling_json(const std::vector<MilledModel>& all, const MillingCommand& o) {
   JsonWriter json;
   json.begin_object().field("name", all.front().plan.name);
   if (!all.front().plan.force_source.empty())
@@ -140,7 +140,7 @@ std::string milling_json(const std::vector<Milled>& all, const MillingCommand& o
   return json.take();
 }
 
-std::string offset_text(const Milled& milled) {
+std::string offset_text(const MilledModel& milled) {
   if (!milled.offset) return "";
   const algo::WearOffset& offset = *milled.offset;
   std::string text =
@@ -160,14 +160,14 @@ std::string offset_text(const Milled& milled) {
   return text;
 }
 
-std::string milling_text(const std::vector<Milled>& all) {
+std::string milling_text(const std::vector<MilledModel>& all) {
   std::vector<std::string> head = {""};
-  for (const Milled& m : all)
+  for (const MilledModel& m : all)
     head.push_back(std::string(to_string(m.plan.chip)) + ", " + to_string(m.plan.deflection));
   TextTable table(head);
   const auto row = [&](const char* name, auto&& value) {
     std::vector<std::string> cells = {name};
-    for (const Milled& m : all) cells.push_back(value(m.result));
+    for (const MilledModel& m : all) cells.push_back(value(m.result));
     table.add(cells);
   };
   using R = const algo::MillingResult&;
@@ -196,8 +196,8 @@ std::string milling_text(const std::vector<Milled>& all) {
   if (!all.front().plan.force_source.empty())
     text +=
         wrapped("force coefficients: " + all.front().plan.force_source, terminal_columns()) + "\n";
-  for (const Milled& m : all) text += offset_text(m);
-  for (const Milled& m : all)
+  for (const MilledModel& m : all) text += offset_text(m);
+  for (const MilledModel& m : all)
     if (m.sensitivity)
       text += "\nsensitivity (" + std::string(to_string(m.plan.deflection)) + ")" +
               milling_sensitivity_text(*m.sensitivity);
@@ -205,11 +205,11 @@ std::string milling_text(const std::vector<Milled>& all) {
 }
 
 // Draws a chart for each deflection model.
-Status write_walls(const std::vector<Milled>& all, const std::string& folder) {
+Status write_walls(const std::vector<MilledModel>& all, const std::string& folder) {
   constexpr auto kLanguage = output::Language::english;
   std::vector<charts::NamedChart> drawn;
   if (folder.empty()) return {};
-  for (const Milled& m : all) {
+  for (const MilledModel& m : all) {
     MDOF_TRY(const algo::CutTurn turn, algo::cut_turn(m.plan));
     const std::string model = to_string(m.plan.deflection), &name = m.plan.name;
     const std::string title = (name.empty() ? "" : name + ": ") +
@@ -230,12 +230,12 @@ Status milling(const MillingCommand& o) {
   }
   MDOF_TRY(DeclaredMillingPlan declared,
            parse_milling_plan(text, o.plan.empty() ? o.preset : o.plan));
-  std::vector<Milled> all;
-  MDOF_TRY(const Milled first, mill(declared, o));
+  std::vector<MilledModel> all;
+  MDOF_TRY(const MilledModel first, mill(declared, o));
   all.push_back(first);
   if (!o.preset.empty()) {  // the model of a steady cut in addition to the paper's model
     declared.plan.deflection = DeflectionModel::steady;
-    MDOF_TRY(const Milled steady, mill(declared, o));
+    MDOF_TRY(const MilledModel steady, mill(declared, o));
     all.push_back(steady);
   }
   MDOF_CHECK(write_walls(all, o.plots));

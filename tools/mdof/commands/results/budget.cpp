@@ -171,8 +171,8 @@ Action declare_budget(CLI::App& command) {
                   "Number of a run along a second axis, or \"latest\"; mdof then shows the budget "
                   "of the squareness")
       ->type_name("")
-      ->check(run_word_error);
-  add_axis_of_latest(command, o->axis);
+      ->check(run_argument_error);
+  add_latest_axis_option(command, o->axis);
   command
       .add_option("--figure", o->figure,
                   "Show the full budget of one figure, such as EYX_straightness_um")

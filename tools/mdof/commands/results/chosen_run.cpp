@@ -16,7 +16,7 @@ namespace mdof::tools {
 
 void add_chosen_run(CLI::App& command, ChosenRun& choice) {
   add_run_argument(command, "RUN", choice.run, "Number of the run (see mdof runs), or \"latest\"");
-  add_axis_of_latest(command, choice.axis);
+  add_latest_axis_option(command, choice.axis);
   add_reference_option(command, choice.reference)->capture_default_str();
   add_database_option(command, choice.database);
   add_all_warnings_flag(command, choice.all_warnings);

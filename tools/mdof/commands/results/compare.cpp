@@ -56,7 +56,7 @@ std::string um_cell(double value, double U) {
 
 // The targets one by one, with each approach and the reversal error.
 std::string positioning_points_text(const daemon::Comparison& c) {
-  if (!c.why_no_points.empty()) return wrapped(c.why_no_points, terminal_columns()) + "\n";
+  if (!c.no_points_reason.empty()) return wrapped(c.no_points_reason, terminal_columns()) + "\n";
   TextTable table({"position/mm", "", "before/µm", "U/µm", "after/µm", "U/µm"}, 2);
   for (const daemon::ComparedPoint& point : c.points.points)
     for (std::size_t side = 0; side < point.side.size(); ++side) {
@@ -100,8 +100,9 @@ std::string comparison_text(const daemon::Comparison& c) {
 Status draw_change(const daemon::Comparison& found, const std::string& folder) {
   if (folder.empty()) return {};
   if (!charts::has_comparison(found)) {
-    warn("no chart is drawn: " + (found.why_no_points.empty() ? "no target has a value in both runs"
-                                                              : found.why_no_points));
+    warn("no chart is drawn: " + (found.no_points_reason.empty()
+                                      ? "no target has a value in both runs"
+                                      : found.no_points_reason));
     return {};
   }
   const std::string name =

@@ -151,14 +151,14 @@ Action declare_iso230_2(CLI::App& command) {
                   .add_option("--run", o->run,
                               "Evaluate the errors of this stored run (number, or \"latest\")")
                   ->type_name("RUN")
-                  ->check(run_word_error)
+                  ->check(run_argument_error)
                   ->excludes(file);
   command
       .add_option("--error", o->of_run.errors,
                   "Evaluate this error of the run, such as EYX [default: all five errors]")
       ->type_name("NAME")
       ->needs(run);
-  add_axis_of_latest(command, o->axis);
+  add_latest_axis_option(command, o->axis);
   command.get_option("--axis")->needs(run);
   add_reference_option(command, o->reference)->capture_default_str()->needs(run);
   command

@@ -29,7 +29,7 @@ struct PlotCommand {
 };
 
 // Charts to write, with folders and names.
-struct Plotted {
+struct PlannedCharts {
   std::vector<charts::NamedChart> charts;
   std::vector<std::string> left_out;
 
@@ -41,7 +41,7 @@ struct Plotted {
 
 // Draws the squareness of each possible pair; a pair without one does not stop the other charts.
 void draw_squareness(store::Store& store, const std::vector<charts::StatedResults>& runs,
-                     output::Language language, Plotted& plotted) {
+                     output::Language language, PlannedCharts& plotted) {
   std::vector<const charts::StatedResults*> all;
   for (const auto& run : runs) all.push_back(&run);
   for (const charts::SquarenessOfPair& pair : squareness_of_runs(store, all)) {
@@ -59,7 +59,7 @@ void draw_squareness(store::Store& store, const std::vector<charts::StatedResult
 }
 
 Status draw_table(store::Store& store, std::int64_t number, output::Language language,
-                  Plotted& plotted) {
+                  PlannedCharts& plotted) {
   MDOF_TRY(const bool is_volumetric, store.is_volumetric(number));
   if (is_volumetric) {
     MDOF_TRY(const VolumetricTable volume, store.volumetric(number));
@@ -78,14 +78,14 @@ Status draw_table(store::Store& store, std::int64_t number, output::Language lan
   return {};
 }
 
-Result<Plotted> draw_all(const PlotCommand& command) {
+Result<PlannedCharts> draw_all(const PlotCommand& command) {
   Reference reference{};
   output::Language language{};
   reference_from(command.reference, reference);  // the options accept only valid names
   output::language_from(command.language, language);
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto numbers, run_numbers(store, command.runs, command.axis));
-  Plotted plotted;
+  PlannedCharts plotted;
   std::vector<charts::StatedResults> runs;
   for (const std::int64_t number : numbers) {
     MDOF_TRY(auto results, stated_results(store, number, reference));
@@ -105,7 +105,7 @@ Result<Plotted> draw_all(const PlotCommand& command) {
 }
 
 Status plot(const PlotCommand& command) {
-  MDOF_TRY(const Plotted plotted, draw_all(command));
+  MDOF_TRY(const PlannedCharts plotted, draw_all(command));
   if (plotted.charts.empty() && plotted.left_out.empty())
     return fail(ErrorCode::usage, "missing run or table; give RUN or --table NUMBER");
   if (plotted.charts.empty())
@@ -145,7 +145,7 @@ Action declare_plot(CLI::App& command) {
   command.add_option("--out", o->out, "Folder for the files (created if missing)")
       ->required()
       ->type_name("DIR");
-  add_axis_of_latest(command, o->axis);
+  add_latest_axis_option(command, o->axis);
   add_reference_option(command, o->reference)->capture_default_str();
   add_language_option(command, o->language);
   add_database_option(command, o->database);

@@ -29,7 +29,7 @@ struct RunsCommand {
   bool all = false, json = false;
 };
 
-Result<std::string> listed_here(const RunsCommand& command) {
+Result<std::string> list_from_database(const RunsCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   return daemon::run_list_document(
       store, {command.page.offset, command.page.count, axis_from(command.axis), command.all},
@@ -71,7 +71,7 @@ Result<RunsPage> ask_for_page(rpc::Client& mdofd, const RunsCommand& command, st
   return page_in(reply);
 }
 
-Result<std::string> listed_there(rpc::Client& mdofd, const RunsCommand& command) {
+Result<std::string> list_from_daemon(rpc::Client& mdofd, const RunsCommand& command) {
   const auto wanted = static_cast<std::size_t>(command.page.count);
   RunsPage whole;
   for (bool more = true; more;) {
@@ -117,7 +117,7 @@ std::string runs_text(const element& document) {
 Status list_runs(const RunsCommand& command) {
   MDOF_TRY(auto mdofd, serving_daemon(command.database, command.socket));
   MDOF_TRY(const std::string document,
-           mdofd ? listed_there(*mdofd, command) : listed_here(command));
+           mdofd ? list_from_daemon(*mdofd, command) : list_from_database(command));
   if (command.json) return write_line(document);
   simdjson::dom::parser parser;
   return write_out(runs_text(parser.parse(simdjson::padded_string(document))));

@@ -27,7 +27,7 @@ Status write_json(const ChosenRun& choice, const std::string& json) {
 
 Status show_imported(store::Store& store, Run run, const ChosenRun& choice) {
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
-  MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
+  MDOF_TRY(const auto actions, store.run_actions(run.header.id));
   if (choice.csv) return write_marked_csv(run, false, imported_csv(run), choice);
   run = daemon::with_positioning_notices(std::move(run));
   const StatedFigures figures = daemon::positioning_figures(run);
@@ -64,7 +64,7 @@ Status show_run(const ChosenRun& choice) {
     return write_marked_csv(run, uncertainty.noise_only, points_csv(run, uncertainty), choice);
   }
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
-  MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
+  MDOF_TRY(const auto actions, store.run_actions(run.header.id));
   const daemon::StatedRun stated = daemon::stated_run(run);
   if (choice.json)
     return write_json(choice, daemon::run_document({run, run.header, stated.points, stated.figures},

@@ -49,10 +49,11 @@ Result<daemon::FittedSquareness> fit(store::Store& store, const SquarenessComman
                 : daemon::calculate_squareness(store, request);
 }
 
-Result<std::string> fit_here(const SquarenessCommand& command) {
+Result<std::string> fit_locally(const SquarenessCommand& command) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(const auto fitted, fit(store, command, true));
-  MDOF_TRY(const SquarenessLines lines, daemon::lines_of_squareness(store, fitted.squareness));
+  MDOF_TRY(const SquarenessLines lines,
+           daemon::squareness_reference_lines(store, fitted.squareness));
   return daemon::squareness_document(fitted, lines);
 }
 
@@ -75,7 +76,7 @@ AxisPair axes_in(const element& document) {
 }
 
 // Reads a result from its document, in SI units.
-struct Said {
+struct SquarenessDocument {
   const element& document;
   AxisPair axes = axes_in(document);
   std::string name = squareness_name(axes);
@@ -97,28 +98,29 @@ struct Said {
   static std::string slope_of(const std::string& error) { return "slope_" + error; }
 };
 
-std::vector<std::string> line_row(const Said& said, const std::string& label,
+std::vector<std::string> line_row(const SquarenessDocument& said, const std::string& label,
                                   const std::string& key, const std::string& least_squares) {
   return {label, least_squares, in_urad(said.by("end_point", key)),
           in_urad(said.by("minimum_zone", key))};
 }
 
-void add_slope(TextTable& table, const Said& said, const std::string& error, Axis along) {
-  const std::string key = Said::slope_of(error);
+void add_slope(TextTable& table, const SquarenessDocument& said, const std::string& error,
+               Axis along) {
+  const std::string key = SquarenessDocument::slope_of(error);
   const std::string run = std::string("run_") + static_cast<char>(letter(along) - 'A' + 'a');
   table.add(line_row(said,
                      error + ", run " + std::to_string(integer(said.document, run).value_or(0)),
                      key, urad_with_u(said.rad(key), said.rad("u_" + key))));
 }
 
-void add_artefact(TextTable& table, const Said& said) {
+void add_artefact(TextTable& table, const SquarenessDocument& said) {
   const double u = said.rad("u_artefact_angle"), u_known = std::isnan(u) ? 0 : u;
   const std::string artefact = urad_to_place(said.artefact_rad(), u_known);
   table.add({"artefact", std::isnan(u) ? artefact : with_u(artefact, urad_to_place(u, u)), artefact,
              artefact});
 }
 
-std::string squareness_text(const Said& said) {
+std::string squareness_text(const SquarenessDocument& said) {
   const element& document = said.document;
   Squareness pair;
   pair.axes = said.axes;
@@ -173,7 +175,7 @@ Status squareness(SquarenessCommand command) {
   command.run_a = runs[0];
   command.run_b = runs[1];
   MDOF_TRY(auto mdofd, writing_daemon(command.database, command.socket));
-  MDOF_TRY(const std::string reply, mdofd ? fit_in_daemon(*mdofd, command) : fit_here(command));
+  MDOF_TRY(const std::string reply, mdofd ? fit_in_daemon(*mdofd, command) : fit_locally(command));
   simdjson::dom::parser parser;
   const element document = parser.parse(simdjson::padded_string(reply));
   show_notices(notices_of(document), command.all_warnings);

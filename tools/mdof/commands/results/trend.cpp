@@ -56,7 +56,7 @@ std::string sentence_of(const daemon::Trend& trend) {
            (values.size() == 1 ? " value is" : " values are") +
            " too few for control limits (the limits need a baseline of " +
            (trend.baseline > 0 ? std::to_string(trend.baseline) + " values)"
-                               : "at least " + std::to_string(algo::kFewestOfBaseline) +
+                               : "at least " + std::to_string(algo::kLeastBaselineValues) +
                                      " values, and one value after them)");
   const std::string provisional = chart->baseline < kFirmBaseline
                                       ? "; the limits are provisional (baseline of " +
@@ -210,7 +210,7 @@ Action declare_trend(CLI::App& command) {
       .add_option(
           "--baseline", o->baseline,
           "Calculate the limits from the first N values [default: all values except the last]")
-      ->check(CLI::Range(algo::kFewestOfBaseline, std::size_t{100'000}));
+      ->check(CLI::Range(algo::kLeastBaselineValues, std::size_t{100'000}));
   command.add_flag("--all", o->all, "Show the values of all runs, not only the last value");
   command.add_flag("--mixed", o->mixed,
                    "Combine runs even if they differ in rig, model or evaluation options");

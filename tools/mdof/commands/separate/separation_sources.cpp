@@ -245,7 +245,7 @@ void add_source_options(CLI::App& command, SourceOptions& o) {
 
 Result<LoadedSources> load_sources(const SourceOptions& options) {
   MDOF_CHECK(check_numbers(options));
-  const auto is_run = [](const std::string& word) { return run_word_error(word).empty(); };
+  const auto is_run = [](const std::string& word) { return run_argument_error(word).empty(); };
   const auto runs = std::count_if(options.sources.begin(), options.sources.end(), is_run);
   if (runs == 0) return load_files(options);
   if (runs == static_cast<std::ptrdiff_t>(options.sources.size())) return load_runs(options);

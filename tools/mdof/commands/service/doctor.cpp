@@ -104,7 +104,7 @@ std::vector<Diagnosis> try_devices(const daemon::Config& config, const std::stri
   const Interrupt interrupt;
   for (const auto& axis : config.axes)
     for (const auto& device : axis.devices)
-      if (device.live && !device.of_other_axis) all.push_back(diagnose(device));
+      if (device.live && !device.is_declared_elsewhere) all.push_back(diagnose(device));
   return all;
 }
 

@@ -18,12 +18,12 @@ void add_device_choice(CLI::App& command, DeviceChoice& choice) {
 Result<std::vector<drivers::DriverSpec>> chosen_devices(const DeviceChoice& choice,
                                                         const std::string& command) {
   MDOF_TRY(const daemon::Config config, daemon::load_config(choice.config));
-  MDOF_CHECK(refuse_beside_daemon(command, configured_socket(config, choice.socket)));
+  MDOF_CHECK(check_daemon_stopped(command, configured_socket(config, choice.socket)));
   std::vector<drivers::DriverSpec> chosen;
   std::string names;
   for (const auto& axis : config.axes) {
     for (const auto& device : axis.devices) {
-      if (device.of_other_axis) continue;
+      if (device.is_declared_elsewhere) continue;
       names += (names.empty() ? "" : ", ") + device.name;
       if (choice.name.empty() || device.name == choice.name) chosen.push_back(device);
     }

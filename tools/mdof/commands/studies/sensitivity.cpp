@@ -165,10 +165,10 @@ Status sensitivity(SensitivityCommand& command) {
   MDOF_TRY(Processes processes, Processes::join());
   Status done = check_usage(command);  // the same in all processes
   if (done) done = command.trial ? show_trial(command, processes) : run_study(command, processes);
-  const bool speaks = processes.first();
+  const bool is_reporting_rank = processes.first();
   processes.leave();
   // mpirun ends all processes after one has failed, so only rank 0 reports the error.
-  return speaks ? done : Status();
+  return is_reporting_rank ? done : Status();
 }
 
 Action declare_sensitivity(CLI::App& command) {

@@ -20,7 +20,7 @@ void DividedTrials::run(std::uint64_t first, std::uint64_t step, std::size_t n,
     experiment_.run(first + begin * step, step, count, part);
     trials_run_ += count;
   };
-  if (!go_on_() || in_parallel(threads_, pieces, piece, go_on_) < pieces) cut_short_ = true;
+  if (!go_on_() || in_parallel(threads_, pieces, piece, go_on_) < pieces) is_interrupted_ = true;
 }
 
 }  // namespace mdof::tools

@@ -26,14 +26,14 @@ class DividedTrials final : public algo::Experiment {
            std::span<double* const> out) const override;
   std::uint64_t trials_run() const { return trials_run_; }  // Any thread.
   // True: trials are missing, so the results are invalid.
-  bool was_interrupted() const { return cut_short_; }
+  bool was_interrupted() const { return is_interrupted_; }
 
  private:
   const algo::Experiment& experiment_;
   unsigned threads_;
   std::function<bool()> go_on_;
   mutable std::atomic<std::uint64_t> trials_run_ = 0;
-  mutable std::atomic<bool> cut_short_ = false;
+  mutable std::atomic<bool> is_interrupted_ = false;
 };
 
 }  // namespace mdof::tools

@@ -22,14 +22,14 @@ std::string unit_of(const Budget& budget) {
 }
 
 // Rounds to the place of `u` (GUM 7.2.6).
-std::string shown_to(const Budget& budget, double si, double u) {
+std::string rounded_to_u(const Budget& budget, double si, double u) {
   return in_micrometres(budget) ? um_to_place(si, u) : urad_to_place(si, u);
 }
 std::string shown(const Budget& budget, double si) {
-  return shown_to(budget, si, budget.U);
+  return rounded_to_u(budget, si, budget.U);
 }
 std::string shown_u(const Budget& budget, double u) {
-  return shown_to(budget, u, u);
+  return rounded_to_u(budget, u, u);
 }
 
 std::string significant(double x) {
@@ -49,7 +49,7 @@ std::string percent(double share) {
 }
 
 std::string head_of(const Budget& b, std::size_t width) {
-  return wrapped(b.figure.substr(0, b.figure.rfind('_')) + " = " + shown_to(b, b.value, b.u) +
+  return wrapped(b.figure.substr(0, b.figure.rfind('_')) + " = " + rounded_to_u(b, b.value, b.u) +
                      " ± " + shown_u(b, b.u) + " " + unit_of(b) +
                      ", expanded U = " + shown(b, b.U) + (b.U_by_trials ? " by Monte Carlo" : "") +
                      " (k = " + fixed(b.coverage_factor, 2) +
@@ -59,7 +59,7 @@ std::string head_of(const Budget& b, std::size_t width) {
 }
 
 // The largest contributor, and u without it. U is not given, because k would change.
-std::string improve_text(const Budget& b, std::size_t width) {
+std::string improvement_text(const Budget& b, std::size_t width) {
   if (b.lines.empty() || !(b.u > 0)) return "";
   const BudgetLine& first = b.lines.front();
   const double without = b.u * std::sqrt(std::max(0.0, 1 - first.share));
@@ -95,7 +95,7 @@ std::string trials_text(const Budget& b) {
 namespace {
 
 // A key that both rigs leave out ("X u_um_per_h", "Y u_um_per_h") is named once, without the axis.
-std::vector<std::string> named_once(const std::vector<std::string>& keys) {
+std::vector<std::string> keys_named_once(const std::vector<std::string>& keys) {
   const auto has = [&](const std::string& key) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
   };
@@ -119,7 +119,7 @@ std::string not_declared_text(const std::vector<Budget>& budgets) {
                      : declares(first)
                          ? "noise only: the declared uncertainties contribute at most 1 % of u"
                          : std::string("noise only: ") + kNothingDeclared) +
-         ", so U is too small. Not declared: " + joined(named_once(first.not_declared));
+         ", so U is too small. Not declared: " + joined(keys_named_once(first.not_declared));
 }
 
 std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width) {
@@ -128,7 +128,7 @@ std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width) 
   for (const Budget& b : budgets) {
     const BudgetLine* first = b.lines.empty() ? nullptr : &b.lines.front();  // null: u is unknown
     table.add({b.figure.substr(0, b.figure.rfind('_')),
-               with_u(shown_to(b, b.value, b.u), shown_u(b, b.u)), unit_of(b), shown(b, b.U),
+               with_u(rounded_to_u(b, b.value, b.u), shown_u(b, b.u)), unit_of(b), shown(b, b.U),
                fixed(b.coverage_factor, 2), shown_u(b, b.u_random),
                first ? contributor_text(first->name) : "", first ? percent(first->share) : ""});
   }
@@ -170,7 +170,7 @@ std::string budget_text(const Budget& b, const std::optional<Decision>& decision
     table.add({std::to_string(left_out) + " more", "", "", "", "", shown_u(b, std::sqrt(rest)),
                percent(b.u > 0 ? rest / (b.u * b.u) : 0), ""});
   std::string text = head_of(b, width) + "\n" + table.text(width) + "combined u " +
-                     shown_u(b, b.u) + " " + unit_of(b) + "\n" + improve_text(b, width);
+                     shown_u(b, b.u) + " " + unit_of(b) + "\n" + improvement_text(b, width);
   if (b.trials) text += trials_text(b);
   if (decision) text += decision_text(b, *decision, width);
   return text;

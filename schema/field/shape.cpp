@@ -97,7 +97,7 @@ std::string_view ShapeReader::read_name() {
     if (c == '{' || c == '}') {
       if (group == (c == '{')) break;
       group = c == '{';
-    } else if (std::string_view(" ,:?|[]").find(c) != std::string_view::npos) {
+    } else if (std::string_view(" ,:?!|[]").find(c) != std::string_view::npos) {
       break;
     }
   }
@@ -192,11 +192,12 @@ ShapeType type_of_row(const Field& row) {
 void ShapeReader::read_member(ShapeMembers& members, bool optional) {
   const std::string name(read_name());
   optional = take("?") || optional;
+  const bool never_null = take("!");
   const auto field = find_field(name);
   if (!field) shape_bug(name);
   ShapeType type = take(":") ? read_type() : type_of_row(*field->row);
   std::string description = field->meaning;
-  if (!field->row->null.empty()) {
+  if (!never_null && !field->row->null.empty()) {
     if (count_of(type, "null") == 0) type.push_back({"null", ""});
     description += "; null: " + std::string(field->row->null);
   }

@@ -4,9 +4,10 @@
 //   {run, axis, note?, points: [point], E{linear}{axis}_um, u: errors, ...header}
 //
 // A member has the type of its row or the type after the colon: an object, an array [...], a named
-// shape of shapes.inc, or several with "|". "?": the member may be absent. A name with groups
-// stands for one or more members. "...header": the members of this shape; "...header?": they may be
-// absent. "*": other members are allowed; "*: number": other members of this type.
+// shape of shapes.inc, or several with "|". "?": the member may be absent. "!": the member is never
+// null, although its row states a null that other documents have. A name with groups stands for one
+// or more members. "...header": the members of this shape; "...header?": they may be absent. "*":
+// other members are allowed; "*: number": other members of this type.
 #pragma once
 
 #include <string>

@@ -60,6 +60,14 @@ TEST(Shape, HasASchemaOfItsMembers) {
             R"({"type":"object","additionalProperties":{"type":"number"}})");
 }
 
+TEST(Shape, MemberThatIsNeverNullHasNoNull) {
+  EXPECT_EQ(
+      json_schema("{scans_lost!, note?!: string}"),
+      R"({"type":"object","properties":{"scans_lost":{"type":"integer","description":"number of scans that are missing"},)"
+      R"("note":{"type":"string","description":"free text; for an encoder: information about its datum"}},)"
+      R"("required":["scans_lost"],"additionalProperties":false})");
+}
+
 TEST(Shape, FamilyIsAPatternThatNeedsOneMember) {
   const std::string schema = json_schema("{run_{small}, active}");
   EXPECT_NE(schema.find(R"("patternProperties":{"^run_(x|y|z)$":)"), std::string::npos) << schema;

@@ -112,11 +112,11 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
            "{run, axis, model, simulated, superseded_by, ...reference, ...covers, straightness: "
            "{E{linear}{axis}_um?: {{approach}: straightness_figure}}, straightness_lines: "
            "{E{linear}{axis}_um?: {{approach}: lines}}, angles: {E{angular}{axis}_urad?: "
-           "{{approach}: angle_figure}}, ...stated_figures, drift: {significant, not_seen, "
-           "length_s, level, errors: {E{linear}{axis}_um?: drift_series, E{angular}{axis}_urad?: "
-           "drift_series}, probes: {*: drift_series}, closures: [{run: integer, after_s, "
-           "same_side, ...errors}], straightness_without: {E{linear}{axis}_um?: {{approach}: "
-           "straightness_figure}}}}",
+           "{{approach}: angle_figure}}, ...stated_figures, drift: {significant, not_seen: string, "
+           "length_s, level: number, errors: {E{linear}{axis}_um?: drift_series, "
+           "E{angular}{axis}_urad?: drift_series}, probes: {*: drift_series}, closures: [{run: "
+           "integer, after_s, same_side, ...errors}], straightness_without: {E{linear}{axis}_um?: "
+           "{{approach}: straightness_figure}}}}",
        .example = R"({"run": 1})",
        .handler = on_query(m, analyse_run)});
   table.add(
@@ -144,7 +144,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
        .result = "two imported runs of positioning errors have the figures E, E_forward, E_reverse "
                  "and B of ISO 230-2; the notices also name other differences between the runs",
        .members = "{axis, before: integer, after: integer, ...reference?, coverage, simulated, "
-                  "...covers, figures: {{figure}: {before: stated, after: stated, change: stated, "
+                  "...covers, figures: {{figure}: {before: stated, after: stated, change!: stated, "
                   "effect, change_at_targets}}, points: [{position_mm: number, forward: "
                   "compared_errors, reverse: "
                   "compared_errors, reversal: compared_errors}], points_reason?, ...notices}",

@@ -34,7 +34,7 @@ void add_history_methods(rpc::MethodTable& table, Methods& m) {
                  "Lists recorded actions on runs, squareness, tables and encoders (who, what, "
                  "when), newest first, in pages.",
              .params = {offset_param(), count_param(kMaxActionsPage)},
-             .members = "{total, offset, history: [action]}",
+             .members = "{total: integer, offset, history: [action]}",
              .example = R"({"offset": 0, "count": 20})",
              .handler = on_query(m, list_history)});
 }

@@ -130,7 +130,7 @@ void add_machine_methods(rpc::MethodTable& table, Methods& m) {
                         "position of a machine, with u. Nothing is stored.",
              .params = params,
              .members =
-                 "{machine, simulated, error: tool_error, u: {{small}_um}, u_reason?, "
+                 "{machine!, simulated, error: tool_error, u: {{small}_um: number}, u_reason?, "
                  "not_measured, not_declared, u_covers, noise_only, beyond_tables, ...notices}",
              .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
                         R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"

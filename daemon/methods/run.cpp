@@ -346,7 +346,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
                   {"axis", ParamType::string, "list only runs of this axis", false},
                   {"all", ParamType::boolean,
                    "also list runs whose targets were renumbered in a new run", false, "false"}},
-       .members = "{total, offset, runs: [{...run_header, superseded_by, shortened?}]}",
+       .members = "{total: integer, offset, runs: [{...run_header, superseded_by, shortened?}]}",
        .example = R"({"offset": 0, "count": 10})",
        .handler = on_query(m, list_runs)});
   table.add({.name = "run.get",
@@ -361,8 +361,9 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "run.points",
              .summary = "Returns the points of a run in the order of measurement, in pages.",
              .params = {run, offset, count_param(kMaxPointsPage), reference},
-             .members = "{run, axis, total, offset, ...reference, ...covers, points: "
-                        "[point]}|{run, axis, total, offset, ...covers, points: [imported_point]}",
+             .members = "{run, axis, total: integer, offset, ...reference, ...covers, points: "
+                        "[point]}|{run, axis, total: integer, offset, ...covers, points: "
+                        "[imported_point]}",
              .example = R"({"run": 1, "offset": 0, "count": 20})",
              .handler = on_query(
                  m, [pages = std::make_shared<RunPages>()](Methods&, const Params& params) {

@@ -240,7 +240,7 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
              .result = "keep link and sha256 of \"chain\": with them, a later check of the "
                        "database detects removed or changed entries",
              .members =
-                 "{server, version, protocol, started_utc, uptime_s, database, generation, "
+                 "{server, version: string, protocol, started_utc, uptime_s, database, generation, "
                  "store_jobs_dropped, store_points_dropped, calls_refused, storage, "
                  "storage_reason, chain: {link, sha256}, http: {url, token_file}, axes: [{axis, "
                  "rig, simulated, devices: [string], run, unstored_run, encoder: {datum, "
@@ -253,7 +253,8 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
        .members =
            "{devices: [{axis, device, driver, description, state, simulated, rate_hz, scans, "
            "scans_lost, blocks_dropped, reopened, error: string, last_error, mended_utc, trouble, "
-           "clock: {drift_ppm, jitter_ms, settled, steps}, channels: [{id: string, unit}]}]}",
+           "clock: {drift_ppm, jitter_ms, settled, steps: integer}, channels: [{id: string, "
+           "unit}]}]}",
        .handler = [&m](const Params&) -> Result<std::string> { return device_list(m); }});
   table.add(
       {.name = "live.subscribe",

@@ -106,7 +106,7 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
        .params = std::move(fit),
        .result = "the squareness and the slopes are valid at the position of the measuring fixture",
        .members =
-           "{squareness, run_{small}, E{angular}0{axis}_urad, u_E{angular}0{axis}_urad, "
+           "{squareness!, run_{small}, E{angular}0{axis}_urad, u_E{angular}0{axis}_urad, "
            "u_random_E{angular}0{axis}_urad, U_E{angular}0{axis}_urad, k, nu_eff, ...covers, "
            "noise_only, "
            "form_urad, reference, slope_E{linear}{axis}_urad, u_slope_E{linear}{axis}_urad, "

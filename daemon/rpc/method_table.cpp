@@ -74,7 +74,7 @@ Method discover_method(const MethodTable& table) {
                      {"max_bytes", ParamType::integer,
                       "limit of the reply line in bytes, from 4096 to 49152", false, "49152"}},
           .members =
-              "{openrpc, info: {title, version}, components?, x-total, methods: [object], "
+              "{openrpc, info: {title, version: string}, components?, x-total, methods: [object], "
               "x-next-offset?}",
           .example = R"({"offset":0})",
           .handler = [&table](const Params& params) -> Result<std::string> {

@@ -1,6 +1,7 @@
-// The names in results. Each row has the type of a name, the meaning of null and the meaning of the
-// name. A name has one meaning in JSON and CSV; if an older name has two, its row states both. The
-// result schemas of rpc.discover and the manual's list of fields are made from these rows.
+// The names in the documents that mdof and mdofd write. Each row has the type of a name, the
+// meaning of null and the meaning of the name. A name has one meaning in JSON and CSV; if the
+// meaning depends on the document, its row states each meaning. The result schemas of rpc.discover
+// and the manual's list of fields are made from these rows.
 #pragma once
 
 #include <optional>

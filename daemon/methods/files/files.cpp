@@ -211,7 +211,7 @@ void add_files_methods(rpc::MethodTable& table, Methods& m) {
                         "readings as a run.",
              .params = import_params(),
              .result = "mdofd replies after it has stored the run",
-             .members = "{run, axis, error: string, format, readings, file, sha256, simulated, "
+             .members = "{run, axis, error: string, format, readings, file!, sha256, simulated, "
                         "...notices}",
              .example = R"({"path": "/var/lib/mdof/laser_X.rtl", "axis": "X", "u_um": 0.3})",
              .writes = true,

@@ -12,6 +12,7 @@ constexpr Field kFields[] = {
 #include "schema/field/names/form.inc"
 #include "schema/field/names/machine.inc"
 #include "schema/field/names/milling.inc"
+#include "schema/field/names/part.inc"
 #include "schema/field/names/run.inc"
 #include "schema/field/names/service.inc"
 #include "schema/field/names/table.inc"

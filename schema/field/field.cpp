@@ -10,6 +10,7 @@ constexpr Field kFields[] = {
 #define FIELD(name, type, null, meaning) {name, type, null, meaning},
 #include "schema/field/names/errors.inc"
 #include "schema/field/names/form.inc"
+#include "schema/field/names/geometry.inc"
 #include "schema/field/names/machine.inc"
 #include "schema/field/names/milling.inc"
 #include "schema/field/names/part.inc"

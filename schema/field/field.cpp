@@ -11,6 +11,7 @@ constexpr Field kFields[] = {
 #include "schema/field/names/errors.inc"
 #include "schema/field/names/form.inc"
 #include "schema/field/names/geometry.inc"
+#include "schema/field/names/iso230.inc"
 #include "schema/field/names/machine.inc"
 #include "schema/field/names/milling.inc"
 #include "schema/field/names/part.inc"

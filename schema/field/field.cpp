@@ -17,6 +17,7 @@ constexpr Field kFields[] = {
 #include "schema/field/names/milling.inc"
 #include "schema/field/names/part.inc"
 #include "schema/field/names/run.inc"
+#include "schema/field/names/separation.inc"
 #include "schema/field/names/service.inc"
 #include "schema/field/names/table.inc"
 #include "schema/field/names/uncertainty.inc"

@@ -19,6 +19,7 @@ constexpr Field kFields[] = {
 #include "schema/field/names/run.inc"
 #include "schema/field/names/separation.inc"
 #include "schema/field/names/service.inc"
+#include "schema/field/names/study.inc"
 #include "schema/field/names/table.inc"
 #include "schema/field/names/uncertainty.inc"
 // Last, because a probe may have any name.

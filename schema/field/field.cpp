@@ -9,6 +9,7 @@ namespace {
 constexpr Field kFields[] = {
 #define FIELD(name, type, null, meaning) {name, type, null, meaning},
 #include "schema/field/names/calibration.inc"
+#include "schema/field/names/controller.inc"
 #include "schema/field/names/errors.inc"
 #include "schema/field/names/form.inc"
 #include "schema/field/names/geometry.inc"

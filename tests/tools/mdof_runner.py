@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "text"))
-from field_names import unknown_columns  # noqa: E402
+from field_names import unknown_columns, unknown_members  # noqa: E402
 
 MDOF = os.environ["MDOF"]
 MAKE_RECORDING = os.environ.get("MDOF_MAKE_RECORDING", "")
@@ -23,7 +23,7 @@ def notice_lines(document):
 
 
 def run(*arguments, stdin=None, env=None):
-    """(exit code, standard output, standard error). mdof must explain each column of a CSV."""
+    """(exit code, standard output, standard error). mdof must explain each column of a CSV and each member of JSON."""
     done = subprocess.run([MDOF, *map(str, arguments)], input=stdin, capture_output=True,
                           timeout=600, env={**os.environ, **(env or {})})
     out = done.stdout.decode()
@@ -31,6 +31,9 @@ def run(*arguments, stdin=None, env=None):
             "--csv" in arguments or arguments[:1] == ("solve",)):
         unknown = unknown_columns(MDOF, out)
         assert not unknown, f"columns without a row in schema/field/names: {unknown}"
+    if done.returncode == 0 and "--json" in arguments:
+        unknown = unknown_members(MDOF, json.loads(out))
+        assert not unknown, f"members without a row in schema/field/names: {unknown}"
     return done.returncode, out, done.stderr.decode()
 
 

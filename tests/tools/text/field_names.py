@@ -25,6 +25,7 @@ def patterns(mdof):
             before_a_name)
 
 
+@functools.lru_cache(maxsize=None)
 def is_known(mdof, name):
     plain, before_a_name = patterns(mdof)
     return (any(p.fullmatch(name) for p in plain) or
@@ -35,3 +36,23 @@ def unknown_columns(mdof, csv):
     """Names in the header of a CSV that no row explains."""
     head = next((line for line in csv.splitlines() if line and not line.startswith("#")), "")
     return [name for name in head.split(",") if name and not is_known(mdof, name)]
+
+
+FREE = {"notices", "taken", "not_taken", "options"}  # numbers of a notice, and options of an evaluation, have no rows
+DATA = {"series", "inputs", "rotation_resolution_deg"}  # in an object, the names are probes, errors, inputs or angles
+
+
+def names_of(document):
+    """The names of all members of a JSON document."""
+    if isinstance(document, list):
+        return set().union(*map(names_of, document))
+    if not isinstance(document, dict):
+        return set()
+    deeper = (value if name not in DATA or isinstance(value, list) else list(value.values())
+              for name, value in document.items() if name not in FREE)
+    return set(document).union(*map(names_of, deeper))
+
+
+def unknown_members(mdof, document):
+    """Names of members of a JSON document that no row explains."""
+    return sorted(name for name in names_of(document) if not is_known(mdof, name))

@@ -237,8 +237,9 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.info",
              .summary = "Returns the version, the uptime, the axes and the generation (a number "
                         "that increases with each change of an active table).",
-             .result = "keep link and sha256 of \"chain\": with them, a later check of the "
-                       "database detects removed or changed entries",
+             .result = "\"chain\" is the last link of the chain of hashes of the database. "
+                       "With its sha256, a later verification detects whether data stored before "
+                       "this reply were removed or changed",
              .members =
                  "{server, version: string, protocol, started_utc, uptime_s, database, generation, "
                  "store_jobs_dropped, store_points_dropped, calls_refused, storage, "

@@ -95,7 +95,7 @@ class Rtl {
   Result<ImportedSeries> finish() {
     if (section_.empty())
       return bad_input(source_ +
-                       ": has no section such as TARGET DATA::; this is not an .rtl file");
+                       ": has no section line such as \"TARGET DATA::\"; this is not an .rtl file");
     if (targets_.empty() || targets_.size() != target_count_)
       return bad_input(source_ + ": has " + std::to_string(targets_.size()) +
                        " targets, but Target-count is " + std::to_string(target_count_));

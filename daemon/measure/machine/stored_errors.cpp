@@ -157,7 +157,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
         function_of(table.position_m, table.forward[named], table.reverse[named], u,
                     larger(table.u_forward[named], table.u_reverse[named]));
     function.noise_only = table.noise_only();
-    if (error_names(table.axis)[named].angle) refer_angle(function, zero_m);
+    if (error_names(table.axis)[named].angle) set_angle_zero_at(function, zero_m);
     MDOF_CHECK(take(frame, body_error_index(table, named), std::move(function)));
   }
   return set_table_covariance(store, frame, table, zero_m, taken);

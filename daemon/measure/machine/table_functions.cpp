@@ -49,7 +49,7 @@ void add_curvatures(Machine& machine) {
     for (ErrorFunction& error : frame.error) add_curvature(error);
 }
 
-void refer_angle(ErrorFunction& f, double zero_m) {
+void set_angle_zero_at(ErrorFunction& f, double zero_m) {
   if (f.position.empty() || zero_m <= f.position.front()) return;
   const algo::TablePlace zero = algo::place_of(f.position, zero_m);
   const double mean = (algo::value_at(f.forward, zero) + algo::value_at(f.reverse, zero)) / 2;

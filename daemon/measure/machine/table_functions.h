@@ -25,7 +25,7 @@ void add_curvatures(Machine& machine);
 std::vector<double> larger(const std::vector<double>& forward, const std::vector<double>& reverse);
 // Shifts the function so that the mean of both approaches is 0 at the position. Beyond the ends the
 // end values hold. u does not change.
-void refer_angle(ErrorFunction& f, double zero_m);
+void set_angle_zero_at(ErrorFunction& f, double zero_m);
 // Upper bound of u of such an angle, for unknown covariance between its positions.
 void bound_angle_u(ErrorFunction& f, double zero_m);
 std::vector<double> scaled(std::vector<double> values, double by);

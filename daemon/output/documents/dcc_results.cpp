@@ -208,9 +208,9 @@ void write_decisions(Xml& xml, const std::vector<report::Decided>& decided) {
 void write_notices(Xml& xml, const ReportRun& run) {
   const RunHeader& header = run.results.run.header;
   constexpr const char* kMetaData = "dcc:metaData";
-  for (const std::string& mark :
-       charts::head_marks(run.results.uncertainty.noise_only,
-                          daemon::warning_marks(run.results.run), output::Language::english))
+  for (const std::string& mark : charts::with_noise_only_mark(
+           run.results.uncertainty.noise_only, daemon::warning_marks(run.results.run),
+           output::Language::english))
     write_declaration(xml, kMetaData, "warning", mark);
   for (const Notice& notice : header.notices)
     write_declaration(xml, kMetaData, to_string(notice.severity),

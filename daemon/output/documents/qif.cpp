@@ -257,9 +257,9 @@ std::vector<Attribute> facts_of(const ReportRun& run) {
     facts.emplace_back("superseded by run", std::to_string(*run.superseded_by));
   if (const std::string approach = daemon::only_approach(run.results.run); !approach.empty())
     facts.emplace_back("only measured approach", approach);
-  for (const std::string& mark :
-       charts::head_marks(run.results.uncertainty.noise_only,
-                          daemon::warning_marks(run.results.run), output::Language::english))
+  for (const std::string& mark : charts::with_noise_only_mark(
+           run.results.uncertainty.noise_only, daemon::warning_marks(run.results.run),
+           output::Language::english))
     facts.emplace_back("warning", mark);
   for (const Notice& notice : header.notices)
     facts.emplace_back(to_string(notice.severity), words::text(notice, output::Language::english));

@@ -28,7 +28,7 @@ std::string name_of_run(const ReportRun& run, Language language) {
 void write_alarms(Html& html, const Report& report) {
   for (const ReportRun& run : report.runs) {
     const bool noise_only = run.results.uncertainty.noise_only;
-    for (const std::string& mark : charts::head_marks(
+    for (const std::string& mark : charts::with_noise_only_mark(
              noise_only, daemon::warning_marks(run.results.run, report.language), report.language))
       html.element("p", name_of_run(run, report.language) + ": " + mark, "alarm");
   }

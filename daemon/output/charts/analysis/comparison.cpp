@@ -52,7 +52,7 @@ std::string comparison_svg(const daemon::Comparison& c, Language language) {
   if (c.simulated) chart.warnings = {phrase(Phrase::simulated_machine, language)};
   std::vector<Budget> changes;
   for (const daemon::ComparedFigure& figure : c.figures) changes.push_back(figure.change);
-  chart.warnings = head_marks(are_noise_only(changes), chart.warnings, language);
+  chart.warnings = with_noise_only_mark(are_noise_only(changes), chart.warnings, language);
   chart.x_key = "position_mm";
   chart.x_label = position_key(language);
   for (std::size_t k = 0; k < c.points.errors.size(); ++k) {

@@ -56,7 +56,7 @@ std::string warm_up_svg(const daemon::ParkedLog& log, const algo::WarmUp& found,
                 : found.limited     ? phrase(Phrase::not_ready, language)
                                     : phrase(Phrase::no_drift_limit, language);
   if (log.simulated) chart.warnings = {phrase(Phrase::simulated_machine, language)};
-  chart.warnings = head_marks(!log.declares, chart.warnings, language);
+  chart.warnings = with_noise_only_mark(!log.declares, chart.warnings, language);
   chart.x_key = "time_min";
   chart.x_label = std::string(phrase(Phrase::time, language)) + " / min";
   chart.legend = Legend{.band = true, .band_is_u = true};

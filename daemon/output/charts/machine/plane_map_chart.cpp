@@ -110,7 +110,7 @@ std::string plane_map_svg(const algo::PlaneMap& map, const MapPicture& picture, 
   const double largest = largest_um(map), factor = arrow_enlargement(map, largest);
   std::vector<std::string> warnings;
   if (picture.simulated) warnings.push_back(phrase(Phrase::simulated_machine, language));
-  const auto marks = head_marks(picture.noise_only, warnings, language);
+  const auto marks = with_noise_only_mark(picture.noise_only, warnings, language);
   const std::string plane = {first, second};
   const std::string title = picture.machine + ": " +
                             (picture.table == 0 ? phrase(Phrase::tool_error_over, language, {plane})

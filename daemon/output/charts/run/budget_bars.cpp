@@ -89,7 +89,8 @@ bool has_budget(const Budget& budget) {
 
 std::string budget_svg(const Budget& budget, const std::string& title_of,
                        const std::vector<std::string>& marks_of_run, Language language) {
-  const std::vector<std::string> marks = head_marks(budget.noise_only, marks_of_run, language);
+  const std::vector<std::string> marks =
+      with_noise_only_mark(budget.noise_only, marks_of_run, language);
   const std::vector<Bar> bars = contributor_bars(budget, language);
   const auto [name, unit] = split_key(budget.figure);
   const std::string title = title_of + ": " + phrase(Phrase::budget, language) + ", " + name;

@@ -81,7 +81,7 @@ std::string control_chart_svg(const daemon::Trend& trend, Language language) {
       for (const double limit : *limits) y.include(to_key_unit(limit));
   std::vector<std::string> warnings;
   for (const Notice& notice : trend.notices) warnings.push_back(words::text(notice, language));
-  const auto marks = head_marks(trend.noise_only, warnings, language);
+  const auto marks = with_noise_only_mark(trend.noise_only, warnings, language);
   const auto notes = notes_of_trend(trend, language);
   const std::string title =
       split_key(trend.figure).name + ": " + phrase(Phrase::over_the_runs, language);

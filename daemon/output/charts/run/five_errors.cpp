@@ -96,7 +96,7 @@ std::string five_errors_svg(const StatedResults& results, Language language) {
   for (const Mark& mark : marks.front()) x.include(mark.x);
   const auto means = means_of(results.run);
   const auto notes = notes_of(results, marks.front(), language);
-  const std::vector<std::string> marks_of_head = head_marks(
+  const std::vector<std::string> marks_of_head = with_noise_only_mark(
       results.uncertainty.noise_only, daemon::warning_marks(results.run, language), language);
   const double top = run_head_height(marks_of_head);
   const Sheet sheet(top + kLegendPx, y, kOutputPx);

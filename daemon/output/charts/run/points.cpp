@@ -57,8 +57,8 @@ std::string about_run(const RunHeader& header, Language language) {
          (sha256.empty() ? "" : ", " + phrase(Phrase::recording, language, {sha256.substr(0, 16)}));
 }
 
-std::vector<std::string> head_marks(NoiseOnly noise_only, std::vector<std::string> marks,
-                                    Language language) {
+std::vector<std::string> with_noise_only_mark(NoiseOnly noise_only, std::vector<std::string> marks,
+                                              Language language) {
   if (noise_only == NoiseOnly::none) return marks;
   marks.insert(marks.begin(), phrase(noise_only == NoiseOnly::all ? Phrase::noise_only
                                                                   : Phrase::noise_only_in_part,
@@ -66,9 +66,9 @@ std::vector<std::string> head_marks(NoiseOnly noise_only, std::vector<std::strin
   return marks;
 }
 
-std::vector<std::string> head_marks(bool noise_only, std::vector<std::string> marks,
-                                    Language language) {
-  return head_marks(noise_only_if(noise_only), std::move(marks), language);
+std::vector<std::string> with_noise_only_mark(bool noise_only, std::vector<std::string> marks,
+                                              Language language) {
+  return with_noise_only_mark(noise_only_if(noise_only), std::move(marks), language);
 }
 
 std::string position_key(Language language) {

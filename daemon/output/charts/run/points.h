@@ -21,10 +21,10 @@ std::string run_title(const RunHeader& header, const std::string& what, Language
 std::string about_run(const RunHeader& header, Language language);
 
 // The marks of a head; the mark that u is from noise only comes first.
-std::vector<std::string> head_marks(NoiseOnly noise_only, std::vector<std::string> marks,
-                                    output::Language language);
-std::vector<std::string> head_marks(bool noise_only, std::vector<std::string> marks,
-                                    Language language);
+std::vector<std::string> with_noise_only_mark(NoiseOnly noise_only, std::vector<std::string> marks,
+                                              output::Language language);
+std::vector<std::string> with_noise_only_mark(bool noise_only, std::vector<std::string> marks,
+                                              Language language);
 
 // "position_mm" with its word in the language, for draw_axes().
 std::string position_key(Language language);

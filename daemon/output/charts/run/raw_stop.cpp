@@ -74,7 +74,8 @@ std::string raw_stop_svg(const StatedResults& results, std::size_t row,
       language);
   const std::string about = about_run(results.run.header, language);
   const std::vector<std::string> notes = {phrase(Phrase::raw_note, language)};
-  const auto head = head_marks(false, daemon::warning_marks(results.run, language), language);
+  const auto head =
+      with_noise_only_mark(false, daemon::warning_marks(results.run, language), language);
   const double top = run_head_height(head);
   const Sheet sheet(top + kRawLegendPx, y, kOutputPx);
   Svg svg(kWidthPx, sheet.bottom() + notes_height(notes) + 12, title, about, Theme::light);

@@ -97,7 +97,7 @@ std::string scatter_svg(const StatedResults& results, const Scatter& scatter,
   }
   const std::vector<std::string> notes = {phrase(chart.note, language)};
   const auto marks_of_head =
-      head_marks(false, daemon::warning_marks(results.run, language), language);
+      with_noise_only_mark(false, daemon::warning_marks(results.run, language), language);
   const double top = run_head_height(marks_of_head);
   const Sheet sheet(top + kScatterLegendPx, y, kOutputPx);
   const std::string title = run_title(header, phrase(chart.title, language), language);

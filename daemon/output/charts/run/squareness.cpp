@@ -133,7 +133,7 @@ std::string squareness_svg(const SquarenessResults& results, Language language) 
   std::vector<std::string> of_runs = daemon::warning_marks(results.run_a, language);
   for (std::string& mark : daemon::warning_marks(results.run_b, language))
     of_runs.push_back(std::move(mark));
-  const std::vector<std::string> marks = head_marks(b.noise_only, of_runs, language);
+  const std::vector<std::string> marks = with_noise_only_mark(b.noise_only, of_runs, language);
   const std::string title = phrase(Phrase::squareness_of_runs, language,
                                    {std::to_string(s.run_a), std::to_string(s.run_b), a, b_axis});
   const double U = to_urad(b.U);

@@ -202,8 +202,8 @@ std::string straightness_svg(const StatedResults& results, Language language) {
   for (const ApproachSeries& series : errors.front().approaches)
     for (const Mark& mark : series.means) x.include(mark.x);
   const std::vector<std::string> marks_of_head =
-      head_marks(are_noise_only(results.figures.budgets),
-                 daemon::warning_marks(results.run, language), language);
+      with_noise_only_mark(are_noise_only(results.figures.budgets),
+                           daemon::warning_marks(results.run, language), language);
   const double top = run_head_height(marks_of_head);
   const Sheet sheet(top + kLinesLegendPx, y, kOutputPx);
   const std::string title = run_title(header, phrase(Phrase::straightness, language), language);

@@ -93,7 +93,8 @@ bool has_table(const CompensationTable& table) {
 std::string table_svg(const CompensationTable& table, const std::vector<std::string>& warning_marks,
                       Language language) {
   const std::vector<TableSeries> all = series_of_table(table, language);
-  const std::vector<std::string> marks = head_marks(table.noise_only(), warning_marks, language);
+  const std::vector<std::string> marks =
+      with_noise_only_mark(table.noise_only(), warning_marks, language);
   std::vector<Range> y;
   Range x;
   for (const TableSeries& series : all) {

@@ -25,7 +25,7 @@ TEST(TableFunctions, AnAngleIsReferredToTheGivenPosition) {
   const ErrorFunction table =
       function_of({-2, 0, 4}, {-1, 3, 5}, {1, 5, 7}, {0.3, 0.4, 0.8}, {0.1, 0.1, 0.1});
   ErrorFunction f = table;
-  refer_angle(f, 1);
+  set_angle_zero_at(f, 1);
   EXPECT_EQ(f.forward, (std::vector<double>{-5.5, -1.5, 0.5}));
   EXPECT_EQ(f.reverse, (std::vector<double>{-3.5, 0.5, 2.5}));
   EXPECT_EQ(f.u, table.u);
@@ -34,11 +34,11 @@ TEST(TableFunctions, AnAngleIsReferredToTheGivenPosition) {
   EXPECT_NEAR(f.u[0], 0.8, 1e-15);
   EXPECT_NEAR(f.u[2], 1.3, 1e-15);
   ErrorFunction held = table;
-  refer_angle(held, 9);  // the value at the end is used beyond it
+  set_angle_zero_at(held, 9);  // the value at the end is used beyond it
   EXPECT_EQ(held.forward, (std::vector<double>{-7, -3, -1}));
   for (const double first : {-2.0, -9.0}) {
     ErrorFunction same = table;
-    refer_angle(same, first);
+    set_angle_zero_at(same, first);
     bound_angle_u(same, first);
     EXPECT_EQ(same.forward, table.forward);
     EXPECT_EQ(same.u, table.u);

@@ -76,7 +76,8 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
     table.add({std::to_string(k + 1), in_um(found.error[k].pv_m), in_um(found.error[k].rms_m)});
   std::string text = "error = CUT - WANTED (measured - nominal)\n" + table.text();
   if (found.factor)
-    text += "optimal gain: " + fixed(*found.factor, 4) + " times the mean error of the passes\n";
+    text += "optimal gain " + fixed(*found.factor, 4) +
+            ": the next path corrects this part of the mean error of the passes\n";
   if (found.left_by_smoothing_rms_m)
     text += "error that remains uncorrected, caused by the smoothing (squares of " +
             plain_number(o.smooth_mm) + " mm): RMS " + in_um(*found.left_by_smoothing_rms_m) +

@@ -10,11 +10,11 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kRoughest = 4;
-// Three second differences over two steps need this many values.
+// Number of values that have three second differences over two steps.
 constexpr std::size_t kLeastRoughnessValues = 7;
-constexpr std::size_t kFew = 5;  // with fewer the scatter of the curvature is unknown
+constexpr std::size_t kFew = 5;  // with fewer values the scatter of the curvature is unknown
 constexpr double kFactorOfFew = 2;
-// Weight of the mean square of all, as a number of nearby second differences.
+// Weight of the mean square of all second differences; a nearby second difference has weight 1.
 constexpr double kOverallWeight = 6;
 
 struct Finite {
@@ -33,7 +33,7 @@ Finite finite_of(const std::vector<double>& x, const std::vector<double>& y,
   return finite;
 }
 
-// The square of the curvature at i from the values `step` before and behind it, minus the
+// Returns the square of the curvature at i from the values at i - step, i and i + step, minus the
 // contribution of noise.
 double square_at(const Finite& f, std::size_t i, std::size_t step) {
   const std::size_t before = i - step, behind = i + step;
@@ -51,7 +51,7 @@ struct SquareSum {
   double mean() const { return count > 0 ? std::max(0.0, sum / count) : 0; }
 };
 
-// Over the positions first ... last that have `step` values on either side.
+// Sums the squares at the positions first ... last that have at least `step` values on both sides.
 SquareSum squares(const Finite& f, std::size_t first, std::size_t last, std::size_t step) {
   SquareSum all;
   for (std::size_t i = std::max(first, step); i <= last && i + step < f.x.size(); ++i) {

@@ -8,16 +8,24 @@
 
 namespace mdof::algo {
 
-// For each interval of the positions the curvature, 1/m or rad/m². It gives u between the two
-// targets: ½ (x - x_i) (x_{i+1} - x) curvature, which is 0 at the targets. The curvature is R times
-// the root mean square of second differences, which is what the omission of each target shows. The
-// mean square is over the four nearest targets and over all targets (with a weight of six). The
-// contribution of noise (`u`, independent from target to target) to the squares is subtracted.
+// Returns the curvature of the errors in each interval between two positions, 1/m or rad/m². The
+// standard uncertainty of interpolation at x between the targets x_i and x_{i+1} is
+// ½ (x - x_i) (x_{i+1} - x) curvature.
 //
-// R scales the curvature to half the step. With the ratio q (1 to 4) of the second differences over
-// one step to those over two steps, a wave of any length has R = 2√q/(1 + √q), which is 1 for a
-// parabola. If q is above 2.2, waves may be shorter than the targets can show, and R = q²/4. With
-// five or six values R = 2, with fewer R = 4.
+// The curvature is R times the root mean square of the second differences of the values. A second
+// difference shows the error of interpolation if its middle target is left out. The mean square
+// contains the four nearest second differences, and the mean square of all second differences with
+// a weight of six. The contribution of noise to the squares is subtracted; `u` is this noise, which
+// is independent from target to target.
+//
+// R is the ratio of the curvature at half a step to the curvature at one step. q is the ratio of
+// the second differences over one step to the second differences over two steps, limited to
+// 1 ... 4.
+// - q up to 2.2: R = 2√q/(1 + √q), which holds for a wave of any length and is 1 for a parabola
+// - q above 2.2: R = q²/4, because waves may be shorter than the targets can show
+// - five or six values: R = 2
+// - fewer than five values: R = 4
+//
 // Values that are NaN are left out. With fewer than three values all curvatures are NaN.
 std::vector<double> curvatures(const std::vector<double>& position_m,
                                const std::vector<double>& values, const std::vector<double>& u);

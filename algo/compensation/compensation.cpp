@@ -27,8 +27,8 @@ double smallest_step(const std::vector<double>& x) {
   return step;
 }
 
-// All points of all runs. Targets are numbered on the first run's grid; repeats continue from the
-// run before.
+// Returns all points of all runs. The target numbers are indices of `grid`. The repeat numbers
+// continue from one run to the next.
 Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
                                                const std::vector<double>& grid) {
   std::vector<MeasuredPoint> points;
@@ -65,7 +65,8 @@ double mean_at(const std::vector<double>& x, const std::vector<double>& y, doubl
   return mean;
 }
 
-// The value to subtract from each named error: a line for straightness, the start for angles.
+// Returns the reference that is subtracted from each named error: a line for straightness, a
+// constant for angles.
 std::array<Line, 5> references(Axis axis, const std::vector<TargetMean>& mean,
                                const TableOptions& options) {
   std::array<Line, 5> lines{};
@@ -97,8 +98,8 @@ void fill_side(const MovingAxis& moving, const std::vector<MeasuredPoint>& point
   }
 }
 
-// A position on the grid: between `below` and `below` + 1, at a share of the interval; held at the
-// ends.
+// A position between the grid points `below` and `below` + 1. `share` is the share of the interval,
+// 0 ... 1; a position outside the grid has the share of the end.
 struct Place {
   std::size_t below = 0;
   double share = 0;
@@ -112,7 +113,8 @@ Place place_on(const std::vector<double>& x, double at) {
   return {i, (at - x[i]) / (x[i + 1] - x[i])};
 }
 
-// For the rare series with gaps: linear over the grid points that have a value.
+// Interpolates linearly between the grid points that have a value. Only for the rare series with
+// gaps.
 double interpolate_over_gaps(const std::vector<double>& x, const std::vector<double>& y,
                              double at) {
   std::size_t below = x.size(), above = x.size();
@@ -134,8 +136,8 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   return place.share == 1.0 ? high : low + (high - low) * place.share;
 }
 
-// Whether the position is between the first and the last position with a value of this column, or
-// within the tolerance of a stop at its target.
+// Returns whether the position is between the first and the last position with a value of this
+// column, or outside by less than the tolerance of a stop at its target.
 bool spans(const std::vector<double>& x, const std::vector<double>& y, double at) {
   std::size_t first = 0, last = x.size();
   while (first < x.size() && !std::isfinite(y[first])) ++first;
@@ -155,7 +157,7 @@ bool measured_there(const CompensationTable& table, double position_m, TableSide
          (side == TableSide::forward || all(table.reverse));
 }
 
-// Errors: a run of another axis, or of a rig with other sides.
+// Errors: runs of different axes; runs of rigs with different sides.
 Status add_sources(const std::vector<Run>& runs, CompensationTable& table) {
   for (const Run& run : runs) {
     if (run.header.axis != table.axis) {
@@ -251,8 +253,8 @@ struct Side {
   const std::array<std::vector<double>, 5>&values, &u, &curvature;
 };
 
-// The nearest positions with a value on both sides of a position. Both are the same at such a
-// position, and if one side has no value.
+// The nearest positions with a value below and above a position. `below` and `above` are equal if
+// the position itself has a value, or if there is a value on one side only.
 struct Neighbours {
   std::size_t below = 0, above = 0;
 };
@@ -269,7 +271,7 @@ Neighbours neighbours(const std::vector<double>& x, const std::vector<double>& y
   return {below, above};
 }
 
-// One error of one approach; NaN if it has no value.
+// One error of one approach; NaN: no value.
 struct SideValue {
   double error = kNaN, u = kNaN, u_interpolation = kNaN;
 };

@@ -12,48 +12,54 @@
 
 namespace mdof::algo {
 
-// The mean errors at each target over all given runs (one axis, the same targets), forward and
-// reverse separately. Angles refer to the mean of both approaches at the first target. Straightness
-// refers to its least-squares line (`remove_slope`: the slope belongs to squareness) or is as
-// measured, and holds at `stated`. Targets of different runs are the same target if they agree
-// within 2 % of the smallest step; otherwise it is an error. Further errors: those of
-// check_usable().
+// Options of build_table(), which calculates the mean errors at each target over all given runs,
+// separately for the forward and the reverse approach.
+// - The angles refer to the mean of both approaches at the first target.
+// - With `remove_slope`, straightness refers to its least-squares line, because the slope belongs
+//   to squareness. Otherwise straightness is as measured.
+// - Straightness is calculated for the point `stated`.
+// - Targets of different runs are the same target if their positions agree within 2 % of the
+//   smallest step.
+//
+// Errors: runs of different axes; runs with different targets; the errors of check_usable().
 struct TableOptions {
   bool remove_slope = true;
   bool take_partial = false;
   StatedAt stated;
   Chain machine;
-  // Position at which the mean of both approaches of an angle is 0, by linear interpolation with
-  // the end values held; empty: the first target.
+  // Position at which each angle (mean of both approaches) is 0. It is interpolated linearly;
+  // outside the targets the end value is held. Empty: the first target.
   std::optional<double> angles_zero_m = std::nullopt;
 };
 Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options);
-// A table without u, and the points and means that it is made of.
+// A table without u, and the points and means from which it was calculated.
 struct MeanTable {
   CompensationTable table;
-  // Points of all runs; targets and repeats numbered through all runs.
+  // Points of all runs. The numbers of targets and repeats are unique over all runs.
   std::vector<MeasuredPoint> points;
   std::vector<TargetMean> grid;  // means of both approaches
 };
 Result<MeanTable> mean_table(const std::vector<Run>& runs, const TableOptions& options);
-// The references of a table with these options, as shares of the means at its positions: for each
-// named error and position the share of each position.
+// Returns the references of a table with these options, as [named error][position][j]: the share of
+// the mean at position j in the reference of this value.
 std::array<std::vector<std::vector<double>>, kErrorCount> references_of(
     const CompensationTable& table, const TableOptions& options);
-// Notices of uneven_visits() for the points of all runs together, numbered through all runs. Error:
-// the runs have different targets.
+// Returns the notices of uneven_visits() for the points of all runs together. Error: the runs have
+// different targets.
 Result<Notices> uneven_visit_notices(const std::vector<Run>& runs);
 
-// Evaluates the errors at a position: linear between grid points; outside, the end value is held
-// and `inside` is false. u is linear between two targets, too: no correlation of the two values
-// gives the interpolated value a larger u. u_interpolation is added for an axis whose errors have
-// the same curvature between the targets as around them.
+// The errors at a position. Between two targets, the errors and their u are interpolated linearly;
+// outside the targets the end value is held and `inside` is false. The linear u is an upper limit,
+// because a correlation of the two values can only reduce the u of the interpolated value.
+// u_interpolation is added to u. It assumes that the curvature of the errors between two targets is
+// the same as around them.
 struct TableValue {
   Errors5 error{};  // named; NaN: the table has no value
   Errors5 u{};
   Errors5 u_interpolation{};  // part of u; 0 at the targets and where an end value is held
-  // Whether the position is within the measured positions of this approach (of both approaches, for
-  // the mean). false: the end value is held, or the value is from the other approach.
+  // true: the position is within the measured positions of this approach. For the mean, it is
+  // within the measured positions of both approaches. false: the end value is held, or the value is
+  // from the other approach.
   bool inside = true;
 };
 enum class TableSide { forward, reverse, mean };

@@ -12,21 +12,21 @@
 namespace mdof::algo {
 namespace {
 
-// Limits for about a second: points alone, whose sensitivities are differences of the solver, and
-// points times parts.
+// Limits of the number of points, and of the number of points times the number of parts. They keep
+// the calculation time near one second. The solver runs several times for each point.
 constexpr std::size_t kMostPoints = 20'000, kMostCost = 1'000'000;
 
-// The parts of one contributor, each with the shifts of every run; empty for a run without it.
+// [part][run]: shifts due to a part of one contributor; empty for a run without this contributor.
 using PartsOfRuns = std::vector<std::vector<PointShifts>>;
 
-// A contributor without a key is seen in one run only and belongs to this run.
+// A contributor without a key belongs to one run only.
 std::string identity(const Contributor& c, std::size_t run) {
   if (c.key.empty()) return std::to_string(run) + " " + contributor_text(c.name);
   return contributor_text(c.name) + " " + c.key + " " + std::to_string(c.declared.u * c.to_unit) +
          (c.surface ? " " + std::to_string(c.surface->length_m) : "");
 }
 
-// One contributor in the runs that have it.
+// One contributor, and the runs to which it belongs.
 struct Shared {
   std::vector<std::size_t> runs;
   std::vector<Contributor> of_run;

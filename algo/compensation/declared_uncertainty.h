@@ -1,4 +1,4 @@
-// Propagates the uncertainties that the rigs of a table's runs declare to the values of the table.
+// Propagates the declared uncertainties of the rigs to the values of a table.
 #pragma once
 
 #include <vector>
@@ -11,18 +11,19 @@
 
 namespace mdof::algo {
 
-// Sets `u_declared` of a table that build_table() made from these runs and options; `rigs` has the
-// rig of each run. The table is built again with the shift of each contributor, so that shifts
-// common to all points cancel where the table takes differences (the line, the first angle). A
-// contributor that several rigs declare identically belongs to one fixture and shifts their runs
-// together. u_declared contains the uncertainty of a removed drift, too. It is not set if no rig
-// declares an uncertainty and no drift was removed. Errors: those of contributors(); too many
-// points and contributors, because this takes long.
+// Sets `u_declared` of a table that build_table() calculated from these runs and options; `rigs`
+// has the rig of each run. The table is calculated again with the shift of each contributor. A
+// shift that is the same at all points cancels where the table subtracts a reference (the line of
+// straightness, the first angle). If several rigs declare the same contributor, the rigs share one
+// fixture, and the contributor shifts all their runs together. u_declared also contains the
+// uncertainty of a removed drift. It is not set if no rig declares an uncertainty and no drift was
+// removed. Errors: the errors of contributors(); too many points and contributors, because the
+// calculation takes too long.
 Status add_declared_uncertainty(CompensationTable& table, const std::vector<Rig>& rigs,
                                 const std::vector<Run>& runs, const TableOptions& options);
 
-// The same uncertainty as covariance of the five errors at each position, by approach; empty if
-// nothing is declared.
+// The declared uncertainty as the covariance of the five errors at each position, for each
+// approach; empty if no uncertainty is declared.
 struct DeclaredCovariance {
   std::vector<Covariance5> forward, reverse;  // named errors
 };

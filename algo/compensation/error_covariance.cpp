@@ -24,7 +24,8 @@ Covariance5 coefficients(const Covariance5& covariance) {
   return all;
 }
 
-// Covariance from equal noise of all probes, in a point without references.
+// Returns the covariance of the five errors of a point if all probes have the same noise.
+// References are not subtracted.
 Result<Covariance5> of_noise(const Rig& rig, const Run& run) {
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);
@@ -42,8 +43,8 @@ Result<Covariance5> of_noise(const Rig& rig, const Run& run) {
   return coefficients(sum);
 }
 
-// Factor of a correlation if two values refer to different shares of the means: the cosine between
-// their weights of independent targets.
+// Returns the factor by which the correlation of two errors decreases if their references have
+// different weights: the cosine of the angle between the vectors of their weights.
 Covariance5 weight_correlation(
     const std::array<std::vector<std::vector<double>>, kErrorCount>& references, std::size_t row) {
   Covariance5 products{};
@@ -58,8 +59,8 @@ Covariance5 weight_correlation(
   return coefficients(products);
 }
 
-// Noise of both approaches. NaN is replaced by the largest of the other positions, or 0 if all are
-// unknown.
+// Returns the larger noise of both approaches. NaN is replaced by the largest noise of the other
+// positions, or by 0 if the noise of all positions is unknown.
 std::array<std::vector<double>, kErrorCount> noise_of(const CompensationTable& table) {
   std::array<std::vector<double>, kErrorCount> u;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
@@ -74,9 +75,9 @@ std::array<std::vector<double>, kErrorCount> noise_of(const CompensationTable& t
   return u;
 }
 
-// The covariance of the forward approach with its variances raised to those of the reverse approach
-// where these are larger. An approach without values has no variances; then the result is the
-// other's.
+// Returns the covariance of the forward approach, scaled so that each variance is the larger
+// variance of the two approaches. If one approach has no values, the result is the covariance of
+// the other approach.
 Covariance5 larger_covariance(const Covariance5& forward, const Covariance5& reverse) {
   if (forward == Covariance5{}) return reverse;
   Errors5 scale;

@@ -56,7 +56,7 @@ Status check_sources(const std::vector<Run>& runs) {
   return {};
 }
 
-// The sign of the readings of each run.
+// Returns the factor +1 or -1 for the readings of each run.
 Result<std::vector<double>> signs_of(const std::vector<Run>& runs,
                                      std::optional<bool> against_command) {
   std::vector<double> signs;
@@ -111,7 +111,7 @@ double u_of_mean(const std::vector<double>& x) {
   return std::sqrt(squares / (n - 1) / n);
 }
 
-// The largest declared u; NaN: a run declares none.
+// Returns the largest declared u; NaN if a run declares no uncertainty.
 double declared_of(const std::vector<Run>& runs) {
   double largest = 0;
   for (const Run& run : runs)

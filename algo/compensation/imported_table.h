@@ -1,4 +1,5 @@
-// Builds a table from imported runs of the positioning of an axis. It holds only EXX (EYY, EZZ).
+// Builds a table from imported runs of the positioning of an axis. The table contains only the
+// positioning error EXX (EYY, EZZ).
 #pragma once
 
 #include <optional>
@@ -12,24 +13,32 @@
 
 namespace mdof::algo {
 
-// distinct_targets() of the positions of the readings.
+// Returns distinct_targets() for the positions of the readings.
 std::vector<double> imported_targets(const std::vector<ImportedReading>& readings);
 
-// The table has the mean deviation at each target by approach, as measured, without removal of a
-// line. A reading with unknown approach counts for both approaches. u is s/√n of the repeats (n - 1
-// degrees of freedom); NaN if there is one reading. u_declared is the largest uncertainty declared
-// at import, if each run declares one. Errors: a run that was not imported, is of another axis or
-// error, or is of the same file; different targets; fewer than two targets.
+// The table contains the mean deviation at each target for each approach, as measured; no line is
+// subtracted. A reading with unknown approach counts for both approaches. u is s/√n for n repeats
+// with the standard deviation s (n - 1 degrees of freedom); NaN if there is one reading. u_declared
+// is the largest uncertainty declared at import; it is set only if each run declares an
+// uncertainty.
 //
-// The table has the sense of the command. A run in the sense of the body is converted with its
-// travel direction, or with `against_command` of a machine if the run does not state one. Further
-// errors: both are unknown, or they differ.
+// Errors:
+// - a run that was not imported
+// - runs of different axes or errors
+// - two runs of the same file
+// - runs with different targets
+// - fewer than two targets
+//
+// The signs of the table refer to the direction of the command. The signs of a run may refer to the
+// direction of the moving body. They are then converted with the travel direction of the run. If
+// the run does not state a travel direction, `against_command` of the machine is used. Further
+// errors: both are unknown; both are known and differ.
 Result<CompensationTable> build_positioning_table(
     const std::vector<Run>& runs, std::optional<bool> against_command = std::nullopt);
-// Error: the run states another travel direction.
+// Error: the run states a travel direction that differs from `against_command`.
 Status check_travel(const RunHeader& run, bool against_command);
 
-// Notices that the user of such a table needs in addition to the notices of the runs.
+// Returns the notices of such a table that are not notices of its runs.
 Notices positioning_notices(const std::vector<Run>& runs);
 
 }  // namespace mdof::algo

@@ -6,8 +6,8 @@
 
 namespace mdof::algo {
 
-// Defaults. The residual is at most `share` of the error, but one step of the numbers is allowed;
-// it never exceeds `most_m` (rad for angles).
+// Largest allowed residual with the default limits: the larger value of `share` times the error and
+// one step of the exported numbers, but at most `most_m` (rad for angles).
 struct ResidualLimits {
   double most_m = 1e-6, share = 0.2;
 

@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// Limit for each table, as in declared_uncertainty.cpp, where a table with more points is reported.
+// Limit of the points of each table. declared_uncertainty.cpp has the same limit and reports it.
 constexpr std::size_t kMostSharedPoints = 20'000;
 
 // A contributor in one run of one table.
@@ -26,7 +26,8 @@ bool is_shared_by_tables(const std::vector<InRun>& all) {
   return tables.size() > 1;
 }
 
-// Contributors by Contributor::common_as; `runs` has the runs of each table as it states them.
+// Returns the contributors with the same Contributor::common_as together. `runs` has the runs of
+// each table, converted to the point for which the table is calculated.
 Result<std::map<std::string, std::vector<InRun>>> quantities_of(
     const std::vector<BuiltFrom>& tables, const std::vector<std::vector<Run>>& runs) {
   std::map<std::string, std::vector<InRun>> all;
@@ -71,7 +72,7 @@ Result<std::vector<SharedQuantity>> shared_quantities(const std::vector<BuiltFro
   MDOF_TRY(const auto quantities, quantities_of(tables, runs));
   std::vector<SharedQuantity> all;
   for (const auto& [common_as, in_runs] : quantities) {
-    std::vector<std::vector<PointShifts>> parts;  // for each of `in_runs`
+    std::vector<std::vector<PointShifts>> parts;  // [element of in_runs][part]
     for (const InRun& one : in_runs) parts.push_back(one.contributor.parts());
     for (std::size_t p = 0; p < parts.front().size(); ++p) {
       SharedQuantity& shared =

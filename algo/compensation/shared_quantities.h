@@ -1,5 +1,6 @@
-// Quantities that the tables of several axes share: the scale, linearity and tilt factor of a probe
-// that measured more than one axis. The u of a point that several axes move needs them.
+// Quantities that the tables of several axes share, for example the scale, linearity and tilt
+// factor of a probe that measured more than one axis. They are necessary for the u of a point that
+// several axes move.
 #pragma once
 
 #include <string>
@@ -14,7 +15,7 @@
 
 namespace mdof::algo {
 
-// A table with the data it was built from; one rig for each run.
+// A table with the data from which it was built; `rigs` has one rig for each run.
 struct BuiltFrom {
   CompensationTable table;
   std::vector<Rig> rigs;
@@ -22,17 +23,17 @@ struct BuiltFrom {
   TableOptions options;
 };
 
-// An independent part of a quantity that at least two tables share: the effect of one standard
-// uncertainty on the named errors of the forward approach, [table][position]; 0 in tables without
-// it.
+// An independent part of a quantity that at least two tables share. `by_table` is the effect of one
+// standard uncertainty on the named errors of the forward approach, as [table][position]; 0 in
+// tables without this quantity.
 struct SharedQuantity {
   ContributorName name;
   std::vector<std::vector<Errors5>> by_table;
 };
 
-// Probes with the same certificate and uncertainty are the same probe, as for the squareness of two
-// runs (uncertainty/statistics/common_quantities.h). Errors: those of contributors(); a table with
-// too many points, because this takes long.
+// Probes with the same certificate and uncertainty count as the same probe, as in
+// uncertainty/statistics/common_quantities.h for the squareness of two runs. Errors: the errors of
+// contributors(); a table with too many points, because the calculation takes too long.
 Result<std::vector<SharedQuantity>> shared_quantities(const std::vector<BuiltFrom>& tables);
 
 }  // namespace mdof::algo

@@ -15,7 +15,8 @@ std::string mm_of(double position_m) {
   return plain_number(to_mm(position_m), 7) + " mm";
 }
 
-// From m or rad, and from the value per m, to the units of the options.
+// Both functions convert to the units of the options: m to um, rad to urad, a slope per m to a
+// slope per mm.
 std::string value_text(double value, bool angle) {
   return plain_number(value * 1e6, 6) + (angle ? " urad" : " um");
 }

@@ -18,12 +18,12 @@ bool has_approach(const MeasuredPoint& p, Approach approach) {
   return counts_in_means(p) && (p.point.direction > 0) == (approach == Approach::forward);
 }
 
-// Variances of the means of one approach, on the grid of the table.
+// Variances of the means of one approach at the positions of the table.
 struct ApproachVariances {
   std::vector<Errors5> variance;  // 0: the approach has no mean here
   std::vector<bool> has;
-  Errors5 shift{};    // common shift of all means
-  Errors5 u_visit{};  // u of one visit, pooled
+  Errors5 shift{};    // variance of the shift that all means have in common
+  Errors5 u_visit{};  // u of one visit, pooled over all targets
 };
 
 ApproachVariances approach_variances(const MovingAxis& moving,
@@ -51,8 +51,9 @@ ApproachVariances approach_variances(const MovingAxis& moving,
   return out;
 }
 
-// The uncertainty of the shifts of runs that lack visits, and the effect of the levels of their
-// passes on the means of both approaches, as independent parts.
+// Runs with missing visits do not shift all means equally. This class calculates the effects on the
+// means of both approaches, as independent parts: the uncertainty of the shifts of these runs, and
+// the levels of their passes.
 class SharedShifts {
  public:
   // `u_visit`: named errors.
@@ -67,7 +68,8 @@ class SharedShifts {
   }
   bool has_levels() const { return !levels_.parts.empty(); }
   double run_level(std::size_t k) const { return std::abs(run_level_[k]); }
-  // [part][target of the grid] of named error k; 0 if the approach has no mean there.
+  // Returns [part][target of the grid] for named error k; 0 if the approach has no mean at this
+  // target.
   std::vector<std::vector<double>> of(Approach approach, std::size_t k) const {
     std::vector<std::vector<double>> parts;
     for (const auto& part : by_noise_) parts.push_back(on_grid(approach, part, u_visit_[k]));
@@ -88,14 +90,14 @@ class SharedShifts {
   }
 
   const std::vector<TargetMean>& grid_;
-  Errors5 u_visit_, run_level_{};  // u of the means due to the levels of runs
+  Errors5 u_visit_, run_level_{};  // run_level_: u of the means due to the levels of runs
   std::vector<std::map<TargetAndApproach, double>> by_noise_;
   PassLevels levels_;
 };
 
-// Half of the difference between the two approaches, over all targets that have both, varies from
-// run to run. Returns the variance of its mean without the contribution of the visits' own
-// variance.
+// Half of the difference between the two approaches varies from run to run. Returns the variance of
+// the mean of this half difference over all targets with both approaches, without the contribution
+// of the noise of single visits.
 Errors5 half_difference(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
   struct Sums {
     std::array<Errors5, 2> sum{};
@@ -200,7 +202,7 @@ SeriesOfErrors table_uncertainty(
     for (std::size_t i = 0; i < grid.size(); ++i) {
       if (!own.has[i]) continue;
       const Reference& reference = references[k][i];
-      std::vector<double> by_own, by_other;  // shares of the means of each approach in this value
+      std::vector<double> by_own, by_other;  // weights of the means of each approach in this value
       double variance = 0, referred = 0;
       for (std::size_t j = 0; j < grid.size(); ++j) {
         const double of_own = !own.has[j] ? 0 : other.has[j] ? 0.5 : 1;

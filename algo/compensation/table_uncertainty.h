@@ -1,5 +1,6 @@
-// Noise and repeatability of the values of a table. Each value is the mean of one approach at a
-// target minus a reference, which is made of the means of both approaches.
+// Uncertainty of the values of a table due to noise and repeatability. Each value is the mean of
+// one approach at a target minus a reference. The reference is a weighted sum of the means of both
+// approaches.
 #pragma once
 
 #include <array>
@@ -9,19 +10,22 @@
 
 namespace mdof::algo {
 
-// The reference of a value: the share of the mean of both approaches at each target.
+// The reference of a value: for each target the weight of the mean of both approaches.
 using Reference = std::vector<double>;
 Reference as_measured(std::size_t targets);  // no reference
 // Linear interpolation between two targets; outside, the end value is held.
 Reference interpolation_at(const std::vector<double>& x, double at);
 Reference line_at(const std::vector<double>& x, double at);  // the least-squares line
 
-// u of [named error][target] of one approach; NaN if it was not visited. `references`: of each
-// named error and target. The part that is independent from visit to visit (repeatability.h) counts
-// in the value and in its reference. A shift common to all targets of a pass cancels if there is a
-// reference, except half of the random difference from run to run between the passes of the two
-// approaches. If runs lack visits, this half changes each mean by its own share (run_shifts.h).
-// `grid`: target_means() of both approaches of these points.
+// Returns u of one approach as [named error][target]; NaN if the approach did not visit the target.
+// `references`: [named error][target]. `grid`: target_means() of both approaches of these points.
+// - The noise that is independent from visit to visit (repeatability.h) changes the value and its
+//   reference.
+// - A shift that all targets of a pass have in common cancels if there is a reference. One part
+//   does not cancel: half of the difference between the forward and the reverse pass, which varies
+//   from run to run. If some visits of a run are missing, this half changes each mean by a
+//   different share (run_shifts.h).
+//
 using SeriesOfErrors = std::array<std::vector<double>, kErrorCount>;
 SeriesOfErrors table_uncertainty(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                                  const std::vector<TargetMean>& grid, Approach approach,

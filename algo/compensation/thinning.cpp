@@ -33,13 +33,14 @@ Status check_input(const std::vector<double>& x, const Columns& columns, double 
   return {};
 }
 
-// Range of slopes of lines from one point that pass all points so far within the tolerance.
+// Range of the slopes of lines from one point that pass all later points so far within the
+// tolerance.
 struct Cone {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
 };
 
-// One cone for each column, from the point `from`. Each later point narrows the cones.
+// The cones of all columns, which begin at the point `from`. Each later point narrows the cones.
 class Fan {
  public:
   Fan(const std::vector<double>& x, const Columns& columns, std::size_t from, double tolerance)
@@ -72,8 +73,8 @@ class Fan {
   std::vector<Cone> cones_;
 };
 
-// The path with the fewest steps from the first point to the last; among equal paths the one with
-// the earlier points.
+// Returns the smallest set of points from the first to the last point. If several sets have the
+// same size, it returns the set with the earlier points.
 std::vector<std::size_t> fewest(const std::vector<double>& x, const Columns& columns,
                                 double tolerance) {
   const std::size_t n = x.size();

@@ -1,4 +1,5 @@
-// Reduces the points of a table for a controller that holds few points and interpolates linearly.
+// Reduces the number of points of a table, for a controller that accepts few points and
+// interpolates linearly.
 #pragma once
 
 #include <cstddef>
@@ -8,22 +9,23 @@
 
 namespace mdof::algo {
 
-// The points that stay, and the largest deviation of the lines between them from an omitted point
-// (largest of all columns).
+// The points that are kept, and the error of linear interpolation between them.
 struct Thinned {
   std::vector<std::size_t> kept;  // ascending; the first and the last are among them
-  double largest_deviation = 0;   // in the unit of the columns
+  double largest_deviation = 0;   // at an omitted point, of all columns, in their unit
 };
 
-// Keeps the fewest points of x (strictly increasing), with unchanged values, so that linear
-// interpolation deviates by at most `tolerance` at each omitted point of each column. 0: all points
-// stay. The time grows with the square of the number of points. Errors: fewer than two points; x
-// that does not increase; a value that is not finite (the error names its position); columns of
-// different length; a tolerance that is negative or not finite.
+// Finds the smallest set of points for which linear interpolation deviates by at most `tolerance`
+// from each omitted point of each column. The values do not change. Tolerance 0: all points are
+// kept. x is strictly increasing. The calculation time grows with the square of the number of
+// points. Errors: fewer than two points; x that does not increase; a value that is not finite (the
+// error states its position); columns of different length; a tolerance that is negative or not
+// finite.
 Result<Thinned> thinned(const std::vector<double>& x,
                         const std::vector<std::vector<double>>& columns, double tolerance);
 
-// The smallest tolerance (within 1 %) for which at most `most` points stay; `most` >= 2.
+// Returns the smallest tolerance (within 1 %) for which at most `most` points are kept; `most` >=
+// 2.
 Result<double> tolerance_for(const std::vector<double>& x,
                              const std::vector<std::vector<double>>& columns, std::size_t most);
 

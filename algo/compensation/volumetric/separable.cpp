@@ -30,7 +30,7 @@ double sum_of_products(const std::vector<double>& a, const std::vector<double>& 
   return sum;
 }
 
-// Mean over the other axis or axes.
+// Returns for each node of `axis` the mean over all nodes of the other axes.
 std::vector<double> mean_along(const CommandGrid& grid, std::size_t axis) {
   std::vector<double> mean(grid.size[axis], 0);
   for (std::size_t node = 0; node < grid.value.size(); ++node)
@@ -45,7 +45,8 @@ void subtract_axis_function(CommandGrid& grid, std::size_t axis,
     grid.value[node] -= values[grid.index(node, axis)];
 }
 
-// Joint effect of two axes: the mean over the third axis; a row for each node of the first.
+// The joint effect of the axes p and q, which is the mean over the third axis: [node of p][node of
+// q].
 using PairRows = std::vector<std::vector<double>>;
 PairRows mean_of_pair(const CommandGrid& grid, std::size_t p, std::size_t q) {
   PairRows rows(grid.size[p], std::vector<double>(grid.size[q], 0));
@@ -61,7 +62,8 @@ double largest_size(const PairRows& rows) {
   return most;
 }
 
-// The least-squares product of these rows, by alternating solution of both factors.
+// Returns the product that is nearest to these rows by least squares. Both factors are solved
+// alternately.
 AxisProduct nearest_product(const PairRows& rows, std::size_t p, std::size_t q) {
   AxisProduct product{p, q, std::vector<double>(rows.size(), 0), {}};
   product.of_second = *std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {

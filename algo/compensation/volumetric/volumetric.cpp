@@ -14,7 +14,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::string_view kAxes = "XYZ";
-// A command this near to the grid counts as inside, because numbers in mm are rounded.
+// A command outside the grid by less than this counts as inside, because numbers in mm are rounded.
 constexpr double kSamePlace_m = 1e-9;
 
 std::string name_of(std::size_t axis) {
@@ -58,7 +58,7 @@ std::string place_text(const Vec3& command_m) {
   return text + " mm";
 }
 
-// The machine at one point: the correction, and the other values of the table for this point.
+// Calculates the correction and the other values of the table for one command.
 class CorrectedPlace {
  public:
   static Result<CorrectedPlace> at(const Machine& machine, const VolumetricRequest& request,
@@ -85,7 +85,7 @@ class CorrectedPlace {
   CompensatingCommand found_;
 };
 
-// NaN: no relevant error has an uncertainty.
+// Returns u of the correction; NaN if no relevant error has an uncertainty.
 Vec3 correction_uncertainty(const Machine& machine, const Command& command,
                             MachineApproach approach) {
   const Vector6 all = error_uncertainty(command_derivatives(machine, command),
@@ -98,7 +98,7 @@ Vec3 correction_uncertainty(const Machine& machine, const Command& command,
   return u;
 }
 
-// Whether the table has the noise of each axis separately.
+// Returns whether the table contains the noise of each axis separately.
 bool has_parts(const VolumetricTable& table) {
   return std::any_of(table.noise.begin(), table.noise.end(),
                      [](const auto& axis) { return !axis.empty(); });
@@ -134,8 +134,8 @@ Status add_node(VolumetricTable& table, const Machine& machine, const Volumetric
   return {};
 }
 
-// Sets the command to the node plus half a cell along each axis of `half`; false: there is no such
-// cell.
+// Sets the command to the node plus half a cell along each axis of the bit set `half`. Returns
+// false if there is no such cell.
 bool move_half_cell(const VolumetricTable& table, std::size_t node, unsigned half,
                     Vec3& command_m) {
   command_m = table.command_at(node);
@@ -149,9 +149,9 @@ bool move_half_cell(const VolumetricTable& table, std::size_t node, unsigned hal
   return true;
 }
 
-// For each error and cell of an axis the position of the largest deviation from the straight line
-// between two nodes. It is one of the error's own positions, because the error is linear between
-// these.
+// Returns for each cell of an axis the positions of the largest deviations of the errors from the
+// straight line between two nodes. Each of these is a position of the error's table, because the
+// error is linear between the positions of its table.
 std::vector<std::vector<double>> bends_along(const Machine& machine, std::size_t axis,
                                              const std::vector<double>& nodes) {
   std::vector<std::vector<double>> bends(nodes.size());
@@ -181,9 +181,10 @@ std::vector<std::vector<double>> bends_along(const Machine& machine, std::size_t
   return bends;
 }
 
-// Finds the deviation of the corrections from linear interpolation in the cell behind each node: in
-// the middle of its edges, of its faces and of the cell, and at the bends of errors along an edge.
-// Bends of several axes can coincide, so their deviations are added.
+// Finds the deviation of the corrections from linear interpolation in the cell after each node. It
+// compares the middle of each edge, the middle of each face, the middle of the cell, and the bends
+// of errors along an edge. Bends of several axes can coincide, so the deviations of the axes are
+// added.
 class Interpolation {
  public:
   Interpolation(VolumetricTable& table, const Machine& machine, const VolumetricRequest& request)
@@ -237,7 +238,7 @@ class Interpolation {
   VolumetricTable& table_;
   const Machine& machine_;
   const VolumetricRequest& request_;
-  std::array<std::vector<std::vector<double>>, 3> bends_;  // for each axis and cell
+  std::array<std::vector<std::vector<double>>, 3> bends_;  // [axis][cell]
 };
 
 Status find_interpolation(VolumetricTable& table, const Machine& machine,
@@ -247,7 +248,7 @@ Status find_interpolation(VolumetricTable& table, const Machine& machine,
   return {};
 }
 
-// Checks along each line of nodes parallel to the axis.
+// Checks the limits along each line of nodes that is parallel to this axis.
 Status check_lines(const VolumetricTable& table, std::size_t axis, const TableLimits& limits) {
   const auto& commands = table.command_m[axis];
   for (std::size_t node = 0; node < table.nodes(); ++node) {
@@ -289,8 +290,8 @@ GridCell cell_of(const std::vector<double>& commands, double command) {
   return {index, (command - commands[index]) / (commands[index + 1] - commands[index]), true};
 }
 
-// Sets u and its parts from u_common_m. If a table has no separate parts, u_common_m is the whole
-// u.
+// Sets u_m and its parts. Before the call, u_common_m is the common part, or the complete u if the
+// table has no separate parts.
 void set_u(const VolumetricTable& table, const std::array<GridCell, 3>& cell, const Vec3& command_m,
            VolumetricValue& value) {
   value.u_m = value.u_common_m;

@@ -16,26 +16,29 @@ struct VolumetricRequest {
   double step_m = 0.01;                         // approximate distance between nodes
   Command others{};                             // positions of the other axes
   MachineApproach approach = MachineApproach::mean;
-  // Build the table even if a relevant error was not measured; the table names this error.
+  // true: builds the table even if a relevant error was not measured; the table states this error.
   bool incomplete = false;
   TableLimits limits;
 };
 
-// The compensating command at each node (algo/machine/compensating.h) minus the node. The caller
-// sets id, runs, description and hash. Errors: an axis that the chain does not have or that has no
-// range; more nodes than kMostVolumetricNodes, or than kMostVolumetricCommands along an axis; an
-// error that was not measured, unless `incomplete`; a node without compensating command; a
-// correction beyond the limits.
+// The correction at a node is the compensating command (algo/machine/compensating.h) minus the
+// command of the node. The caller sets id, runs, description and hash of the table. Errors:
+// - an axis that the chain does not have, or that has no range
+// - more nodes than kMostVolumetricNodes, or more nodes along an axis than kMostVolumetricCommands
+// - a relevant error that was not measured, unless `incomplete`
+// - a node without compensating command
+// - a correction beyond the limits
 inline constexpr std::size_t kMostVolumetricNodes = 100'000;
-// Along an axis. Each reply about the table contains these commands and has at most 48 KiB.
+// Largest number of nodes along an axis. Each reply about the table contains the commands of all
+// nodes along the axes and must not exceed 48 KiB.
 inline constexpr std::size_t kMostVolumetricCommands = 500;
 Result<VolumetricTable> build_volumetric(const Machine& machine, const VolumetricRequest& request);
 
-// Checks the corrections along each line of nodes. Error (bad_input): as of a series, with the
-// line.
+// Checks the corrections along each line of nodes that is parallel to an axis. The error
+// (bad_input) is the error of check_limits() for a series; it also states the line.
 Status check_limits(const VolumetricTable& table, const TableLimits& limits);
 
-// Largest correction of one command over the nodes; axis 0 is X.
+// Returns the largest absolute correction of one axis over all nodes; axis 0 is X.
 double largest_correction_m(const VolumetricTable& table, std::size_t axis);
 
 struct VolumetricValue {
@@ -43,13 +46,15 @@ struct VolumetricValue {
   Vec3 u_common_m{}, u_independent_m{};  // parts of u_m; NaN: parts unknown
   bool inside = true;                    // false: the value of the nearest point of the grid
 };
-// Interpolates linearly along each axis between the nodes. The common part of u is the u of the
-// surrounding nodes combined with the interpolation error at this point. That error is taken as a
-// parabola: 0 at a node, and the largest deviation that was found in the middle between two nodes.
-// It is not reduced to a standard uncertainty, because each measurement at the point of the largest
-// deviation has this deviation. The independent part is smaller than at the nodes, because
-// interpolation averages them (noise_variance()). In tables of older versions without noise by
-// axis, u is the u of the nodes and the parts are NaN.
+// Interpolates linearly along each axis between the nodes.
+// - The common part of u combines the u of the surrounding nodes and the interpolation error at
+//   this point. Along the axes, the interpolation error is a parabola: 0 at a node and, in the
+//   middle between two nodes, the largest deviation that was found. The deviation is not divided by
+//   a factor, because each measurement at the point of the largest deviation has this deviation.
+// - The independent part is smaller than at the nodes, because interpolation averages the noise of
+//   the nodes (noise_variance()).
+// - Tables of older versions do not contain the noise of each axis. For these tables, u is
+//   interpolated from the u of the nodes, and both parts are NaN.
 VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m);
 
 }  // namespace mdof::algo

@@ -11,11 +11,12 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, kBodyErrors, kBodyErrors>;
 using EffectOnTool = Eigen::Matrix<double, 3, kBodyErrors>;
 
-// The other two axes of an axis, in the order X, Y, Z.
+// kOthers[axis]: the other two axes, in the order X, Y, Z.
 constexpr std::array<std::array<std::size_t, 2>, 3> kOthers = {{{1, 2}, {0, 2}, {0, 1}}};
 
-// Effect of the errors of a frame on the position of the tool as a function of the commands p, q of
-// the other two axes: of[0] + of[1] p + of[2] q.
+// The effect of the errors of a frame on the position of the tool, as a function of the commands p,
+// q of the other two axes:
+// of[0] + of[1] p + of[2] q.
 struct AffineEffect {
   std::array<EffectOnTool, 3> of;
 };
@@ -39,7 +40,8 @@ AffineEffect effect_of(const Machine& machine, std::size_t frame, Command comman
   return effect;
 }
 
-// For each component of the tool: (a.of[0] + a.of[1] p + a.of[2] q) covariance (b.of[0] + …)ᵀ.
+// Returns for each component of the tool's position the quadratic form
+// (a.of[0] + a.of[1] p + a.of[2] q) covariance (b.of[0] + b.of[1] p + b.of[2] q)ᵀ.
 std::array<AxisNoise::SquareForm, 3> square_forms(const AffineEffect& a, const Matrix6& covariance,
                                                   const AffineEffect& b) {
   std::array<AxisNoise::SquareForm, 3> forms{};
@@ -59,8 +61,8 @@ double weight_of(const TablePlace& place, std::size_t target) {
   return target == place.cell + 1 ? place.part : 0;
 }
 
-// Covariance of the noise of error k at one command with the noise of error l at another command,
-// due to the targets that both commands have in common.
+// Returns the covariance of the noise of error k at the command `at` and the noise of error l at
+// the command `there`. It results from the targets that both commands have in common.
 double covariance_of(const MachineFrame& frame, std::size_t k, std::size_t l, double at,
                      double there) {
   const ErrorCovariance& known = frame.covariance;

@@ -1,7 +1,8 @@
-// Noise of the tables of a machine's axes in the values of a volumetric table. The noise at a
-// target of an axis is the same for all nodes with this command. Between two nodes linear
-// interpolation averages both, so the variance is that of the sum, (1-p)² V0 + 2 p (1-p) C + p² V1,
-// axis by axis.
+// Calculates how the noise of the axis tables changes the values of a volumetric table. All nodes
+// with the same command of an axis have the same noise of this axis. At the share p of the way
+// between two nodes with the variances V0 and V1 and the covariance C, linear interpolation gives
+// for each axis the variance
+// (1-p)² V0 + 2 p (1-p) C + p² V1.
 #pragma once
 
 #include <array>
@@ -18,15 +19,15 @@ struct GridCell {
   bool inside = true;
 };
 
-// Sets `noise` of the table, whose commands are set, from u_independent of the errors of the
-// machine and from their correlation. The effect of an error on the tool is linear in the commands
-// (derivatives()). Noise at different targets of an axis is independent; between targets it is
-// interpolated linearly, because grid and targets can differ. `noise` is not set if no error has an
-// independent part.
+// Sets `noise` of the table from u_independent of the machine's errors and from their correlation.
+// The commands of the table must be set. The effect of an error on the tool is linear in the
+// commands (derivatives()). Noise at different targets of an axis is independent. The nodes of the
+// grid can be between the targets, so the noise is interpolated linearly between the targets.
+// `noise` is not set if no error has an independent part.
 void set_axis_noise(VolumetricTable& table, const Machine& machine, const Command& others,
                     MachineApproach approach);
 
-// Variances of the correction of X, Y, Z at a command due to this noise, m².
+// Returns the variances of the corrections of X, Y, Z at a command due to this noise, m².
 Vec3 noise_variance(const VolumetricTable& table, const std::array<GridCell, 3>& cell,
                     const Vec3& command_m);
 

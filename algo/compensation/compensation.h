@@ -27,15 +27,16 @@ struct TableOptions {
   bool take_partial = false;
   StatedAt stated;
   Chain machine;
-  // Position at which each angle (mean of both approaches) is 0. It is interpolated linearly;
-  // outside the targets the end value is held. Empty: the first target.
+  // Position at which each angle (mean of both approaches) is 0. The angle is interpolated
+  // linearly; outside the targets the end value is held. Empty: the first target.
   std::optional<double> angles_zero_m = std::nullopt;
 };
 Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options);
 // A table without u, and the points and means from which it was calculated.
 struct MeanTable {
   CompensationTable table;
-  // Points of all runs. The numbers of targets and repeats are unique over all runs.
+  // Points of all runs. A target has the same number in all runs; the repeat numbers continue from
+  // one run to the next.
   std::vector<MeasuredPoint> points;
   std::vector<TargetMean> grid;  // means of both approaches
 };

@@ -10,8 +10,8 @@
 namespace mdof::algo {
 namespace {
 
-// The smallest share of variance that any combination of the first `n` polynomials has between
-// visits of the same place, relative to its variance over all visits.
+// Each combination of the first `n` polynomials has a variance between the visits of the same place
+// and a variance over all visits. Returns the smallest ratio of these variances.
 double least_share(const Eigen::MatrixXd& between, const Eigen::MatrixXd& all, Eigen::Index n) {
   const Eigen::MatrixXd seen = between.leftCols(n).transpose() * between.leftCols(n);
   const Eigen::MatrixXd whole = all.leftCols(n).transpose() * all.leftCols(n);

@@ -1,11 +1,12 @@
-// Which part of a drift repeated visits of the same places show: y = error of the place +
-// drift(time) + noise.
+// Determines which part of a drift can be found from repeated visits of the same places. The model
+// is
+// y = error of the place + drift(time) + noise.
 //
-// A place is a target with its approach. Its error is the same at each visit, and so is its
-// reversal. A drift is a polynomial in time (Legendre). The part of it that is the same at every
-// visit of a place cannot be distinguished from the form or the slope of the axis and is not seen.
-// The order of the polynomial is limited so that at least kFewestSeen of the variance of each
-// combination of its terms is seen.
+// A place is a target and a direction of approach. The error of a place is the same at each visit.
+// The drift is a Legendre polynomial in time. A part of the drift that is the same at every visit
+// of a place cannot be distinguished from the form or the slope of the axis. The order of the
+// polynomial is limited so that, for each combination of its terms, at least the share kFewestSeen
+// of the variance can be distinguished.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,16 +20,16 @@ struct TimedVisit {
   double time_s = 0;
 };
 
-// Data for the estimation of slow noise, in order of time. If there are many places, neighbouring
-// places visited one after the other share a row with their mean, because the calculation time
-// grows with places².
+// Data for the estimation of slow noise, in order of time. The calculation time grows with the
+// square of the number of places. If there are more than kMostPlaces places, several neighbouring
+// places count as one place. Their consecutive visits are then averaged to one row.
 struct DriftRows {
   std::vector<double> time_s;
   std::vector<std::size_t> place;
   std::size_t places = 0;
-  Eigen::MatrixXd polynomials, y;  // minus the means of their places
+  Eigen::MatrixXd polynomials, y;  // both minus the mean of the place
 
-  double freedom() const;  // degrees of freedom of the residuals of the highest order
+  double freedom() const;  // degrees of freedom of the residuals if the fit has the highest order
 };
 
 class DriftDesign {
@@ -39,16 +40,19 @@ class DriftDesign {
 
   explicit DriftDesign(std::vector<TimedVisit> visits);
 
-  int orders() const { return orders_; }  // 0: no drift can be separated from the form of the axis
-  // Degrees of freedom of the residuals of the highest order, all visits.
+  int orders() const {
+    return orders_;
+  }  // highest order; 0: no drift can be distinguished from the form of the axis
+  // Degrees of freedom of the residuals of all visits if the fit has the highest order.
   double freedom() const { return freedom_; }
   const std::vector<TimedVisit>& visits() const { return visits_; }
   double begin_s() const { return begin_s_; }            // time of the first visit
   double end_s() const { return begin_s_ + length_s_; }  // time of the last visit
 
   DriftRows rows(const Eigen::MatrixXd& y) const;  // `y`: visits × series; requires orders() > 0
-  // The value of each order, 0 at the first visit, where the system was zeroed. Before the first
-  // visit it is the value of the first visit, after the last visit the value of the last.
+  // Returns the value of the polynomial of each order. It is 0 at the first visit, because the
+  // system was zeroed there. Times before the first or after the last visit have the value of this
+  // visit.
   Eigen::VectorXd polynomials(double time_s) const;
 
  private:

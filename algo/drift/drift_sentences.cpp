@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kSecondsPerMinute = 60, kSecondsPerHour = 3600;
 
-// GUM 7.2.6: two significant digits of u after rounding (0.0996 is 0.10); negative: tens and more.
+// Returns the number of decimals for two significant digits of u (GUM 7.2.6) after rounding: 0.0996
+// is 0.10. Negative: u is rounded to tens, hundreds, ...
 int decimals_of(double u, int otherwise) {
   constexpr int kMostDecimals = 9;
   if (!(u > 0) || !std::isfinite(u)) return otherwise;

@@ -10,15 +10,17 @@
 
 namespace mdof::algo {
 
-// "EYX +0.2131 ± 0.0040 µm, ECX -3.10 ± 0.12 µrad from the first point to the last (2.60 min)" of
-// the moving body: the significant drifts that may be steps (`steps`), or those that cannot be.
-// Empty: there are none.
+// Returns a text with the significant drifts of the moving body, for example "EYX +0.2131 ± 0.0040
+// µm, ECX -3.10 ± 0.12 µrad from the first point to the last (2.60 min)". `steps`: true: only
+// drifts that may be steps; false: only drifts that cannot be steps. Empty: there is no such drift.
 std::string changes_text(const RunDrift& drift, const MovingAxis& moving, bool steps);
 
-// Notices of a run whose drift removal was requested: which drifts were removed.
+// Returns notices of a run for which drift removal was requested. They state which drifts were
+// removed.
 Notices removal_notices(const RunDrift& drift, const MovingAxis& moving);
 
-// Notices of probes that drift by more than the rig's limit over the run (highest minus lowest).
+// Returns notices of probes whose drift during the run (highest minus lowest value) exceeds the
+// limit of the rig.
 Notices over_limit(const RunDrift& drift, const Rig& rig);
 
 }  // namespace mdof::algo

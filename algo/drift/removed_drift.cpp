@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// Converts shifts at the fixture to where the run is stated.
+// Converts shifts at the fixture to shifts at the point for which the errors of the run are stated.
 PointShifts restated(const PointShifts& at_fixture, const Run& run, Model model) {
   if (run.header.stated == kAtFixture) return at_fixture;
   PointShifts shifts(at_fixture.size());

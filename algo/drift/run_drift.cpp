@@ -14,8 +14,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLogLikelihoodRatio = 5;       // required for a drift instead of steps
-constexpr std::size_t kLeastPointsPerPass = 3;  // points, on average
+constexpr double kLogLikelihoodRatio = 5;       // at least this for a drift instead of steps
+constexpr std::size_t kLeastPointsPerPass = 3;  // average over the passes
 constexpr double kLeastScatter_m = 1e-12;
 
 using Points = std::vector<const MeasuredPoint*>;
@@ -51,7 +51,7 @@ DriftFit errors_fit(const Points& points) {
   return {design_of(points), y, noise2};
 }
 
-// Only from points with readings of all probes.
+// Uses only points that have readings of all probes.
 std::vector<SeriesDrift> probe_drifts(const Points& points) {
   Points whole;
   std::copy_if(points.begin(), points.end(), std::back_inserter(whole), [](const auto* p) {
@@ -97,7 +97,7 @@ std::vector<Closure> find_closures(const Points& points) {
   return closures;
 }
 
-// For each value the group whose unknown mean it shares.
+// The group of each value. All values of a group have the same unknown mean.
 using Groups = std::vector<std::size_t>;
 
 void subtract_group_means(const Groups& groups, Eigen::MatrixXd& columns) {
@@ -115,7 +115,7 @@ void subtract_group_means(const Groups& groups, Eigen::MatrixXd& columns) {
     columns.row(i) -= sum.row(group(i)) / count(group(i));
 }
 
-// Sum of squares of y that the columns and a mean of each group do not explain.
+// Returns the residual sum of squares of y after a fit of the columns and of a mean for each group.
 double residual_square(Eigen::MatrixXd columns, Eigen::MatrixXd y, const Groups& groups) {
   subtract_group_means(groups, columns);
   subtract_group_means(groups, y);
@@ -123,7 +123,8 @@ double residual_square(Eigen::MatrixXd columns, Eigen::MatrixXd y, const Groups&
   return (y - fitted).squaredNorm();
 }
 
-// The target and the pass (consecutive points of one run and direction) of each point.
+// The target and the pass of each point. A pass is a sequence of points of one run in one
+// direction.
 struct Grouping {
   Groups target, pass;
   std::size_t passes = 0;
@@ -143,8 +144,8 @@ Grouping grouping_of(const Points& points) {
   return out;
 }
 
-// Whether steps from pass to pass explain the error as well as a drift, if the reversal is the same
-// at all targets.
+// Returns whether steps from pass to pass explain the error as well as a drift. Both models have
+// the same reversal at all targets.
 bool may_be_steps(const Points& points, const DriftFit& fit, std::size_t k) {
   const Grouping groups = grouping_of(points);
   const auto n = static_cast<Eigen::Index>(points.size());

@@ -11,9 +11,11 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kLeastNoise2 = 1e-24;                // (1 pm)², for readings without noise
-constexpr double kNearlyAsLikely = 7, kAsLikely = 2;  // in -2 log of the likelihood
-constexpr double kTaken = 1e-6;      // in sd of a score: the rounding of a subtracted drift
-constexpr Eigen::Index kWaves = 12;  // waves of the slow noise: 1 to 12 half periods in a log
+constexpr double kNearlyAsLikely = 7, kAsLikely = 2;  // differences of -2 log(likelihood)
+constexpr double kTaken =
+    1e-6;  // in sd of a score; smaller scores of a subtracted drift are rounding
+constexpr Eigen::Index kWaves =
+    12;  // number of waves of the slow noise: 1 to 12 half periods over the log
 constexpr double kPi = 3.14159265358979323846;
 
 // Lower triangular L with L Lᵀ = S; values that rounding makes negative are set to 0.
@@ -96,9 +98,9 @@ void DriftFit::estimate(Eigen::Index k, const std::vector<WeighedFit>& fits, dou
     series_[static_cast<std::size_t>(k)].u_change = sd_of(best) * best.shapes(whole).norm();
 }
 
-// Splits the slow noise into cosines of m half periods over the log, which are nearly independent
-// (spectrum 2 τ/(1 + ω²τ²)), and finds their effect on the scores. The rest of the variance of the
-// scores is from white noise.
+// Approximates the slow noise by cosines with m half periods over the log, which are nearly
+// independent. Their spectrum is 2 τ/(1 + ω²τ²). Calculates the effect of the cosines on the
+// scores. The rest of the variance of the scores is due to white noise.
 void DriftFit::split_noise(Estimate& of) const {
   const auto n = static_cast<Eigen::Index>(design_.visits().size());
   Eigen::MatrixXd y(n, kWaves);

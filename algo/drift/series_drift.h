@@ -1,5 +1,5 @@
-// The drifts of several series of readings that were taken together: their significance, size and
-// uncertainty.
+// Finds the drifts of several series of readings that were recorded at the same times, with their
+// significance, size and uncertainty.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,25 +10,32 @@
 
 namespace mdof::algo {
 
-// Probability that a fit finds a significant drift in any of its series, if no series has one.
+// Probability that a fit finds a significant drift in at least one series although no series has a
+// drift.
 inline constexpr double kDriftLevel = 0.01;
 
 struct SeriesDrift {
   int order = 0;                    // the highest significant order; 0: no drift
-  double change = 0, u_change = 0;  // from the first visit to the last
-  double range = 0;                 // highest - lowest at the visits
-  double least_found = 0;           // a steady change of this size or more is significant
-  bool steps = false;  // steps from run to run are as likely (run_drift.h): not removed
+  double change = 0, u_change = 0;  // from the first visit to the last; standard uncertainty
+  double range = 0;                 // highest minus lowest value at the visits
+  double least_found = 0;           // smallest steady change that would be significant
+  bool steps = false;               // true: may be steps (run_drift.h), so the drift is not removed
   bool significant() const { return order > 0; }
 };
 
-// `y`: visits × series; `noise2`: for each series the mean u² of its readings, the lower limit of
-// the variance from the residuals. Noise may be correlated from one visit to the next, for an
-// unknown time. So a drift is significant only if it is significant with every model of the noise
-// (slow_noise.h) that is nearly as likely as the likeliest one. The estimate is from the model with
-// the largest uncertainty among those about as likely as the likeliest one; u_change is from the
-// likeliest one. Orders are tested from the highest to the lowest, each at kDriftLevel / (orders ×
-// series), with the residual variance of the highest order.
+// `y`: visits × series. `noise2`: for each series the mean u² of its readings; the variance from
+// the residuals is at least this value.
+//
+// The noise of consecutive visits may be correlated over an unknown time. Several models of the
+// noise (slow_noise.h) are therefore fitted:
+// - A drift is significant only if it is significant with every model that is nearly as likely as
+//   the likeliest model.
+// - The drift is estimated with the model that has the largest uncertainty among the models that
+//   are about as likely as the likeliest model.
+// - u_change is from the likeliest model.
+//
+// Orders are tested from the highest to the lowest. The level of each test is kDriftLevel / (orders
+// × series). The residual variance is the residual variance of the highest order.
 class DriftFit {
  public:
   DriftFit(DriftDesign design, const Eigen::MatrixXd& y, const Eigen::VectorXd& noise2);
@@ -37,12 +44,13 @@ class DriftFit {
   double freedom() const { return freedom_; }
   const std::vector<SeriesDrift>& series() const { return series_; }
   void mark_as_steps(std::size_t series) { series_[series].steps = true; }
-  // For each series the drift since the first visit, to be subtracted from a reading at this time;
-  // 0 if no drift is significant, or if steps are as likely.
+  // Returns for each series the drift from the first visit to this time, which is subtracted from a
+  // reading. 0 if no drift is significant, or if the drift may be steps.
   Eigen::VectorXd drift(double time_s) const;
-  // Uncertainty of readings from which such drifts were subtracted before, at each of the times:
-  // series × columns, and the squares of the columns add. A subtracted drift is recognised by its
-  // scores, which are 0. The slow noise is included, because the fit has removed a part of it, too.
+  // Returns for each time the uncertainty of readings from which drift() was subtracted before the
+  // fit: series × independent parts, whose squares add. A subtracted drift is recognised by its
+  // scores, which are 0. The slow noise is included, because the subtracted drift contains a part
+  // of the slow noise.
   std::vector<Eigen::MatrixXd> parts(const std::vector<double>& time_s);
 
  private:
@@ -51,7 +59,8 @@ class DriftFit {
     Eigen::MatrixXd root;
     double sd = 0;  // sd of a score
     SlowNoise noise;
-    Eigen::MatrixXd of_waves, of_white;  // their effects on the scores
+    Eigen::MatrixXd of_waves,
+        of_white;  // effects of the waves and of the white noise on the scores
   };
   void estimate(Eigen::Index series, const std::vector<WeighedFit>& fits, double noise2,
                 double critical_t);
@@ -68,7 +77,7 @@ class DriftFit {
   std::vector<SeriesDrift> series_;
 };
 
-// t that |T| of so many degrees of freedom exceeds with this probability.
+// Returns the value that |T| exceeds with this probability; T has Student's t distribution.
 double critical_t(double probability, double freedom);
 
 }  // namespace mdof::algo

@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLongest = 8;  // longest τ in lengths of the log; practically a random walk
+constexpr double kLongest = 8;  // longest τ, in lengths of the log: in practice a random walk
 
 }  // namespace
 
@@ -17,7 +17,7 @@ Eigen::MatrixXd whitened(const std::vector<double>& time_s, const SlowNoise& noi
                          const Eigen::MatrixXd& rows, double& log_variances) {
   Eigen::MatrixXd white(rows.rows(), rows.cols());
   Eigen::RowVectorXd expected = Eigen::RowVectorXd::Zero(rows.cols());
-  double variance = noise.share;  // variance of the slow noise, given the rows before
+  double variance = noise.share;  // variance of the slow noise if the rows before are known
   log_variances = 0;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     const double all = variance + 1 - noise.share, gain = variance / all;

@@ -14,7 +14,7 @@ struct Line {
   double slope() const { return xx > 0 ? xy / xx : kNothing; }
 };
 
-// Over the steps of [begin, end) at which both have a value.
+// Returns the line through the steps of [begin, end) at which both x and y have a value.
 template <class X>
 Line line_of(const std::vector<double>& y, X x, std::size_t begin, std::size_t end) {
   Line line;

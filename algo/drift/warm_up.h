@@ -1,5 +1,6 @@
-// Decides whether a system has warmed up, from readings of a parked axis: the drift rate of each
-// series in equal windows of time, and the time from which all rates stay below a limit.
+// Determines from readings of a parked axis whether a system has warmed up. Calculates the drift
+// rate of each series in equal windows of time, and the time after which all rates stay below their
+// limits.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 
 namespace mdof::algo {
 
-// One value for each step; NaN: no reading.
+// One series of readings; `value` has one value for each time step, NaN: no reading.
 struct ParkedSeries {
   std::string name;  // "A_um", "EYX_um"
   std::vector<double> value;
@@ -18,13 +19,14 @@ struct ParkedSeries {
 };
 
 struct ParkedReadings {
-  double step_s = 0;                  // time between values; each value is a mean over it
-  std::vector<ParkedSeries> series;   // SI, all of the same length
+  double step_s = 0;                  // time between values; each value is the mean over this time
+  std::vector<ParkedSeries> series;   // SI units; all series have the same length
   std::vector<double> temperature_C;  // same length; empty: no temperature
 };
 
-// `undecided`: the limit is within two standard uncertainties. `unknown`: too few readings, or the
-// value is constant over the whole log: a dead probe, or a resolution that hides the drift.
+// `undecided`: the difference between rate and limit is less than two standard uncertainties.
+// `unknown`: there are too few readings, or the value is constant over the whole log (the probe is
+// dead, or its resolution is too coarse).
 enum class DriftVerdict { below, above, undecided, unknown };
 const char* to_string(DriftVerdict verdict);
 
@@ -38,23 +40,25 @@ struct WithTemperature {
 };
 
 struct WarmUp {
-  std::vector<double> begin_s;  // start of each window since the first reading
+  std::vector<double> begin_s;  // start of each window; time since the first reading
   double window_s = 0;
   std::vector<std::vector<DriftWindow>> windows;  // [series][window]
   std::vector<WithTemperature> with_temperature;  // [series]; empty: no temperature
   bool limited = false;                           // whether any series has a limit
-  // From this time on every window of every series with a limit is below its limit; these are at
-  // least kFewestBelow windows and last at least kShortestBelow_s in total. Empty: not ready, or no
-  // limit.
+  // After this time, the rates of all series with a limit are below their limits in all windows.
+  // These are at least kFewestBelow windows with a total length of at least kShortestBelow_s.
+  // Empty: not ready, or no limit.
   std::optional<double> ready_after_s;
 };
 
 inline constexpr std::size_t kFewestBelow = 3, kStepsOfWindow = 10, kFewestSteps = 6;
-inline constexpr double kShortestBelow_s = 600;  // thermal drift has time constants of minutes
+inline constexpr double kShortestBelow_s =
+    600;  // because thermal drift has time constants of minutes
 
-// Consecutive windows of kStepsOfWindow steps; an incomplete last window is left out. A rate is the
-// slope of the least-squares line through the readings of a window, its u is from their scatter
-// about the line. A window with fewer than kFewestSteps readings has no rate.
+// The windows are consecutive and have kStepsOfWindow time steps; an incomplete last window is left
+// out. The rate is the slope of the least-squares line through the readings of a window. The u of
+// the rate is from the scatter of the readings about the line. A window with fewer than
+// kFewestSteps readings has no rate.
 WarmUp warm_up(const ParkedReadings& readings);
 
 }  // namespace mdof::algo

@@ -57,7 +57,7 @@ MatrixXd LeastNorm::inverse() const {
   return cod_->solve(MatrixXd::Identity(cod_->rows(), cod_->rows()));
 }
 
-// With A P = Q [T 0; 0 0] Z, T does not act on the last rows of Z.
+// A P = Q [T 0; 0 0] Z, so A maps the directions in the last rows of Z to 0.
 MatrixXd LeastNorm::null_space() const {
   return cod_->colsPermutation() *
          cod_->matrixZ().bottomRows(cod_->cols() - cod_->rank()).transpose();

@@ -1,5 +1,5 @@
-// Linear equations of any size, solved by least squares. Eigen's templates cost the compiler
-// several seconds in each file that instantiates them, so only least_squares.cpp does.
+// Solves linear equations of any size by least squares. Only least_squares.cpp instantiates Eigen's
+// templates for this, because each file that instantiates them takes several seconds to compile.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,10 +7,10 @@
 
 namespace mdof::algo {
 
-// Solves A x = b if the columns of A are independent: QR by Householder reflections with column
-// pivoting (Golub, Van Loan, Matrix Computations, 4th ed., 5.4.2). A column whose pivot is at most
-// `rank_tolerance` times the largest pivot counts as dependent, and its unknown is 0. The default
-// tolerance is that of rounding.
+// Solves A x = b for independent columns of A. Method: QR decomposition with Householder
+// reflections and column pivoting (Golub, Van Loan, Matrix Computations, 4th ed., 5.4.2). A column
+// whose pivot is at most `rank_tolerance` times the largest pivot counts as dependent; its element
+// of x is 0. The default tolerance follows from rounding errors.
 class LeastSquares {
  public:
   explicit LeastSquares(const Eigen::MatrixXd& A);
@@ -21,14 +21,14 @@ class LeastSquares {
   Eigen::Index rank() const;
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
-  Eigen::MatrixXd basis() const;  // orthonormal columns: the span of the columns of A
+  Eigen::MatrixXd basis() const;  // orthonormal basis of the columns of A
 
  private:
   std::unique_ptr<Eigen::ColPivHouseholderQR<Eigen::MatrixXd>> qr_;
 };
 
-// Solves A x = b if A may not determine all of x: the least-squares solution with the smallest
-// norm, by a complete orthogonal decomposition (ibid., 5.5.2).
+// Solves A x = b if A may not determine all elements of x. Returns the least-squares solution with
+// the smallest norm. Method: complete orthogonal decomposition (ibid., 5.5.2).
 class LeastNorm {
  public:
   explicit LeastNorm(const Eigen::MatrixXd& A);
@@ -41,7 +41,7 @@ class LeastNorm {
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
   Eigen::MatrixXd inverse() const;  // pseudo-inverse: x = inverse() b
-  // Orthonormal columns: the part of x that A does not determine.
+  // Orthonormal basis of the part of x that A does not determine, as columns.
   Eigen::MatrixXd null_space() const;
 
  private:

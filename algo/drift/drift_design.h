@@ -1,6 +1,5 @@
-// Determines which part of a drift can be found from repeated visits of the same places. The model
-// is
-// y = error of the place + drift(time) + noise.
+// Determines which part of a drift can be found from repeated visits of the same places. The model:
+//   y = error of the place + drift(time) + noise
 //
 // A place is a target and a direction of approach. The error of a place is the same at each visit.
 // The drift is a Legendre polynomial in time. A part of the drift that is the same at every visit
@@ -40,9 +39,8 @@ class DriftDesign {
 
   explicit DriftDesign(std::vector<TimedVisit> visits);
 
-  int orders() const {
-    return orders_;
-  }  // highest order; 0: no drift can be distinguished from the form of the axis
+  // Highest order; 0: no drift can be distinguished from the form of the axis.
+  int orders() const { return orders_; }
   // Degrees of freedom of the residuals of all visits if the fit has the highest order.
   double freedom() const { return freedom_; }
   const std::vector<TimedVisit>& visits() const { return visits_; }

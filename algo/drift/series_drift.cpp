@@ -12,10 +12,9 @@ namespace {
 
 constexpr double kLeastNoise2 = 1e-24;                // (1 pm)², for readings without noise
 constexpr double kNearlyAsLikely = 7, kAsLikely = 2;  // differences of -2 log(likelihood)
-constexpr double kTaken =
-    1e-6;  // in sd of a score; smaller scores of a subtracted drift are rounding
-constexpr Eigen::Index kWaves =
-    12;  // number of waves of the slow noise: 1 to 12 half periods over the log
+// In sd of a score; smaller scores of a subtracted drift are rounding.
+constexpr double kTaken = 1e-6;
+constexpr Eigen::Index kWaves = 12;  // waves of the slow noise: 1 to 12 half periods in the log
 constexpr double kPi = 3.14159265358979323846;
 
 // Lower triangular L with L Lᵀ = S; values that rounding makes negative are set to 0.

@@ -19,7 +19,7 @@ struct SeriesDrift {
   double change = 0, u_change = 0;  // from the first visit to the last; standard uncertainty
   double range = 0;                 // highest minus lowest value at the visits
   double least_found = 0;           // smallest steady change that would be significant
-  bool steps = false;               // true: may be steps (run_drift.h), so the drift is not removed
+  bool steps = false;               // the change may be steps (run_drift.h), so it is not removed
   bool significant() const { return order > 0; }
 };
 
@@ -59,8 +59,8 @@ class DriftFit {
     Eigen::MatrixXd root;
     double sd = 0;  // sd of a score
     SlowNoise noise;
-    Eigen::MatrixXd of_waves,
-        of_white;  // effects of the waves and of the white noise on the scores
+    // Effects of the waves and of the white noise on the scores.
+    Eigen::MatrixXd of_waves, of_white;
   };
   void estimate(Eigen::Index series, const std::vector<WeighedFit>& fits, double noise2,
                 double critical_t);

@@ -34,8 +34,8 @@ struct WeighedFit {
   // scores.
   Eigen::MatrixXd scores;  // orders × series
   Eigen::MatrixXd root;    // orders × orders, upper
-  Eigen::MatrixXd left;    // series × series: products of the whitened residuals of the highest
-                           // order, summed over the rows
+  // series × series: products of the whitened residuals of the highest order, summed over the rows.
+  Eigen::MatrixXd left;
   double log_determinants = 0;
 
   Eigen::VectorXd shapes(const Eigen::VectorXd& polynomials) const;

@@ -52,8 +52,7 @@ struct WarmUp {
 };
 
 inline constexpr std::size_t kFewestBelow = 3, kStepsOfWindow = 10, kFewestSteps = 6;
-inline constexpr double kShortestBelow_s =
-    600;  // because thermal drift has time constants of minutes
+inline constexpr double kShortestBelow_s = 600;  // thermal drift has time constants of minutes
 
 // The windows are consecutive and have kStepsOfWindow time steps; an incomplete last window is left
 // out. The rate is the slope of the least-squares line through the readings of a window. The u of

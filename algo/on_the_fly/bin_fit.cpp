@@ -12,11 +12,12 @@ namespace {
 
 constexpr double kReject = 8.0, kStrictFactor = 12.0, kMadToSd = 1.4826;
 constexpr std::size_t kNeighbours = 5;
-// At the ends the neighbours are on one side and differ also by the bend.
+// The first and the last readings have neighbours on one side only, so the median of the neighbours
+// contains the bend, too.
 constexpr double kEnds = 0.5;
 constexpr std::size_t kUnknowns = 3;
 
-// Slope from the medians of the two halves, which a few spikes do not change.
+// Returns the slope between the medians of the two halves. A few spikes do not change the medians.
 double robust_slope(std::span<const double> place, std::span<const double> reading) {
   const std::size_t half = place.size() / 2;
   const auto middle = [](std::span<const double> x) {
@@ -27,7 +28,8 @@ double robust_slope(std::span<const double> place, std::span<const double> readi
   return (middle(reading.subspan(half)) - middle(reading.first(half))) / way;
 }
 
-// Distance of each reading from the median of its neighbours after the slope is subtracted.
+// Returns the distance of each reading from the median of its neighbours after subtraction of the
+// slope.
 std::vector<double> deviations_of(std::span<const double> place, std::span<const double> reading) {
   const double slope = robust_slope(place, reading);
   std::vector<double> level(reading.size()), out(reading.size());
@@ -44,8 +46,9 @@ std::vector<double> deviations_of(std::span<const double> place, std::span<const
   return out;
 }
 
-// Solution of the normal equations about the first reading. `variance` is the first diagonal
-// element of their inverse: the variance of the value per variance of a single reading.
+// The solution of the normal equations; the first reading is subtracted from all readings before.
+// `variance` is the variance of the value divided by the variance of a single reading: the first
+// diagonal element of the inverse of the normal equations.
 struct Parabola {
   double value = 0, slope = 0, bend = 0, variance = 0;
   double at(double x) const { return value + x * (slope + x * bend); }
@@ -70,8 +73,8 @@ Parabola parabola(std::span<const double> x, std::span<const double> y) {
           (c02 * t[0] + c12 * t[1] + c22 * t[2]) / determinant, c00 / determinant};
 }
 
-// A line through the median with the slope of the halves, because half of the readings may be
-// spikes.
+// Returns a line through the median of the readings with the slope robust_slope(), because up to
+// half of the readings may be spikes.
 Parabola robust_line(std::span<const double> place, std::span<const double> reading) {
   Parabola line;
   line.slope = robust_slope(place, reading);
@@ -86,8 +89,9 @@ double rejection_limit(std::vector<double> deviations, double coarse) {
   return std::max(coarse, kReject * kMadToSd * median_of(std::move(deviations)));
 }
 
-// Leaves out readings farther than the limit from this curve. `alone`: the neighbours showed no
-// spikes, so the limit is much larger, and deviations that last to an end, as after a step, stay.
+// Leaves out readings whose distance from this curve is above the limit. `alone`: no spikes were
+// found by means of the neighbours. Then the limit is much larger, and deviations that continue to
+// an end of the bin, as after a step, are kept.
 void keep_near(const Parabola& curve, double coarse, bool alone, std::vector<double>& x,
                std::vector<double>& y) {
   std::vector<double> left(y);
@@ -105,8 +109,9 @@ void keep_near(const Parabola& curve, double coarse, bool alone, std::vector<dou
   y.resize(kept);
 }
 
-// Correction of the slope at the target from a cubic term in the residuals of the parabola, for
-// readings that are evenly spread over the bin. Without it the slope in a wave is too small.
+// Returns a correction of the slope at the target. It is calculated from a cubic term in the
+// residuals of the parabola, for readings that are evenly spread over the bin. Without this
+// correction the slope is too small if the readings are a wave.
 double cubic_slope(std::span<const double> x, std::span<const double> left) {
   constexpr double kOdd = 0.6;
   double product = 0, square = 0;
@@ -134,7 +139,8 @@ BinFit fit_bin(std::span<const double> place, std::span<const double> reading, d
     x.push_back(place[i]);
     scratch.push_back(reading[i]);
   }
-  // If most of five neighbours are spikes, their median is a spike, and none of them was left out.
+  // If at least three of five neighbours are spikes, their median is a spike, so none of these
+  // spikes was left out.
   const bool alone = x.size() == reading.size();
   if (x.size() >= kLeastReadingsPerBin)
     keep_near(robust_line(place, reading), coarse, alone, x, scratch);

@@ -33,8 +33,9 @@ OnTheFly::OnTheFly(TargetGrid grid, std::vector<std::string> ids, std::vector<do
   probes_.step_m.resize(probes_.ids.size());
 }
 
-// Starts at the median of the first rows, because the first row alone may be wrong. The axis may be
-// moving already, so the time of these rows is allowed for the travel from their median.
+// Starts at the median of the first rows, because the first row alone may be wrong. The axis may
+// already be moving. So the travel from this median is limited by the largest speed times the time
+// of these rows.
 void OnTheFly::begin(const FrameBlock& frames) {
   std::vector<double> early;
   std::int64_t passed_ns = 0;
@@ -94,7 +95,7 @@ void OnTheFly::learn_resolution(const AxisPass& pass) {
   for (std::size_t k = 0; k < probes_.ids.size(); ++k) probes_.step_m[k] = resolution_.step_m(k);
 }
 
-// Whether a probe is alive is judged bin by bin, as it is stop by stop for dwells.
+// Checks for dead probes in each bin, as DwellDetector does in each stop.
 void OnTheFly::watch(const AxisPass& pass, const PassBins& bins) {
   auto bin = bins.bins.begin();
   for (std::size_t i = pass.first; i < pass.last; i += kWatchedRows) {

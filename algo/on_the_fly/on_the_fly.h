@@ -1,4 +1,5 @@
-// Calculates points at targets from frames of a continuously moving axis, in the form of dwells.
+// Calculates points at the targets from frames of an axis that moves without stopping. The points
+// have the same type as the points of stops.
 #pragma once
 
 #include <cstdint>
@@ -20,28 +21,29 @@
 
 namespace mdof::algo {
 
-// A stream: the result does not depend on how the frames are divided. It keeps the current pass and
-// the points in memory.
+// The result does not depend on how the frames are divided into blocks. The current pass and all
+// points are kept in memory.
 class OnTheFly {
  public:
   // `ids` and `range_m` of the probes are in the order of the frames.
   OnTheFly(TargetGrid grid, std::vector<std::string> ids, std::vector<double> range_m,
            double max_speed_m_s = DwellOptions().max_speed_m_s);
 
-  // Counts and leaves out frames without a position (place_watch.h). Errors: those of PassFinder.
+  // Counts frames without a position (place_watch.h) and leaves them out. Errors: the errors of
+  // PassFinder::push().
   Status push(const FrameBlock& frames);
   void flush();
 
-  // The points in the order of time, not yet solved; each pass over the targets is a run. A target
-  // at the ends is left out if it is not known beforehand and fewer than half of the passes moved
-  // over it at a steady speed.
+  // Returns the points in the order of time; their errors are not yet solved. Each pass over the
+  // targets is a run. An outermost target is left out if it was not specified before the run and
+  // fewer than half of the passes moved over it at a steady speed.
   Sequence sequence() const;
-  // Error: there is no point, with figures and a remedy.
+  // Error: there is no point. The error states measured values and what to change.
   Status check_has_points() const;
   // Notices about the log in addition to the points.
   Notices notices() const;
-  // Notices about the method: what a run in motion is, omitted bins, speeds, and the effects of
-  // motion.
+  // Notices about the method: that the run was measured in motion, omitted bins, speeds, and the
+  // effects of the motion.
   Notices statements() const;
 
   const DwellDetector::Summary& summary() const { return summary_; }

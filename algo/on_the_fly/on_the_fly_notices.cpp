@@ -13,8 +13,9 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kNmPerM = 1e9, kMicroseconds = 1e6, kMilliseconds = 1e3;
-constexpr double kSeenWave = 2.5;    // in bins; shorter waves are read more than 1 % too small
-constexpr double kOtherSpeed = 0.1;  // share of the speed of the run
+// wavelength in bins; shorter waves are measured more than 1 % too small
+constexpr double kSeenWave = 2.5;
+constexpr double kOtherSpeed = 0.1;  // difference of the speeds, as share of the smaller speed
 constexpr double kBriefDelay_s = 1e-6;
 
 struct Speeds {
@@ -39,7 +40,7 @@ std::string mm_s(double speed_m_s) {
   return plain_number(to_mm(speed_m_s), 4) + " mm/s";
 }
 
-// Root mean square over all bins.
+// Returns the root mean square of the standard deviations of all bins.
 double scatter_m(const std::vector<PassBins>& passes, std::size_t probe) {
   double square = 0, n = 0;
   for (const PassBins& pass : passes) {
@@ -91,7 +92,8 @@ Notice delay_notice(const std::string& id, const ReadingLag& lag) {
                  {"backlash_um", to_um(2 * std::abs(lag.delay_s) * lag.speed_m_s)}});
 }
 
-// Whether it is between accepted bins of its pass. Otherwise the axis accelerates or decelerates.
+// Returns whether the omitted bin is between accepted bins of its pass. Outside the accepted bins
+// the axis accelerates or decelerates.
 bool is_within(const PassBins& pass, const BinLeftOut& left) {
   const auto beyond = [&](const BinPoint& bin) {
     return (bin.point.position_m - left.position_m) * pass.direction > 0;
@@ -142,7 +144,8 @@ Status OnTheFly::check_has_points() const {
   }
   const double speed_m_s = way_m / passed_s, rate_hz = 1 / summary_.period_s;
   const double needed_m = static_cast<double>(kLeastReadingsPerBin + 1) * speed_m_s / rate_hz;
-  // If the axis stops between the bins, it passes the bins fast, and larger bins contain the stops.
+  // If the axis stops between the bins, it passes the bins fast. Larger bins would contain the
+  // stops.
   const bool too_small = needed_m > grid_.bin_m();
   if (too_small && (dense || count_left_out(passes_, BinFault::too_few) > 0)) {
     return bad_input("at " + mm_s(speed_m_s) + " and " + plain_number(rate_hz) + " Hz a bin of " +

@@ -13,17 +13,18 @@ namespace {
 
 constexpr double kMostUneven = 0.0075;  // share of a bin
 constexpr double kNoises = 3;
-constexpr double kCoarseSteps = 3.5;   // steps; smaller changes are flicker, not spikes
+// in steps of the reading; smaller changes are rounding, not spikes
+constexpr double kCoarseSteps = 3.5;
 constexpr double kCoarseShare = 1e-4;  // share of the range
 
 struct Rows {
   std::size_t first = 0, last = 0;
 };
 
-// Position over time in the rows of a bin.
+// The motion in the rows of a bin.
 struct Way {
   double speed_m_s = 0;
-  double uneven_m = 0;  // rms about a steady speed
+  double uneven_m = 0;  // rms deviation of the position from a steady motion
   double noise_m = 0;   // noise of the encoder, from second differences
 };
 
@@ -42,8 +43,9 @@ class Binning {
 
   double place_m(std::size_t row) const { return place_m_[row - pass_.first]; }
 
-  // Targets come in the order of time. In the direction of travel the bin begins where its range is
-  // first reached and ends where it is first left.
+  // Returns the rows of the bin of a target. Call it for the targets in the order of time. The bin
+  // begins where the axis first reaches the range of the bin and ends where the axis first leaves
+  // this range.
   Rows rows_of(double target_m) {
     const double along = pass_.direction, middle = along * target_m;
     std::size_t first = next_;
@@ -134,7 +136,8 @@ class Binning {
     return point;
   }
 
-  // Fits the probe's own samples, each once, because interpolated values contain nothing new.
+  // Fits each sample of the probe once. Interpolated values are not used, because they contain no
+  // new information.
   void fit(std::size_t probe, const Rows& rows, BinPoint& bin) {
     const std::string& id = probes_.ids[probe];
     const auto& fresh = frames_.probe_is_new[probe];

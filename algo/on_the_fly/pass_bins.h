@@ -13,9 +13,10 @@ namespace mdof::algo {
 
 struct BinPoint {
   std::int64_t place = 0;  // place number of the target (target_grid.h)
-  Point point;             // values at the target; sd is of the residuals of single readings
+  // values at the target; sd: standard deviation of the residuals of single readings
+  Point point;
   double speed_m_s = 0;
-  std::vector<double> slope;  // slope of each probe's reading over the position
+  std::vector<double> slope;  // for each probe: slope of the reading over the position
   std::size_t last_row = 0;   // index in the rows of the pass
 };
 
@@ -36,7 +37,7 @@ struct PassBins {
   double from_m = 0, to_m = 0;
   std::vector<BinPoint> bins;        // in the order of time
   std::vector<BinLeftOut> left_out;  // in the order of time
-  bool too_dense = false;            // more targets than scans, so no bin was evaluated
+  bool too_dense = false;            // there are more targets than scans, so no bin was evaluated
 };
 
 struct ProbesOfBins {
@@ -44,12 +45,15 @@ struct ProbesOfBins {
   std::vector<double> range_m, step_m;  // step of the readings; 0: unknown
 };
 
-// A bin is the time from the first arrival of the axis in its range of travel until it leaves this
-// range. A bin is left out in three cases. (1) The axis changes its speed: the rms of the position
-// about a straight line over time, without the encoder's noise, is above 0.75 % of the bin, as with
-// a change of a fifth, or with a stop of a twentieth of the bin's time. (2) It has fewer than
-// kLeastReadingsPerBin scans. (3) More than half of its time has no scans. `period_ns`: time
-// between two scans.
+// Each bin has a range of travel. The bin begins when the axis first reaches this range and ends
+// when the axis first leaves it. A bin is left out in three cases:
+// - The speed of the axis changes: the rms deviation of the position from a straight line over
+//   time, without the noise of the encoder, is above 0.75 % of the length of the bin. A change of
+//   the speed by a fifth, or a stop for a twentieth of the bin's time, has this effect.
+// - The bin has fewer than kLeastReadingsPerBin scans.
+// - More than half of the bin's time has no scans.
+//
+// `period_ns`: time between two scans.
 PassBins bins_of(const AxisPass& pass, const TargetGrid& grid, const ProbesOfBins& probes,
                  std::int64_t period_ns);
 

@@ -20,17 +20,17 @@ struct AxisPass {
   int direction = 0;  // +1, -1
 };
 
-// The axis has reversed when it has moved back by 50 µm. Rows at rest, before a reversal or during
-// a pass, belong to the pass. A stream: the result does not depend on how the frames are divided;
-// one pass is kept in memory. Each frame must have a position. A spike of a single position is no
-// reversal.
+// A reversal is found when the axis has moved back by 50 µm. Rows at rest, before a reversal or
+// during a pass, belong to the pass. A spike of a single position is no reversal. The result does
+// not depend on how the frames are divided into blocks. One pass is kept in memory. Each frame must
+// have a position.
 class PassFinder {
  public:
   using Take = std::function<void(const AxisPass&)>;
 
-  // Calls `take` for each complete pass. Error: a pass with too many scans to keep.
+  // Calls `take` for each complete pass. Error: a pass with more than kMostScans scans.
   Status push(const FrameBlock& frames, std::size_t first, std::size_t last, const Take& take);
-  // Ends the data and takes the last pass.
+  // Ends the data and calls `take` for the last pass.
   void flush(const Take& take);
 
   static constexpr std::size_t kMostScans = std::size_t{1} << 22;  // per pass
@@ -51,8 +51,9 @@ class PassFinder {
   Extreme low_, high_;  // since the last reversal
 };
 
-// The median of the encoder's reading and its two neighbours. It removes a single wrong count and
-// does not change a steady motion. At the ends of the rows it is the reading.
+// Returns the median of the encoder's readings in this row and in the two rows next to it. The
+// median removes a single wrong count and does not change a steady motion. In the first and the
+// last row it is the reading itself.
 double median_position(const FrameBlock& frames, std::size_t row);
 
 }  // namespace mdof::algo

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kFewestTargets = 12;
 constexpr double kSignificant = 5, kLeast_m = 2e-9;
-constexpr double kSlopeChanges = 0.01;  // share of its rms, without a constant and a line
+// rms of the slope after subtraction of a line, as share of the rms of the slope
+constexpr double kSlopeChanges = 0.01;
 constexpr double kMostCorrelated = 0.9;
 
 // Sums of a probe at a target in one direction.
@@ -63,7 +64,8 @@ std::vector<Difference> differences_of(const std::vector<PassBins>& passes, std:
   return rows;
 }
 
-// Factor of the standard deviation of a sum if neighbours are correlated.
+// Returns the factor by which the standard deviation of a sum increases if neighbouring residuals
+// are correlated.
 double widened_by(const Eigen::VectorXd& residuals) {
   double square = 0, product = 0;
   for (Eigen::Index i = 0; i < residuals.size(); ++i) {

@@ -12,10 +12,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMostBin_mm = 1;  // default limit; a longer bin must be requested
+constexpr double kMostBin_mm = 1;  // limit of the default; a longer bin must be requested
 constexpr double kLeastBin_mm = 1e-3;
 constexpr double kMostTargets = 10'000;
-constexpr double kAlike = 1e-9;      // share of an interval
+constexpr double kAlike = 1e-9;      // tolerance of equal intervals, as share of an interval
 constexpr double kPicometres = 1e9;  // per mm: rounds 3 times 0.1 mm to 0.3 mm
 
 double least_distance_mm(const std::vector<double>& targets_m) {

@@ -11,24 +11,24 @@
 namespace mdof::algo {
 
 struct OnTheFlyOptions {
-  // Distance between targets: from from_mm on, or else at multiples of the interval. 0: the targets
-  // are those of the run (SequenceOptions::targets_m).
+  // Distance between targets. The first target is at from_mm; without from_mm the targets are at
+  // multiples of the interval. 0: uses the targets of the run (SequenceOptions::targets_m).
   double interval_mm = 1;
-  double bin_mm = 0;  // length of a bin; 0: target to target, at most 1 mm
-  // Range of the targets; empty: up to where the axis moves at a steady speed.
+  double bin_mm = 0;  // length of a bin; 0: the distance between targets, at most 1 mm
+  // Range of the targets; empty: the range in which the axis moves at a steady speed.
   std::optional<double> from_mm, to_mm;
 
   std::string json() const;  // for the provenance
 };
 
-// Errors (usage), which name the key: neither interval nor targets; an empty range; bins that
-// overlap or are too small for any encoder; more than 10,000 targets.
+// Errors (usage), which state the key: neither interval nor targets; an empty range; bins that
+// overlap or that are too small for any encoder; more than 10,000 targets.
 Status check_on_the_fly(const OnTheFlyOptions& options, const std::vector<double>& targets_m);
 
 class TargetGrid {
  public:
-  // `options` must pass check_on_the_fly(). `targets_m` is ascending and used if there is no
-  // interval.
+  // `options` must pass check_on_the_fly(). `targets_m` is ascending; it is used only if the
+  // interval is 0.
   TargetGrid(const OnTheFlyOptions& options, std::vector<double> targets_m);
 
   struct Target {
@@ -36,10 +36,10 @@ class TargetGrid {
     double position_m = 0;
   };
   double bin_m() const { return bin_m_; }
-  // Targets whose whole bins are between these positions, ascending; empty if there are more than
-  // `most`.
+  // Returns the targets whose bins are completely between these positions, in ascending order;
+  // empty if there are more than `most` targets.
   std::vector<Target> between(double low_m, double high_m, std::size_t most) const;
-  // All targets if they are known beforehand (a list, or both ends); otherwise empty.
+  // Returns all targets if the options contain a list or both ends of the range; otherwise empty.
   std::vector<Target> known() const;
 
  private:

@@ -13,7 +13,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kNmPerM = 1e9, kMicroseconds = 1e6, kMilliseconds = 1e3;
-// wavelength in bins; shorter waves are measured more than 1 % too small
+// Wavelength in bins; shorter waves are measured more than 1 % too small.
 constexpr double kSeenWave = 2.5;
 constexpr double kOtherSpeed = 0.1;  // difference of the speeds, as share of the smaller speed
 constexpr double kBriefDelay_s = 1e-6;

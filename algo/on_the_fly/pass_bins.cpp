@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMostUneven = 0.0075;  // share of a bin
 constexpr double kNoises = 3;
-// in steps of the reading; smaller changes are rounding, not spikes
+// In steps of the reading; smaller changes are rounding, not spikes.
 constexpr double kCoarseSteps = 3.5;
 constexpr double kCoarseShare = 1e-4;  // share of the range
 

@@ -13,7 +13,7 @@ namespace mdof::algo {
 
 struct BinPoint {
   std::int64_t place = 0;  // place number of the target (target_grid.h)
-  // values at the target; sd: standard deviation of the residuals of single readings
+  // Values at the target; sd: standard deviation of the residuals of single readings.
   Point point;
   double speed_m_s = 0;
   std::vector<double> slope;  // for each probe: slope of the reading over the position

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kFewestTargets = 12;
 constexpr double kSignificant = 5, kLeast_m = 2e-9;
-// rms of the slope after subtraction of a line, as share of the rms of the slope
+// Rms of the slope after subtraction of a line, as share of the rms of the slope.
 constexpr double kSlopeChanges = 0.01;
 constexpr double kMostCorrelated = 0.9;
 

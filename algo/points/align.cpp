@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kGapIntervals = 2.5;
 
-// Columns of an empty frame block may contain anything. They are swapped as a whole, so that the
-// driver can reuse their memory.
+// If the frame block is empty, its columns may contain old values. The columns are then swapped, so
+// that the driver can reuse their memory.
 template <class T>
 void append_or_take(std::vector<T>& to, std::vector<T>& from, bool empty) {
   if (empty) {
@@ -43,7 +43,7 @@ void clear_columns(FrameBlock& frames) {
   for (auto& column : frames.probe_is_new) column.clear();
 }
 
-// The quality of a reading is at most that of its position.
+// The quality of a reading is not better than the quality of its position.
 void raise_to(std::vector<Quality>& quality, std::size_t before,
               const std::vector<Quality>& least) {
   quality.resize(before + least.size(), Quality::good);
@@ -77,9 +77,11 @@ Aligner::Aligner(AlignOptions options, std::vector<std::string> probe_ids)
   lag_bound_ns_ = to_ns(options_.lag_bound_s) + delay_ns_;
 }
 
-// Whether the block has all channels of the rig. Finds their columns; -1: the channel is missing.
+// Returns whether the frames can be copied from this block: it has all channels of the rig, and no
+// probe has a delay. Finds the columns of the channels; -1: the channel is missing.
 bool Aligner::whole(const SampleBlock& block) {
-  if (block.channels.size() <= probes_.size()) return false;  // one of several devices
+  // The block is from one of several devices.
+  if (block.channels.size() <= probes_.size()) return false;
   if (!options_.delay_s.empty()) return false;  // the readings of a scan have different times
   if (block.channels != known_channels_) {
     known_channels_ = block.channels;
@@ -113,8 +115,8 @@ void Aligner::take_whole(SampleBlock& block, FrameBlock& out) {
   append_or_take(out.time_ns, block.time_ns, before == 0);
 }
 
-// If the quality of the encoder is neither good nor simulated (the probes are then simulated, too),
-// the quality of no probe is better.
+// The quality of a probe is not better than the quality of the encoder. Nothing changes if the
+// encoder is good, or simulated (then the probes are simulated, too).
 void Aligner::limit_probe_quality(FrameBlock& out, std::size_t before,
                                   const SampleBlock& block) const {
   const auto encoder = static_cast<std::size_t>(channel_of_.back());
@@ -171,7 +173,8 @@ Status Aligner::enqueue_channel(const SampleBlock& block, std::size_t channel, T
   return {};
 }
 
-// The value of a track at a time that it has reached. Drops the samples that no later time needs.
+// Returns the value of a track at a time up to its newest sample. Drops the samples that are not
+// necessary for later times.
 Aligner::Reading Aligner::value_at(Track& track, std::int64_t time_ns) {
   auto& readings = track.readings;
   ++track.asked;
@@ -192,10 +195,11 @@ Aligner::Reading Aligner::value_at(Track& track, std::int64_t time_ns) {
   return {time_ns, a.value + (b.value - a.value) * share, std::max(a.quality, b.quality)};
 }
 
-// Whether the value at this time contains a new sample of the probe. Call value_at() before.
+// Returns whether the value at this time contains a new sample of the probe. Call value_at()
+// before.
 bool Aligner::has_fresh(Track& track, std::int64_t time_ns) {
   const auto& readings = track.readings;
-  if (readings.empty()) return true;  // without any sample nothing is repeated
+  if (readings.empty()) return true;  // no sample is repeated
   const std::int64_t newest = readings.front().time_ns >= time_ns || readings.size() < 2
                                   ? readings.front().time_ns
                                   : readings[1].time_ns;
@@ -204,7 +208,8 @@ bool Aligner::has_fresh(Track& track, std::int64_t time_ns) {
   return fresh;
 }
 
-// A column appears with the first 0; a probe as fast as the encoder has no column.
+// The column is added at the first row without a new sample, so a probe as fast as the encoder has
+// no column.
 void Aligner::mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bool fresh) const {
   if (out.probe_is_new.size() < probes_.size()) out.probe_is_new.resize(probes_.size());
   auto& column = out.probe_is_new[probe];
@@ -226,7 +231,7 @@ void Aligner::emit(FrameBlock& out, bool at_end) {
     for (std::size_t k = 0; k < probes_.size(); ++k) {
       Reading r = value_at(probes_[k], at.time_ns);
       mark_fresh(out, row, k, has_fresh(probes_[k], at.time_ns));
-      r.quality = std::max(r.quality, at.quality);  // the position may be uncertain
+      r.quality = std::max(r.quality, at.quality);  // the position may have a worse quality
       given_up_ += r.quality == Quality::missing;
       out.probe_m[k].push_back(r.value);
       if (r.quality != Quality::good || !out.probe_quality[k].empty()) {

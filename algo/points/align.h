@@ -16,51 +16,56 @@
 namespace mdof::algo {
 
 struct AlignOptions {
-  // A probe without samples for longer than this before the newest sample is marked as missing at
-  // these times, so that one dead device does not delay the others. The value is longer than any
-  // driver waits for a silent device. So late samples arrive in time, and a replay, in which the
-  // samples of devices alternate in other portions, gives the same frames.
+  // The aligner waits for the samples of a probe up to this time before the newest sample of all
+  // channels. Then the values of the probe are marked as missing, so that one dead device does not
+  // delay the others. The time is longer than the time that any driver waits for a silent device.
+  // So late samples are not lost, and a replay gives the same frames although it mixes the samples
+  // of the devices in different blocks.
   double lag_bound_s = 3;
-  // Samples further apart than this have a gap between them, and nothing is interpolated in a gap.
+  // If the time between two samples is longer than this, it is a gap. Values in a gap are not
+  // interpolated.
   double max_gap_s = 0.05;
-  // Time between the samples of slow channels, as their devices state it. For these a gap begins at
-  // 2.5 times this interval, so that one late or lost sample is ignored.
+  // Time between two samples of each slow channel, as its device states it. For these channels only
+  // a time above 2.5 intervals is a gap, so that one late or lost sample is ignored.
   std::map<std::string, double> interval_s = {};
-  // Delay of a probe's readings relative to the encoder's, in addition to their time stamps (a
-  // filter, the order of a scan); negative: earlier. A reading is assigned to this time before its
-  // stamp. If any probe has a delay, the scans of a single device are interpolated, too.
+  // Delay of each probe's readings relative to the readings of the encoder, caused for example by a
+  // filter or by the order of channels in a scan. The time stamps do not contain this delay, so it
+  // is subtracted from the time stamp of each reading. Negative: the readings are earlier than the
+  // encoder's. If any probe has a delay, the scans of a single device are interpolated, too.
   std::map<std::string, double> delay_s = {};
 
   double gap_s(const std::string& channel) const;
 };
 
-// Takes calibrated blocks (Unit::metre). If one device gives the encoder and all probes, and none
-// has a delay, its scans are the frames, bit for bit. Otherwise each probe is interpolated linearly
-// between its two samples around the time of the encoder; the quality is the worst of the two and
-// the encoder's. If a probe is slower than the encoder, frames mark the times with a new sample of
-// the probe (probe_is_new); other times repeat known values. While the encoder is silent, probe
-// samples are kept for twice the lag bound plus one second; later samples of the encoder are newer.
-// Thread-bound.
+// Converts calibrated blocks (Unit::metre) to frames. Thread-bound.
+// - If one device measures the encoder and all probes, and no probe has a delay, the scans of the
+//   device become the frames without any change.
+// - Otherwise each probe is interpolated linearly between its two samples around the time of the
+//   encoder. The quality is the worst quality of the two samples and of the encoder's sample.
+// - If a probe is slower than the encoder, probe_is_new marks the rows that contain a new sample of
+//   the probe. The other rows contain no new information about the probe.
+// - If no encoder samples arrive, probe samples are kept for twice the lag bound plus one second,
+//   because later samples of the encoder are newer.
 class Aligner {
  public:
   Aligner(AlignOptions options, std::vector<std::string> probe_ids);
 
-  // Takes the block's columns (swaps or moves them) and appends complete frames to `out`. If its
-  // time_ns is empty, the other columns of `out` are discarded. Error: time of a channel goes
-  // backwards (names channel and times).
+  // Takes the columns of the block (by swap or move) and appends complete frames to `out`. If
+  // out.time_ns is empty, the other columns of `out` are discarded. Error: the time of a channel
+  // goes backwards; the error states the channel and the times.
   Status push(SampleBlock& block, FrameBlock& out);
-  // Ends the data and gives the pending frames, with missing values where no sample came. The last
-  // times, whose delayed readings are still to come, are left out.
+  // Ends the data and appends the pending frames to `out`, with missing values where no sample
+  // arrived. The last times are left out if the delayed readings for them have not arrived.
   void flush(FrameBlock& out);
 
-  // The channel that delays the frames now; empty: none.
+  // The channel for whose samples the aligner waits; empty: it waits for no channel.
   std::optional<std::string> waiting_for() const;
-  std::uint64_t given_up() const { return given_up_; }  // probe values that never came
-  // Probe samples that wait for the encoder; limited by the lag bound, also if the encoder is
-  // silent.
+  std::uint64_t given_up() const { return given_up_; }  // probe values that did not arrive in time
+  // Number of probe samples that wait for samples of the encoder. The lag bound limits it, also if
+  // no encoder samples arrive.
   std::size_t waiting() const;
-  // Notices of probes most of whose values are missing only because their samples are further apart
-  // than the gap, by id.
+  // Notices about probes whose values are mostly missing because the time between two samples is
+  // longer than the gap. Key: id of the probe.
   std::map<std::string, Notice> too_slow() const;
 
  private:
@@ -73,9 +78,9 @@ class Aligner {
     std::string id;
     std::deque<Reading> readings;
     std::int64_t newest_ns = INT64_MIN;
-    std::int64_t used_ns = INT64_MIN;  // its newest sample in the frames
+    std::int64_t used_ns = INT64_MIN;  // time of the newest sample that is in the frames
     std::int64_t gap_ns = 0, delay_ns = 0;
-    std::uint64_t asked = 0, in_gap = 0;  // values, and values in a gap
+    std::uint64_t asked = 0, in_gap = 0;  // number of values, and number of values in a gap
     std::int64_t shortest_gap_ns = INT64_MAX;
   };
 

@@ -16,16 +16,18 @@ namespace {
 
 constexpr std::size_t kSlotsPerWindow = 4;
 constexpr double kAutoTolerance_m = 2e-6;
-// Noise of sd σ after the median of three stays within 5 σ over a window.
+// For noise with the standard deviation σ, the range of the medians of three readings over a window
+// is at most about 5 σ.
 constexpr double kAutoNoiseFactor = 6;
-constexpr double kCreepFactor = 5.0;  // a stop with a larger wander, in tolerances, creeps
+// Range of a stop in tolerances; a stop with a larger range creeps.
+constexpr double kCreepFactor = 5.0;
 constexpr std::size_t kRowsForPeriod = 33;
 constexpr std::size_t kMinScansPerSlot = 4;
-constexpr std::int64_t kHolePeriods = 5;          // must also be longer than a slot
-constexpr std::int64_t kUnseen_ns = 500'000'000;  // in which an axis may have reversed
+constexpr std::int64_t kHolePeriods = 5;          // a hole is also longer than the window
+constexpr std::int64_t kUnseen_ns = 500'000'000;  // the axis may reverse in this time
 constexpr double kMostCreep_m = 50e-6;            // largest creep of a stop that becomes a point
 constexpr std::size_t kPathLength = 64;
-constexpr std::size_t kDropRows = 4096;  // unused rows before the buffer is moved up
+constexpr std::size_t kDropRows = 4096;  // rows that are dropped together
 
 double median3(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -72,7 +74,8 @@ void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
   push_from(frames, from, out);
 }
 
-// Collects the first rows that have a position; returns where the others begin.
+// Collects the first kRowsForPeriod rows that have a position. Returns the index of the first row
+// that is not collected.
 std::size_t DwellDetector::gather_early(const FrameBlock& frames) {
   std::size_t from = 0;
   while (from < frames.size() && early_.size() < kRowsForPeriod) {
@@ -106,7 +109,7 @@ void DwellDetector::push_from(const FrameBlock& frames, std::size_t from, std::v
   }
 }
 
-// Rows from ... to - 1, each with a place.
+// Pushes the rows from ... to - 1, which all have a place.
 void DwellDetector::push_rows(const FrameBlock& frames, std::size_t from, std::size_t to,
                               std::vector<Point>& out) {
   append_rows(buffer_, frames, from, to);
@@ -156,7 +159,7 @@ void DwellDetector::begin_travelled_range(double position_m) {
   travelled_range_ = {position_m, position_m};
 }
 
-// Rows row_ ... to - 1 belong to the open slot.
+// Adds the rows row_ ... to - 1 to the open slot.
 void DwellDetector::add_rows(std::size_t to) {
   double low = open_.rows ? open_.min_m : std::numeric_limits<double>::infinity();
   double high = open_.rows ? open_.max_m : -low;
@@ -247,7 +250,7 @@ void DwellDetector::begin_dwell() {
   still_since_ns_ = slots_.front().begin_ns;
   unplaced_before_ = slots_.front().unplaced;
   // A knock or a glitch of the encoder within a stop is no new approach. In a slow log the slots
-  // are so long that the axis can move past an end target and return within them.
+  // are so long that the axis can move past an end target and return within one slot.
   const bool is_slow = slot_ns_ > static_cast<std::int64_t>(options_.window_s * 1e9) /
                                       static_cast<std::int64_t>(kSlotsPerWindow);
   const bool went_off = is_slow && (left_m_ - range_since_stop_.min_m > options_.approach_m ||
@@ -262,7 +265,8 @@ void DwellDetector::begin_dwell() {
   cut_row_ = slots_.front().first_row + options_.max_scans;
 }
 
-// The newest slot is outside the window; the slot before it may contain the start of the motion.
+// Call it when the newest slot has left the tolerance. The slot before it may contain the start of
+// the motion.
 void DwellDetector::end_dwell(std::vector<Point>& out) {
   dwelling_ = false;
   last_stop_is_point_ = false;
@@ -293,7 +297,8 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
   extend_travelled_range(slots_[slots_.size() - 2]);
 }
 
-// The first row of a stop whose reading may contain the next motion; `last` may contain its start.
+// Returns the first row of a stop whose reading may contain the next motion. `last` is the slot
+// that may contain the start of this motion.
 std::size_t DwellDetector::find_rest_end(const Slot& last) const {
   if (!(options_.leave_s > 0)) return last.first_row;
   const auto until_ns = last.begin_ns - std::llround(options_.leave_s * 1e9);
@@ -301,8 +306,8 @@ std::size_t DwellDetector::find_rest_end(const Slot& last) const {
   return static_cast<std::size_t>(end - buffer_.time_ns.begin());
 }
 
-// Readings of a stop that creeps a little belong to its mean position. A stop that creeps far is a
-// slow travel.
+// A stop that creeps by at most kMostCreep_m becomes a point at its mean position. A stop that
+// creeps farther is a slow motion and becomes no point.
 bool DwellDetector::keep_or_report(Point point, std::size_t first_row, std::size_t end_row,
                                    std::vector<Point>& out) {
   const auto begin = buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(first_row);
@@ -333,7 +338,7 @@ void DwellDetector::drop_rows(std::size_t row) {
   row_ -= row;
 }
 
-// The dwell continues, but its averaging has ended: closed slots after the cut are not kept.
+// The dwell continues, but max_scans is reached. Drops the rows of closed slots after the cut.
 void DwellDetector::drop_cut_rows() {
   const std::size_t end = slot_open_ ? open_.first_row : row_;
   erase_rows(buffer_, cut_row_, end);
@@ -346,8 +351,8 @@ void DwellDetector::break_after(std::int64_t time_ns) {
   breaks_.push_back(time_ns);
 }
 
-// The axis was not observed for some time. This is reported, and after a longer time the approach
-// is unknown, too.
+// The axis was not observed for some time. Reports this; after a longer time the approach is
+// unknown, too.
 void DwellDetector::pass_hole() {
   const std::int64_t length_ns = buffer_.time_ns[row_] - last_ns_;
   const double before_m = encoder_before_[1];
@@ -374,7 +379,8 @@ void DwellDetector::flush(std::vector<Point>& out) {
   end_visible_rows(out);
 }
 
-// The axis may still be at rest. Empty slots replace those that would leave the window.
+// The axis may still be at rest. Two empty slots replace the slots that would follow after the end
+// of the rest.
 void DwellDetector::end_visible_rows(std::vector<Point>& out) {
   if (slot_open_) close_slot(out);
   if (!dwelling_) return;

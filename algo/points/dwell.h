@@ -1,4 +1,4 @@
-// Finds the stops of the axis in frames and averages each of them to a point.
+// Finds the stops of the axis in frames and averages the rows of each stop to a point.
 #pragma once
 
 #include <array>
@@ -25,46 +25,49 @@ namespace mdof::algo {
 
 // The defaults suit logs of stages that settle within a tenth of a second.
 struct DwellOptions {
-  // The axis is at rest while the encoder stays within this over `window_s`. 0: 2 µm, or six times
-  // the encoder's own noise (its sd) if this is more.
+  // The axis is at rest if the range of the encoder's readings during `window_s` is at most this.
+  // 0: the larger value of 2 µm and six standard deviations of the encoder's noise.
   double tolerance_m = 0;
   double window_s = 0.05;
-  double settle_s = 0.1;  // left out at the start of each stop
-  // Left out at the end of each stop: readings of a filter that contain the next motion.
+  double settle_s = 0.1;  // time that is left out at the start of each stop
+  // Time that is left out at the end of each stop, because readings of a filter there contain the
+  // next motion.
   double leave_s = 0;
   // Shortest averaged time; a shorter stop (a reversal) is no dwell.
   double min_length_s = 0.1;
   double approach_m = 50e-6;  // travel that determines the direction of approach
   // Largest speed of the axis; positions that it cannot reach are left out.
   double max_speed_m_s = 100;
-  std::size_t max_scans = std::size_t{1} << 19;  // averaged per dwell; bounds memory
+  // Largest number averaged for a dwell; limits the memory.
+  std::size_t max_scans = std::size_t{1} << 19;
 
   // Shortest stop that becomes a dwell.
   double shortest_s() const { return settle_s + min_length_s + leave_s; }
   std::string json() const;  // for the provenance of a result
 };
 
-// A deterministic stream: the points do not depend on how the frames are divided into blocks.
-// Thread-bound. Memory is bounded by max_scans.
+// The points do not depend on how the frames are divided into blocks. max_scans limits the memory.
+// Thread-bound.
 class DwellDetector {
  public:
   // `probe_ids` and `probe_range_m` in the order of the frames' probes.
   DwellDetector(DwellOptions options, std::vector<std::string> probe_ids,
                 std::vector<double> probe_range_m);
 
-  // Appends the points that became complete. A median of three removes spikes of one sample from
-  // the encoder. Frames without a place (place_watch.h) are counted and left out; many in a row are
-  // a gap.
+  // Appends the points of complete stops to `out`. A median of three readings removes spikes of one
+  // sample from the encoder. Frames without a place (place_watch.h) are counted and left out; many
+  // consecutive frames without a place are a gap.
   void push(const FrameBlock& frames, std::vector<Point>& out);
-  // Frames after this time are not yet pushed. Between this time and the next frame the axis was
-  // not observed: a dwell ends here, and the approach of the next one is unknown.
+  // States that the axis was not observed between this time and the next frame. The current dwell
+  // ends at this time, and the approach of the next dwell is unknown. Call it before frames after
+  // this time are pushed.
   void break_after(std::int64_t time_ns);
   // Ends the data; the current dwell is complete.
   void flush(std::vector<Point>& out);
 
-  // Adds what only the whole log so far shows. Points of a probe that froze or stepped are marked.
-  // A constant reading of a stop that was averaged before the resolution of its probe was known
-  // gets the uncertainty of the rounding.
+  // Changes the points by means of the whole log so far. Adds flags to the points of a probe that
+  // froze or stepped. If a stop with a constant reading was averaged before the resolution of the
+  // probe was known, sets the uncertainty of the rounding.
   void mark(std::vector<Point>& points) const;
   // Notices about the log in addition to the points.
   Notices notices(const std::vector<Point>& points) const;
@@ -78,12 +81,12 @@ class DwellDetector {
     std::uint64_t unplaced = 0;  // frames without a place (place_watch.h), not in `scans`
     double longest_still_s = 0;  // to explain why no stop was found
     double tolerance_m = 0;      // at the end
-    // Stops that gave no point because they are too short or creep; the first kMaxPassedOver of
-    // them.
+    // Stops that became no point because they are too short or creep; only the first
+    // kMaxPassedOver.
     struct PassedOver {
       double position_m = 0, length_s = 0;
       std::int64_t begin_ns = 0;
-      bool too_short = false;  // false: it crept
+      bool too_short = false;  // false: the axis crept
     };
     std::vector<PassedOver> passed_over;
   };
@@ -92,18 +95,18 @@ class DwellDetector {
   bool still() const { return dwelling_; }
 
  private:
-  static constexpr std::size_t kMinScans = 5;  // per dwell, and per probe in it
+  static constexpr std::size_t kMinScans = 5;  // of a dwell, and of each probe in a dwell
   static constexpr int kGapPeriods = 3;
 
-  // A quarter of the window, the time step of detection.
+  // The time step of the detection: a quarter of window_s.
   struct Slot {
     std::int64_t index = 0;
     std::size_t first_row = 0, rows = 0;  // in buffer_
     std::int64_t begin_ns = 0;
     double min_m = 0, max_m = 0;
-    double bend_m = 0;           // sum of |second differences|: noise at any speed
-    double sharp_m = 0;          // largest of them
-    std::uint64_t unplaced = 0;  // frames without a place before it, since the beginning
+    double bend_m = 0;           // sum of |second differences|, a measure of the noise at any speed
+    double sharp_m = 0;          // largest |second difference|
+    std::uint64_t unplaced = 0;  // frames without a place from the beginning to this slot
     double middle() const { return 0.5 * (min_m + max_m); }
   };
 
@@ -138,7 +141,7 @@ class DwellDetector {
   std::span<const double> own_readings(std::size_t probe, std::size_t from, std::size_t to,
                                        std::size_t& usable_rows, OverRange& over_range);
   void average_probe(std::size_t probe, std::size_t from, std::size_t to, Point& point);
-  void drop_rows_before(std::size_t row);  // only if the move of the remaining rows is worth it
+  void drop_rows_before(std::size_t row);  // only if there are kDropRows such rows
   void drop_rows(std::size_t row);
   void drop_cut_rows();
 
@@ -159,7 +162,7 @@ class DwellDetector {
   bool slot_open_ = false;
   NoiseFloor encoder_noise_;
   std::deque<double> path_;          // positions at least approach_m apart, newest last
-  std::deque<std::int64_t> breaks_;  // breaks that are not reached yet
+  std::deque<std::int64_t> breaks_;  // times of break_after() that the frames have not reached
 
   bool dwelling_ = false, truncated_ = false;
   std::int64_t still_since_ns_ = 0;
@@ -170,13 +173,14 @@ class DwellDetector {
   struct Way {
     double min_m = 0, max_m = 0;
   };
-  // Whether the axis was observed since the point before, or since the beginning.
+  // Whether the axis was observed without interruption since the last point, or since the
+  // beginning.
   bool travel_observed_ = true;
-  // Since then; and up to the start of the last stop.
+  // Range since the last point (or the beginning), and range up to the start of the last stop.
   Way travelled_range_, range_to_stop_;
   Way range_since_stop_;             // since the axis left the last stop
   bool last_stop_is_point_ = false;  // for the last stop
-  int direction_ = 0;  // direction of approach, determined before the axis leaves again
+  int direction_ = 0;                // direction of approach of the current stop
   std::vector<double> scratch_, finite_;
 
   std::vector<DwellEvent> events_;
@@ -184,7 +188,7 @@ class DwellDetector {
   SlowStretch slow_;
   EncoderJump last_jump_;
   double jumped_m_ = 0;              // sum of the encoder's jumps
-  std::int64_t jumps_until_ns_ = 0;  // jumps were searched up to this time
+  std::int64_t jumps_until_ns_ = 0;  // jumps were searched for up to this time
 };
 
 }  // namespace mdof::algo

@@ -1,4 +1,4 @@
-// Averages a dwell: position and probes.
+// Averages the position and the probes of a dwell.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kCoarseSteps = 3.5;  // steps; smaller changes are flicker, not spikes
+constexpr double kCoarseSteps = 3.5;  // in steps of the reading; smaller changes are rounding
 
 bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
@@ -43,8 +43,8 @@ Point DwellDetector::average(std::size_t from, std::size_t to) {
   return point;
 }
 
-// The usable readings of a probe, each of its own samples once. Without marks every finite value is
-// usable.
+// Returns the usable readings of a probe. Each sample of the probe is used once, by means of
+// probe_is_new. Without quality marks, every finite value is usable.
 std::span<const double> DwellDetector::own_readings(std::size_t probe, std::size_t from,
                                                     std::size_t to, std::size_t& usable_rows,
                                                     OverRange& over_range) {

@@ -1,4 +1,4 @@
-// Events of a log during stops and motions that the points alone do not show.
+// Events of a log that are not visible in the points.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 namespace mdof::algo {
 
 enum class DwellEventKind {
-  creep,       // a stop that moved by size_m within length_s: no point
-  crept,       // the same with a small size_m: the point has the flag "creep"
+  creep,       // the axis crept by size_m within length_s: the stop became no point
+  crept,       // the axis crept by a small size_m: the point has the flag "creep"
   short_stop,  // a stop of length_s, too short to be averaged
-  hole,        // no frames for length_s; meanwhile the axis moved by size_m
+  hole,        // no frames for length_s; the axis moved by size_m in this time
   jump,        // the encoder's count jumped by size_m
 };
 
@@ -24,9 +24,10 @@ struct DwellEvent {
   double size_m = 0, length_s = 0;
 };
 
-// A notice for each event: position, time after `start_ns`, figures; of many similar events the
-// first ones and their number. Short and creeping stops outside the outermost points are reversals
-// of the axis, and those next to a point are part of its stop: both are not reported.
+// Returns a notice for each event with its position, its time after `start_ns` and its values. If
+// there are many similar events, it returns notices for the first events and one with their number.
+// Two kinds of short and creeping stops are not reported: stops outside the outermost points are
+// reversals of the axis; stops next to a point are parts of the stop of this point.
 Notices event_notices(const std::vector<DwellEvent>& events, const std::vector<Point>& points,
                       std::int64_t start_ns, double needed_s);
 

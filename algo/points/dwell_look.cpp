@@ -1,5 +1,4 @@
-// Events that the dwell detection finds besides the stops: creeping, jumps, probes that froze or
-// stepped.
+// Finds events besides the stops: creeping, jumps, and probes that froze or stepped.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +9,9 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kJumpTolerances = 10;
-constexpr std::size_t kReach = 6;  // rows that find_jump() needs on either side
+constexpr std::size_t kReach = 6;  // rows that find_jump() needs before and after a jump
 constexpr std::int64_t kGlitch_ns = 1'000'000'000;
-constexpr double kSlowTravel_m = 200e-6;  // a longer travel is no creeping stop
+constexpr double kSlowTravel_m = 200e-6;  // a longer travel is a motion, not a creeping stop
 constexpr std::size_t kMostEvents = 10'000;
 
 }  // namespace
@@ -42,7 +41,8 @@ void DwellDetector::examine_window(bool still) {
   find_encoder_jump();
 }
 
-// A count that returns within a second is a glitch: the positions after it are correct.
+// A jump of the count that is reversed within a second is a glitch; the positions after a glitch
+// are correct.
 void DwellDetector::find_encoder_jump() {
   const std::size_t begin = slots_.front().first_row;
   const std::size_t rows = slots_.back().first_row + slots_.back().rows - begin;

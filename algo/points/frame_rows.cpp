@@ -3,7 +3,8 @@
 namespace mdof::algo {
 namespace {
 
-// Appends the marks of rows `first` to `last` to `before` marks; an empty column means all `none`.
+// Appends the marks of the rows `first` to `last` - 1 to a column of `before` marks. An empty
+// column stands for `none` in each row.
 template <class Column>
 void append_marks(Column& to, const Column* from, std::size_t before, std::size_t first,
                   std::size_t last, typename Column::value_type none) {

@@ -1,4 +1,4 @@
-// Rows of a frame block: append, drop from the front, erase.
+// Appends and erases rows of a frame block.
 #pragma once
 
 #include <cstddef>

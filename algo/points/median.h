@@ -4,7 +4,8 @@
 
 namespace mdof::algo {
 
-// The upper median if the number is even; NaN of an empty vector. No value may be NaN.
+// Returns the median, the upper one if the number of values is even; NaN if there are no values. No
+// value may be NaN.
 double median_of(std::vector<double> values);
 
 }  // namespace mdof::algo

@@ -6,7 +6,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kReadingsPerOverRange = 100;
-constexpr double kNear = 6;  // in standard deviations of the others
+constexpr double kNear = 6;  // distance in standard deviations of the other readings
 constexpr double kBiasOfShare = 4;
 
 }  // namespace

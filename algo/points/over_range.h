@@ -1,5 +1,6 @@
-// Readings at the end of a probe's range. If they belong to the same distribution as the others,
-// they are missing on one side, and the mean of the others is biased.
+// Handles readings that are over the range of a probe. They are left out of the mean. If they
+// belong to the same distribution as the other readings, one side of the distribution is missing,
+// and the mean of the other readings is biased.
 #pragma once
 
 #include <cstddef>
@@ -10,22 +11,23 @@ namespace mdof::algo {
 // The over-range readings of a stop.
 struct OverRange {
   std::size_t count = 0;
-  // Smallest and largest of the values.
+  // Smallest and largest over-range reading.
   double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
-  bool has_unknown = false;  // whether one of them is NaN
+  bool has_unknown = false;  // whether an over-range reading is NaN
   void add(double reading_m);
-  // Whether they are nearer to the mean of the others than six times their spread, as for a probe
-  // that touches the end of its range. Farther ones are glitches, which do not affect the others.
+  // Returns whether the nearest over-range reading is within six standard deviations (`spread_m`)
+  // of the mean of the other readings. This is so if a probe reaches the end of its range. Readings
+  // farther away are glitches, which do not bias the mean.
   bool is_near(double mean_m, double spread_m) const;
 };
 
-// Whether too many of `readings` are over range for a valid mean: near to it, more than one, and
-// more than 1 %.
+// Returns whether too many of `readings` are over range for a valid mean: more than one reading,
+// more than 1 % of the readings, and near to the mean (is_near()).
 bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, double spread_m);
 
-// Adds to u of a mean the bias due to readings that were left out near to it on one side, a share p
-// of them. For normally distributed readings the bias is sd phi(a)/Phi(a) with Phi(-a) = p: less
-// than 4 p sd, or below 0.0004 sd.
+// Returns u of a mean including the bias due to over-range readings near to the mean. p is the
+// share of these readings. For normally distributed readings the bias is sd phi(a)/Phi(a) with
+// Phi(-a) = p. It is less than 4 p sd, or below 0.0004 sd.
 double with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,
                        std::size_t readings);
 

@@ -10,16 +10,17 @@
 namespace mdof::algo {
 namespace {
 
-// For a hundred normally distributed readings the median absolute deviation is up to a third too
-// small. A limit of six rejected a good reading once in some hundred dwells.
+// For a hundred normally distributed readings the median absolute deviation can be up to a third
+// too small. With a limit of six, a good reading was left out in about one of some hundred dwells.
 constexpr double kReject = 8.0;
 constexpr double kMadToSd = 1.4826;
 constexpr double kFlickerSteps = 3.5;
-// For a long dwell, median and deviation are from at most this many readings, evenly spread.
+// For a long dwell, median and median deviation are calculated from at most this many readings,
+// which are evenly distributed over the dwell.
 constexpr std::size_t kSubsample = 512;
 
-// Moves the values for which `first` holds before the others and returns their end. It has no
-// branches, because a processor cannot predict comparisons of noise.
+// Moves the values for which `first` is true before the other values. Returns the end of these
+// values. There are no branches, because a processor cannot predict comparisons of noise.
 template <class First>
 double* partition(double* begin, double* end, First first) {
   double* store = begin;
@@ -32,9 +33,9 @@ double* partition(double* begin, double* end, First first) {
   return store;
 }
 
-// Element n/2 of the sorted values. Quickselect is several times faster on noise than
-// std::nth_element; with at most kSubsample values its worst case takes little time. It also ends
-// if a value is NaN, because each turn removes at least the pivot.
+// Returns element n/2 of the sorted values by quickselect, which is several times faster on noise
+// than std::nth_element. With at most kSubsample values its worst case takes little time. It also
+// ends if a value is NaN, because each iteration removes at least the pivot.
 double median(std::vector<double>& values) {
   double *begin = values.data(), *end = begin + values.size();
   double* const middle = begin + values.size() / 2;
@@ -51,9 +52,9 @@ double median(std::vector<double>& values) {
   }
 }
 
-// Deviations of rounded readings have steps, so their median is up to half a step too small.
-// Returns the middle between it and the next larger step. For readings without rounding the change
-// is negligible.
+// The deviations of rounded readings are multiples of a step, so their median is up to half a step
+// too small. Returns the mean of the median (`middle`) and of the next larger deviation. For
+// readings without rounding the difference is negligible.
 double between_steps(const std::vector<double>& deviations, double middle) {
   if (middle == 0) return 0;
   double next = std::numeric_limits<double>::infinity();
@@ -62,8 +63,9 @@ double between_steps(const std::vector<double>& deviations, double middle) {
   return std::isfinite(next) ? 0.5 * (middle + next) : middle;
 }
 
-// If most readings are the same: the largest allowed distance of the others. Several readings at
-// the same distance are the next step of a rounded reading, whatever `coarse` is.
+// If most readings are the same number, returns the largest allowed distance of the other readings.
+// If several readings have the same smallest distance, this distance is the rounding step of the
+// reading. The result is then at least kFlickerSteps steps, also if `coarse` is smaller.
 double flicker_limit(std::span<const double> readings, double centre, double coarse) {
   double least = std::numeric_limits<double>::infinity();
   for (const double x : readings)
@@ -89,7 +91,7 @@ RobustMean robust_mean(std::span<const double> readings, double coarse,
   const double limit =
       robust_sd > 0 ? kReject * robust_sd : flicker_limit(readings, centre, coarse);
 
-  // Deviations are small numbers, so that no digits are lost.
+  // Sums of deviations lose no digits, because deviations are small numbers.
   scratch.resize(readings.size());
   for (const double x : readings) {
     scratch[result.used] = x - centre;

@@ -1,4 +1,4 @@
-// The mean of a dwell's readings that a few spikes do not change.
+// The mean of the readings of a dwell, calculated so that a few spikes do not change it.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,10 @@ struct RobustMean {
   std::size_t used = 0, rejected = 0;
 };
 
-// Readings are left out if their distance from the median is above 8 robust standard deviations
-// (1.4826 · median absolute deviation) or, if more than half of the readings are the same number,
-// above `coarse`. Sums have the same order on every machine. u is mean_uncertainty() for correlated
-// readings (GUM 4.2.3).
-// `readings` are finite; `scratch` is reused memory.
+// A reading is left out if its distance from the median is above 8 robust standard deviations
+// (1.4826 · median absolute deviation). If more than half of the readings are the same number, the
+// limit is `coarse`. Sums have the same order on every machine. u is mean_uncertainty() for
+// correlated readings (GUM 4.2.3). `readings` are finite; `scratch` is reused memory.
 RobustMean robust_mean(std::span<const double> readings, double coarse,
                        std::vector<double>& scratch);
 

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t kGroup = 8;
 
-// The finalizer of SplitMix64 (Steele, Lea, Flood 2014): each bit of the input changes half of the
-// output bits.
+// The finalizer of SplitMix64 (Steele, Lea, Flood 2014): each bit of the input changes about half
+// of the bits of the output.
 std::uint64_t mixed(std::uint64_t x) {
   x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
   x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;

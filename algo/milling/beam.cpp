@@ -14,13 +14,14 @@ double second_moment(double diameter_m) {
   return std::numbers::pi * std::pow(diameter_m, 4) / 64;
 }
 
-// ∫ (a - s)(b - s) ds from s0 to s1.
+// Returns ∫ (a - s)(b - s) ds from s0 to s1.
 double moments(double a, double b, double s0, double s1) {
   const auto antiderivative = [&](double s) { return s * (a * b + s * (-(a + b) / 2 + s / 3)); };
   return antiderivative(s1) - antiderivative(s0);
 }
 
-// a, b: distances from the fixed end. The moments of both forces act up to the nearer one.
+// a, b: distances of the two points from the fixed end. The product of the bending moments is 0
+// beyond the nearer point.
 double compliance(const std::vector<ToolSection>& from_holder, double youngs_modulus_Pa, double a,
                   double b) {
   double sum = 0, begin = 0;

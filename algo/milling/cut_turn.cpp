@@ -19,19 +19,23 @@ using Eigen::VectorXd;
 constexpr double kEquilibrium_m = 1e-13;
 constexpr int kMostNewtonSteps = 15, kMostPseudoSteps = 600;
 constexpr double kNoPseudoTime = std::numeric_limits<double>::infinity();  // plain Newton's method
-// The edge force reaches its full value at this thickness of the chip. An edge force that begins
-// suddenly has no equilibrium where the deflection lifts the tooth out again.
+// The edge force reaches its full value at this thickness of the chip. If the edge force had its
+// full value at once, there would be no equilibrium at angles where the deflection moves the tooth
+// out of the workpiece.
 constexpr double kWholeEdge_m = 20e-9;
-constexpr int kPasses = 2;  // the second starts with the result of the first at the end of the turn
+// Turns; the second turn starts with the deflection at the end of the first.
+constexpr int kPasses = 2;
 
-// One tooth in one element, at all angles of a turn.
+// The part of one tooth in one element, at all angles of a turn.
 struct Tooth {
   CuttingEdge edge;
-  std::vector<double> angle;  // φ, continuous over the window: the first may be below 0
-  std::vector<Chip> rigid;    // one for each angle of the turn
+  // Φ, without a jump by 2π in the window; the first angles may be below 0.
+  std::vector<double> angle;
+  std::vector<Chip> rigid;  // one for each angle of the turn
 };
 
-// Share of a step in which the tooth is in the work, and its derivative by y of the deflection.
+// Share of a step in which the tooth is in the workpiece, and the derivative of this share by the y
+// component of the deflection.
 struct Engagement {
   double share = 0, by_y = 0;
 };
@@ -77,9 +81,9 @@ class Turn {
     return tooth;
   }
 
-  // The window is for the deflection at this angle, so that its edge is where this deflection puts
-  // it. A step that the edge divides counts in part, because with whole steps only, force and
-  // deflection may have no equilibrium.
+  // The limits of the window are calculated for the deflection at this angle. If a limit is within
+  // a step, only a part of the step counts. With complete steps only, there may be no equilibrium
+  // of force and deflection.
   Engagement engagement(const Tooth& t, std::size_t n, const Deflection& u) const {
     const double free = t.edge.free_edge(u), wall = t.edge.wall_edge();
     const double low = t.angle[n] - step_rad_ / 2, high = low + step_rad_;
@@ -93,8 +97,8 @@ class Turn {
     return {(to - from) / step_rad_, plan_.is_up ? slope : -slope};
   }
 
-  // Angles of a phase, one tooth pitch apart: each tooth cuts the surface that the tooth before
-  // left.
+  // Returns the index of angle i of a phase. The angles of a phase are one tooth pitch apart and
+  // are solved together, because each tooth cuts the surface that the tooth before produced.
   std::size_t instant(std::size_t phase, std::size_t i) const {
     return phase + i * (steps() / teeth());
   }
@@ -103,7 +107,7 @@ class Turn {
     return static_cast<std::size_t>(((static_cast<int>(i) - k) % z + z) % z);
   }
 
-  // Forces at all angles of a phase, and their derivatives.
+  // Forces at all angles of a phase, and the derivatives of these forces.
   struct Load {
     VectorXd F;
     Eigen::MatrixXd dF;
@@ -157,7 +161,7 @@ class Turn {
     add(row(e, m, 1), chip.by_earlier_y);
   }
 
-  // The deflection by these forces: C for each angle and component.
+  // Returns the deflection due to these forces: C times the forces of each angle and component.
   template <class M>
   M bent(const M& forces) const {
     M out(forces.rows(), forces.cols());
@@ -166,13 +170,16 @@ class Turn {
     return out;
   }
 
-  // Solves U = C F(U). Newton's method does not need a loop gain below 1. Where an edge makes the
-  // force steep, implicit steps of dU/dt = C F(U) - U, as large as the residual allows, follow the
-  // tool into a stable equilibrium (pseudo-transient continuation, Kelley and Keyes 1998).
+  // Solves U = C F(U) by Newton's method, which converges also if the loop gain is not below 1.
+  // Near the limit of the window the force changes rapidly with the deflection, and Newton's method
+  // may fail. Then implicit time steps of dU/dt = C F(U) - U lead to a stable equilibrium. The time
+  // step increases when the residual decreases (pseudo-transient continuation, Kelley and Keyes
+  // 1998).
   Status equilibrium(std::size_t phase) {
     if (plan_.deflection == DeflectionModel::rigid) return {};
     VectorXd before(static_cast<Index>(teeth()) * 2 * elements());
-    // Start from the angle before: an engaged tooth stays engaged.
+    // Starts with the deflection at the angle before, so that a tooth in the workpiece stays in the
+    // workpiece.
     for (std::size_t i = 0; i < teeth(); ++i)
       before.segment(row(i, 0, 0), 2 * elements()) =
           u_[(instant(phase, i) + steps() - 1) % steps()];
@@ -201,9 +208,9 @@ class Turn {
       const double size = residual.cwiseAbs().maxCoeff();
       Eigen::MatrixXd J = -bent(now.dF);
       J.diagonal().array() += 1;
-      // If the force grows faster than the stiffness of the tool resists, the sign of the
-      // determinant is reversed. Newton's method finds such an equilibrium, too, but it is
-      // unstable.
+      // The determinant is negative if the cutting force increases faster with the deflection than
+      // the restoring force of the tool. Such an equilibrium is unstable, but Newton's method finds
+      // it, too.
       if (size < kEquilibrium_m) return Eigen::PartialPivLU<Eigen::MatrixXd>(J).determinant() > 0;
       if (step > 0) pseudo_time *= std::clamp(residual_before / size, 0.3, 1.5);
       residual_before = size;
@@ -213,8 +220,9 @@ class Turn {
     return false;
   }
 
-  // Entry and exit of the tooth with a chip. A step that an edge of the window divides counts in
-  // part. Where the chip itself begins or ends, the angle is interpolated between two steps.
+  // Sets the angles at which the chip of tooth 0 begins and ends. If a limit of the window is
+  // within a step, a part of the step counts. If the chip begins or ends inside the window, the
+  // angle is interpolated between two steps.
   void set_window(CutTurn& turn) const {
     const Tooth& t = teeth_.front();
     turn.entry_rad = turn.exit_rad = std::numeric_limits<double>::quiet_NaN();  // no cut
@@ -269,7 +277,8 @@ class Turn {
     return turn;
   }
 
-  // Tangential force times the speed of the tooth; for a trochoid the speed contains the feed.
+  // Adds the power: tangential force times speed of the tooth. For the trochoid model the speed
+  // contains the feed.
   void add_power(const Tooth& t, Index m, CutTurn& turn) const {
     for (std::size_t n = 0; n < steps(); ++n) {
       const double engaged = engagement(t, n, deflection(n, m)).share;
@@ -288,7 +297,7 @@ class Turn {
   double step_rad_, element_m_;
   std::vector<double> height_m_;
   Eigen::MatrixXd C_;
-  std::vector<Tooth> teeth_;  // element by element of tooth 0, then of tooth 1
+  std::vector<Tooth> teeth_;  // all elements of tooth 0, then all elements of tooth 1, ...
   int turn_iterations_ = 1;
   std::vector<VectorXd> u_;  // one for each angle: x of all elements, then y
 };

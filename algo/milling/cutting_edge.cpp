@@ -7,7 +7,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kWallAngles =
-    // A trochoid can touch the wall this far before φ = 0 or after π.
+    // A trochoid can touch the wall up to this angle before φ = 0 or after φ = π.
     kHalfTurn_rad / 2;
 
 }  // namespace
@@ -51,9 +51,9 @@ double CuttingEdge::eq8(double angle_rad, double feed, double& by_feed) const {
          runout_m_ * (std::cos(gamma_rad_) - std::cos(before));
 }
 
-// Thickness along the radius of the tooth, from its position to the path of each earlier tooth; the
-// smallest one counts. At the rotation τ after `turned`, an earlier tooth k is at the angle φ + 2π
-// k / Z + τ.
+// The thickness is the distance along the radius of the tooth from the tooth to the path of an
+// earlier tooth. The smallest distance of all earlier teeth counts. If the tool has rotated by τ
+// since `turned`, the earlier tooth k is at the angle φ + 2π k / Z + τ.
 Chip CuttingEdge::trochoid(double angle_rad) const {
   const double s = std::sin(angle_rad), c = std::cos(angle_rad);
   const double feed_per_rad = plan_.feed_per_tooth_m * plan_.teeth / kWholeTurn_rad;
@@ -64,7 +64,8 @@ Chip CuttingEdge::trochoid(double angle_rad) const {
     const double ahead = kWholeTurn_rad * k / plan_.teeth;
     double turned = -ahead;
     double qx = 0, qy = 0;
-    for (int step = 0; step < 20; ++step) {  // Newton: the point of its path on this radius
+    // Newton's method for the point of the path on this radius.
+    for (int step = 0; step < 20; ++step) {
       const double a = angle_rad + ahead + turned, g = gamma_rad_ - ahead;
       const double r = plan_.radius_m();
       qx = feed_per_rad * turned + r * std::sin(a) + runout_m_ * std::sin(a + g);
@@ -129,7 +130,7 @@ double CuttingEdge::free_edge(const Deflection& there) const {
     return std::acos(std::clamp((sign * free - offset_y) / r, -1.0, 1.0));
   };
   double edge = at(there.y);
-  if (plan_.chip == ChipModel::trochoid)  // with the position of the tooth including run-out
+  if (plan_.chip == ChipModel::trochoid)  // the position of the tooth includes the run-out
     for (int step = 0; step < 30; ++step)
       edge = at(there.y + runout_m_ * std::cos(edge + gamma_rad_));
   return edge;

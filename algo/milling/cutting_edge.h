@@ -1,6 +1,6 @@
-// Positions of the teeth of an end mill and thickness of their chips (README.md has the equations).
-// x is along the feed, y towards the wall of an up cut; a tooth at the angle φ is at r (sin φ, cos
-// φ) from the axis. m, rad.
+// Calculates the positions of the teeth of an end mill and the thickness of their chips (README.md
+// has the equations). x is along the feed; y is towards the wall of an up cut. A tooth at the angle
+// φ is at r (sin φ, cos φ) from the tool axis. m, rad.
 #pragma once
 
 #include <numbers>
@@ -12,17 +12,17 @@ namespace mdof::algo {
 inline constexpr double kHalfTurn_rad = std::numbers::pi;
 inline constexpr double kWholeTurn_rad = 2 * kHalfTurn_rad;
 
-// Deflection of the tool at a height: against the feed and towards the wall of an up cut, m.
+// Deflection of the tool at a height, m. x: against the feed; y: towards the wall of an up cut.
 struct Deflection {
   double x = 0, y = 0;
 };
 
-// A chip, and its derivatives by the present deflection and by the deflection at the tooth that
-// left its surface.
+// Thickness of a chip and its derivatives. The outer surface of the chip was cut by an earlier
+// tooth, so the thickness depends on the present deflection and on the deflection at that time.
 struct Chip {
   double thickness = 0;
   double by_x = 0, by_y = 0;  // derivatives by the present deflection
-  // Derivatives by the deflection `earlier` teeth before.
+  // Derivatives by the deflection when the tooth that is `earlier` teeth ahead cut the surface.
   double by_earlier_x = 0, by_earlier_y = 0;
   int earlier = 1;
 };
@@ -32,23 +32,25 @@ class CuttingEdge {
  public:
   CuttingEdge(const MillingPlan& plan, int tooth, double height_m);
 
-  // φ when tooth 0 has turned to `turned_rad` at the tip, in [0, 2π).
+  // Returns φ of this tooth, in [0, 2π), if tooth 0 is at the angle `turned_rad` at the tip.
   double angle(double turned_rad) const;
-  double turned(double angle_rad) const;  // the inverse, in [0, 2π)
+  double turned(double angle_rad) const;  // the inverse of angle(), in [0, 2π)
 
-  // Chip of the rigid tool, by the model of the plan; below 0: the tooth does not reach the work.
+  // Returns the chip of a rigid tool with the chip model of the plan. Thickness below 0: the tooth
+  // does not touch the workpiece.
   Chip rigid_chip(double angle_rad) const;
-  // The chip with the effect of the deflection, by the deflection model of the plan.
+  // Returns the chip including the effect of the deflection, with the deflection model of the plan.
   Chip chip(double angle_rad, const Chip& rigid, const Deflection& now,
             const Deflection& earlier) const;
 
-  // φ at which the tooth leaves (up) or enters (down) the work, for this deflection. Eq. 5, 6, 10
-  // and 11 with corrected signs.
+  // Returns the angle φ at which the tooth leaves the workpiece (up cut) or enters it (down cut)
+  // with this deflection. Eq. 5, 6, 10 and 11 with corrected signs.
   double free_edge(const Deflection& there) const;
-  // φ at which the tooth enters (up) or leaves (down) at the wall.
+  // Returns the angle φ at the wall, at which the tooth enters (up cut) or leaves (down cut) the
+  // workpiece.
   double wall_edge() const;
 
-  // Its position relative to the spindle axis.
+  // Position of the tooth relative to the spindle axis.
   double x(double angle_rad) const;
   double y(double angle_rad) const;
 
@@ -57,8 +59,9 @@ class CuttingEdge {
   Chip trochoid(double angle_rad) const;
 
   const MillingPlan& plan_;
-  double lag_rad_;               // angle behind tooth 0 at the tip
-  double runout_m_, gamma_rad_;  // magnitude, and angle ahead of this edge
+  double lag_rad_;  // angle by which the tooth is behind tooth 0 at the tip
+  // Magnitude of the run-out; angle by which the run-out is ahead of this edge.
+  double runout_m_, gamma_rad_;
 };
 
 // Wraps an angle to [0, 2π).

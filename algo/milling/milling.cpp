@@ -17,7 +17,7 @@ double largest_deflection_m(const MillingPlan& plan, const CutTurn& turn) {
   return deflection_m(plan, turn, 0).rowwise().norm().maxCoeff();
 }
 
-// The models assume that the tool's axis stays near its undeflected position.
+// The models assume that the deflection of the tool's axis is small.
 Status check_deflection(const MillingPlan& plan, const CutTurn& turn) {
   const double deflection_m = largest_deflection_m(plan, turn);
   if (deflection_m <= plan.radius_m() / 2) return {};
@@ -86,7 +86,7 @@ Result<WearOffset> wear_offset(const DeclaredMillingPlan& declared) {
   double square = 0;
   for (const auto& [input, u] : declared.u) {
     MillingPlan higher = declared.plan, lower = declared.plan;
-    // Other inputs are not negative.
+    // Only the angle may be negative.
     const bool is_angle = input->member == &MillingPlan::runout_angle_rad;
     higher.*(input->member) += u;
     lower.*(input->member) -= u;

@@ -1,7 +1,7 @@
-// Simulates a micro end mill: forces, deflection, the wall, and the offset that corrects the mean
-// error of the wall. Huo et al., Modeling the influence of tool deflection on cutting force and
-// surface generation in micro-milling, Micromachines 8 (2017) 188; README.md has the equations. SI
-// units.
+// Simulates a micro end mill. Calculates forces, deflection, the machined wall, and the tool offset
+// that corrects the mean error of the wall. Huo et al., Modeling the influence of tool deflection
+// on cutting force and surface generation in micro-milling, Micromachines 8 (2017) 188; README.md
+// has the equations. SI units.
 #pragma once
 
 #include <string>
@@ -20,10 +20,11 @@ struct WallFigures {
 };
 
 struct MillingResult {
-  // On the tool: x against the feed, y towards the wall of an up cut. Largest magnitudes of a turn.
+  // Forces on the tool; x: against the feed, y: towards the wall of an up cut. `max`: largest
+  // magnitude of a turn.
   double x_max_N = 0, y_max_N = 0, x_max_rigid_N = 0, y_max_rigid_N = 0;
   double x_mean_N = 0, y_mean_N = 0;
-  // Largest, at the tip; `rigid`: by the force on a rigid tool.
+  // Largest deflection of the tip. `rigid`: calculated from the forces of a rigid tool.
   double deflection_m = 0, deflection_rigid_m = 0;
   double entry_rad = 0, exit_rad = 0;  // NaN: tooth 0 does not cut
   double power_W = 0;                  // mean
@@ -39,7 +40,7 @@ Result<MillingResult> milling(const MillingPlan& plan);
 // the wall by the radius.
 struct WearOffset {
   double offset_m = 0;
-  double u_m = 0;  // standard, first order (GUM 5); NaN: nothing declared
+  double u_m = 0;  // standard uncertainty, first order (GUM 5); NaN: no uncertainty declared
   struct Part {
     const MillingInput* input = nullptr;
     double contribution_m = 0;

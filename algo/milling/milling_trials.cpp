@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kAssumedShare = 0.01;
 
-// Whether drawn values still describe a cut.
+// Returns whether the random values describe a cut.
 bool is_cut(const MillingPlan& plan) {
   return plan.feed_per_tooth_m > 0 && plan.radial_depth_m > 0 && plan.axial_depth_m > 0 &&
          plan.youngs_modulus_Pa > 0 && plan.Kt > 0 && plan.radial_depth_m <= plan.diameter_m &&
@@ -101,7 +101,7 @@ Result<std::vector<std::vector<double>>> milling_effects(const MillingPlan& plan
     MillingPlan higher = plan, lower = plan;
     const double value = plan.*(input.input->member);
     higher.*(input.input->member) += input.u;
-    // A quantity that cannot be negative does not go below 0.
+    // The difference does not use a negative value of a positive input.
     lower.*(input.input->member) = value > 0 && input.u >= value ? value : value - input.u;
     const double width = higher.*(input.input->member) - lower.*(input.input->member);
     MDOF_TRY(const MillingResult above, milling(higher));

@@ -1,4 +1,5 @@
-// Sensitivity of force and wall to the inputs of a plan, by differences and by Monte Carlo.
+// Calculates the sensitivity of the forces and of the wall to the inputs of a plan, by differences
+// and by the Monte Carlo method.
 #pragma once
 
 #include <memory>
@@ -16,21 +17,22 @@ struct VaryingInput {
   double u = 0;          // SI
   bool declared = true;  // false: u is 1 % of the input
 };
-// The inputs of milling_inputs() that have a declared u or are not 0.
+// Returns the inputs of milling_inputs() that have a declared u or a value other than 0.
 std::vector<VaryingInput> varying_inputs(const DeclaredMillingPlan& declared);
 
 // x_max_N, y_max_N, deflection_um, offset_um (mean of the wall), form_um, waviness_tip_um.
 const std::vector<std::string>& milling_outputs();
 std::vector<double> milling_output_values(const MillingResult& result);
 
-// Effect of u of each input on each output, from the difference between + u and - u:
-// [input][output]. Errors: those of milling().
+// Returns the effect of the u of each input on each output: [input][output]. It is calculated from
+// the outputs for the input + u and for the input - u. Errors: the errors of milling().
 Result<std::vector<std::vector<double>>> milling_effects(const MillingPlan& plan,
                                                          const std::vector<VaryingInput>& inputs);
 
-// Each trial solves the plan with all inputs drawn, with at most this number of steps a turn; the
-// effects of inputs hardly depend on the number. Draw q is for input q. A trial is unsolved if the
-// drawn values describe no cut or have no equilibrium.
+// Each trial simulates the plan with random values of all inputs; random number q is for input q. A
+// trial has at most kTrialStepsPerTurn steps per turn, because the effects of the inputs hardly
+// depend on this number. A trial has no result if the random values describe no cut or if there is
+// no equilibrium.
 inline constexpr int kTrialStepsPerTurn = 720;
 std::unique_ptr<CausalExperiment> milling_trials(const MillingPlan& plan,
                                                  const std::vector<VaryingInput>& inputs,

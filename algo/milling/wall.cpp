@@ -6,8 +6,9 @@
 namespace mdof::algo {
 namespace {
 
-// Largest angle from the wall at which a tooth can form it. It covers the teeth of neighbouring
-// turns, up to some feeds per turn away.
+// Returns the largest angle of a tooth from the direction of the wall at which the tooth can still
+// cut the wall. The angle includes teeth of neighbouring turns at a distance of up to some feeds
+// per turn.
 double wall_range_rad(const MillingPlan& plan) {
   return std::min(1.2, 0.05 + 4 * plan.feed_per_tooth_m * plan.teeth / plan.radius_m());
 }
@@ -22,7 +23,7 @@ class Line {
     line.outward_m.assign(cells_, -INFINITY);
   }
 
-  // Cuts along the straight line between two positions of a tooth, at every cell between them.
+  // Cuts all cells along the straight line between two positions of a tooth.
   void cut(double x0, double y0, double x1, double y1) {
     if (x1 < x0) {
       std::swap(x0, x1);
@@ -67,7 +68,7 @@ WallLine wall_line(const MillingPlan& plan, const CutTurn& turn, double height_m
       if (std::abs(from_wall) > range) continue;
       const auto [x0, y0] = place(n);
       auto [x1, y1] = place((n + 1) % steps);
-      if (n + 1 == steps) x1 += feed_per_rad * kWholeTurn_rad;  // in the next turn
+      if (n + 1 == steps) x1 += feed_per_rad * kWholeTurn_rad;  // this position is in the next turn
       line.cut(x0, y0, x1, y1);
     }
   }

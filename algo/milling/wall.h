@@ -1,5 +1,5 @@
-// The wall that an end mill leaves, from the paths of its teeth with run-out and deflection
-// (Z-map).
+// Calculates the wall that an end mill produces from the paths of its teeth with run-out and
+// deflection (Z-map).
 #pragma once
 
 #include <vector>
@@ -8,17 +8,18 @@
 
 namespace mdof::algo {
 
-// One turn of the wall at one height, along the feed; the profile is periodic.
+// Profile of the wall at one height along the feed of one turn; the profile is periodic.
 struct WallLine {
-  double height_m = 0;            // from the tip
-  std::vector<double> outward_m;  // from the nominal wall, + overcut; at equal steps of x
+  double height_m = 0;  // from the tip
+  // Deviation from the nominal wall, +: overcut; at equal steps of x.
+  std::vector<double> outward_m;
 
   double mean_m() const;
   double waviness_m() const;  // largest - smallest
   double Ra_m() const;        // mean distance from the mean (ISO 21920-2)
 };
 
-// At the tip, in the middle of each element and at the top of the cut.
+// Returns the profiles at the tip, in the middle of each element and at the top of the cut.
 std::vector<WallLine> wall_lines(const MillingPlan& plan, const CutTurn& turn);
 
 }  // namespace mdof::algo

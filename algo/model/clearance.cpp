@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kParallelShare = 1e-4;  // share of the travel: 100 um in one metre
 
-// Motion of the surface along the probe's line, per travel of the target in + of a machine axis.
+// Returns the motion of the surface along the measuring line of the probe, divided by the travel of
+// the target in the + direction of a machine axis.
 double approach_of(const FixtureProbe& probe, const Vec3& along) {
   const Eigen::Vector3d v(along[0], along[1], along[2]);
   return probe.n_C.dot(v) / probe.n_C.dot(probe.u_M);
@@ -26,7 +27,8 @@ ProbeInTheWay probe_clearance(const Rig& rig, std::size_t k, double approach) {
   if (!(standoff_m > 0) && probe.calibration.reads_gap)
     standoff_m = from_um(probe.calibration.offset_um);  // reading at the nominal surface
   if (standoff_m > 0) out.contact_m = standoff_m / std::abs(approach);
-  // If a gap is known or read, the direction of the probe points from the probe to the surface.
+  // If the standoff is known or the probe reads a gap, the direction of the probe is from the probe
+  // to the surface.
   if (standoff_m > 0 || probe.calibration.reads_gap) out.towards = approach > 0 ? 1 : -1;
   return out;
 }

@@ -1,5 +1,5 @@
-// Travel of the target along each machine axis up to the end of a probe's range and up to the probe
-// itself, from the rig's geometry alone.
+// Calculates from the geometry of the rig how far the target can travel along each machine axis
+// until it leaves the range of a probe, and until it touches the probe.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace mdof::algo {
 
-// A probe that the target approaches or leaves when an axis moves.
+// A probe to which the distance of the target changes when an axis moves.
 struct ProbeInTheWay {
   std::string id;
   double range_m = 0;  // travel of the target from its nominal position to the end of the range
-  // Travel up to the probe; empty: the rig has no standoff_um.
+  // Travel of the target until it touches the probe; empty: the rig has no standoff_um.
   std::optional<double> contact_m;
-  // Sense of the axis in which the target approaches: 1, -1; 0: the rig does not state on which
-  // side the probe is (it reads displacement and has no standoff_um).
+  // Direction of the axis motion in which the target approaches the probe: 1, -1. 0: unknown,
+  // because the probe measures displacement and the rig has no standoff_um.
   int towards = 0;
 };
 
@@ -28,11 +28,12 @@ struct MotionClearance {
   std::vector<ProbeInTheWay> probes;  // empty: the motion is parallel to the surfaces of all probes
 };
 
-// For X, Y and Z, for a target at its nominal position, without tilt, relative to the fixture.
-// Errors: those of make_fixture().
+// Returns the clearances for motions along X, Y and Z. The target starts at its nominal position
+// without tilt. Errors: the errors of make_fixture().
 Result<std::array<MotionClearance, 3>> motion_clearances(const Rig& rig);
 
-// "HAZARD: Y drives the target towards or away from the probes D, E: ..." or "X passes by ...".
+// Returns for example "HAZARD: Y drives the target towards or away from the probes D, E: ..." or "X
+// passes by ...".
 std::string clearance_text(const MotionClearance& motion);
 
 }  // namespace mdof::algo

@@ -46,7 +46,8 @@ Result<const TargetPlane*> named_plane(const Rig& rig, const Probe& probe) {
                    (rig.planes.empty() ? "none" : ids_of(rig)));
 }
 
-// The plane of a probe; nullptr: the rig has no planes, so the plane is perpendicular to the probe.
+// Returns the plane of a probe; nullptr: the rig has no planes, so the plane is perpendicular to
+// the probe.
 Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
   constexpr double kLooksAt = 0.5, kMargin = 0.15;  // cosines
   if (!probe.plane.empty()) return named_plane(rig, probe);
@@ -78,7 +79,8 @@ std::string in_mm(double m) {
 
 constexpr double kOnPlane_m = 1e-6;
 
-// The position is where the probe's line meets the nominal surface, so it is on the plane.
+// The position of a probe is the intersection of its measuring line and the nominal surface, so it
+// must be on the plane.
 Status check_on_plane(const Rig& rig, const FixtureProbe& probe, const TargetPlane& plane) {
   if (std::abs(probe.plane_offset_m - *plane.offset_m) <= kOnPlane_m) return {};
   return bad_input(
@@ -89,8 +91,8 @@ Status check_on_plane(const Rig& rig, const FixtureProbe& probe, const TargetPla
       "; correct one of the two values, or give the id of another plane");
 }
 
-// Probes of one plane have one surface, and without [[plane]] so have probes with parallel
-// directions.
+// Checks that all probes of a plane measure at the same surface. Without [[plane]], probes with
+// parallel directions must have the same surface.
 Status check_common_planes(const Rig& rig, const Fixture& fixture,
                            const std::vector<const TargetPlane*>& looks_at) {
   constexpr double kSameWay = 1 - 1e-9;

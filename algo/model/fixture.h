@@ -1,4 +1,4 @@
-// A rig in the local frame of its axis, in the form that the models use.
+// A rig converted to the local frame of its axis. The models use this form.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +11,11 @@
 
 namespace mdof::algo {
 
-// The line of a probe in M and its target plane in C.
+// The measuring line of a probe in the frame M, and its target plane in the frame C.
 struct FixtureProbe {
   std::string id;
-  Eigen::Vector3d p_MP;              // point of the line on the nominal surface; m, local frame
+  // Intersection of the line with the nominal surface; m, local frame.
+  Eigen::Vector3d p_MP;
   Eigen::Vector3d u_M;               // unit vector of positive displacement
   Eigen::Vector3d n_C;               // unit normal of the target plane
   double plane_offset_m = 0;         // n · p = offset
@@ -28,11 +29,13 @@ struct Fixture {
 };
 
 // Converts the rig to the local frame of the axis (schema/axis.h) and finds the plane of each
-// probe. Errors: a rig that contradicts itself: a position off its plane; a direction that no plane
-// or that two planes fit; one plane at two positions.
+// probe. Errors:
+// - the position of a probe is not on its plane
+// - no plane, or more than one plane, fits the direction of a probe
+// - one plane is at two positions
 Result<Fixture> make_fixture(const Rig& rig);
 
-// Height of a target plane above the nominal plane, at a point of the plane in C; m.
+// Returns the height of a target plane above the nominal plane at a point of the plane in C; m.
 double height_at(const HeightMap& map, double first_m, double second_m);
 
 }  // namespace mdof::algo

@@ -7,7 +7,8 @@
 
 namespace mdof::algo {
 
-// Sum of term(&x) over x as eight parallel sums, because a single sum would wait for each addition.
+// Returns the sum of term(&x) over x. It is calculated as eight parallel sums, because in a single
+// sum each addition waits for the addition before.
 template <class Term>
 double lane_sum(std::span<const double> x, Term term) {
   constexpr std::size_t kSums = 8;

@@ -6,7 +6,7 @@
 namespace mdof::algo {
 namespace {
 
-// (R - I) arm.
+// Returns (R - I) arm.
 Eigen::Vector3d rotation_shift(Model model, Axis axis, const Errors5& local,
                                const Eigen::Vector3d& arm) {
   if (model == Model::rigid) return local_rotation(axis, local).R_MC * arm - arm;
@@ -14,7 +14,7 @@ Eigen::Vector3d rotation_shift(Model model, Axis axis, const Errors5& local,
   return {ey * arm.z() - ez * arm.y(), ez * arm.x() - ex * arm.z(), ex * arm.y() - ey * arm.x()};
 }
 
-// J cov Jᵀ, where J is I except for ∂(δy, δz)/∂(εx, εy, εz).
+// Returns J cov Jᵀ. J is I except for ∂(δy, δz)/∂(εx, εy, εz).
 Covariance5 carried(const Covariance5& covariance, const Eigen::Vector3d& arm) {
   using Matrix5 = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
   Matrix5 J = Matrix5::Identity();

@@ -1,8 +1,11 @@
 // Converts errors to another point of the metrology frame (Eq. 1, schema/rig/reference.h).
 //
-// The target's error at P is e(P) = X_MC (P - d x̂) - P = (R - I)(P - d x̂) + (0, δy, δz). From P
-// to P' it changes by (R - I)(P' - P); C's origin is at P = d x̂. The angles are the same
-// everywhere. R is I + [ε]× for the small-angle models, otherwise the true rotation.
+// The error of the target at the point P is
+//   e(P) = X_MC (P - d x̂) - P = (R - I)(P - d x̂) + (0, δy, δz).
+//
+// At another point P' the error differs by (R - I)(P' - P). The origin of C is at P = d x̂. The
+// angles are the same at all points. R is I + [ε]× for the small-angle models and the true rotation
+// for the rigid model.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,16 +15,18 @@
 
 namespace mdof::algo {
 
-// P in the local frame of the axis, m, after a travel d = travel_m of the target.
+// Returns P in the local frame of the axis, m, after a travel d = travel_m of the target.
 Eigen::Vector3d reference_point(const StatedAt& at, Axis axis, double travel_m);
 
-// Converts `errors` of the target from `from` to `to`, with their covariance (first order: the
-// derivative of a straightness by an angle is the lever arm). The component of e(P) along the
-// motion is left out: it is positioning, which five probes and an encoder do not measure.
+// Converts `errors` of the target and their covariance from the point `from` to the point `to`. The
+// covariance is converted to first order: the derivative of a straightness error by an angle is the
+// lever arm. The component of e(P) along the motion is the positioning error. It is left out,
+// because five probes and an encoder do not measure it.
 AxisErrors restate(const AxisErrors& errors, Model model, Axis axis, double travel_m,
                    const StatedAt& from, const StatedAt& to);
 
-// Converts all points of a run and calculates its figures again.
+// Converts all points of a run to the point `to` and calculates the straightness and angle figures
+// again.
 Run restate(Run run, const StatedAt& to);
 
 }  // namespace mdof::algo

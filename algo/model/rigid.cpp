@@ -9,7 +9,8 @@ namespace mdof::algo {
 namespace {
 
 constexpr int kMaxIterations = 30;
-// Convergence is quadratic: after a step below these limits the next step is at rounding.
+// Convergence is quadratic: if a step is below these limits, the next step is only a rounding
+// error.
 constexpr double kStepDone_m = 1e-12, kStepDone_rad = 1e-10;
 
 struct Surface {
@@ -22,8 +23,9 @@ Eigen::Vector3d carriage_position(double travel_m, const Errors5& local) {
   return {travel_m, local[kDy], local[kDz]};
 }
 
-// Intersection of the probe's line with the surface. With a height map by fixed-point iteration,
-// which contracts by the slope of the surface (1e-3 and less).
+// Calculates the intersection of the probe's measuring line and the surface. With a height map it
+// uses a fixed-point iteration. Each iteration reduces the error by a factor equal to the slope of
+// the surface (1e-3 and less).
 Surface meet(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC, const Eigen::Vector3d& t) {
   Surface surface;
   surface.n_M = R_MC * probe.n_C;

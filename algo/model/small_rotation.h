@@ -8,8 +8,8 @@
 
 namespace mdof::algo {
 
-// Sine and cosine for |x| <= 0.25 rad by their Taylor series in plain arithmetic. The error is at
-// most 1 ulp, and every compiler, library and processor gives the same bits, unlike std::sin.
+// Sine and cosine for |x| <= 0.25 rad by their Taylor series. The error is at most 1 ulp. Unlike
+// std::sin, the result is identical to the last bit for every compiler, library and processor.
 struct SinCos {
   double sin, cos;
 };
@@ -22,12 +22,12 @@ struct Rotation {
 };
 Rotation rotation(double ex_rad, double ey_rad, double ez_rad);
 
-// The same for the errors of an axis in its local frame. The rotations follow one another about the
-// machine's axes, A first, for any moving axis. If L has the local axes in machine coordinates,
-// angles transform like vectors: e_machine = L e, and R = Lᵀ Rz(C) Ry(B) Rx(A) L. L only exchanges
-// coordinates and signs, so nothing is rounded.
+// Returns the rotation for the errors of an axis in its local frame. For any moving axis, the
+// rotations are applied in the order A, B, C about the machine's axes. The columns of L are the
+// local axes in machine coordinates. Angles transform like vectors: e_machine = L e, and R = Lᵀ
+// Rz(C) Ry(B) Rx(A) L. L only exchanges coordinates and signs, so there are no rounding errors.
 Rotation local_rotation(Axis axis, const Errors5& local);
-// Only R, with the same bits, in a third of the time.
+// Returns R of local_rotation() with identical bits, in a third of the time.
 Eigen::Matrix3d local_rotation_matrix(Axis axis, const Errors5& local);
 
 }  // namespace mdof::algo

@@ -15,7 +15,8 @@ std::vector<bool> usable(const std::vector<double>& readings_m) {
   return use;
 }
 
-// 1/u² if every u is known, otherwise equal weights; 0 for a lost probe.
+// Returns the weights of the probes: 1/u² if all u are known, otherwise equal weights; 0 for a lost
+// probe.
 std::vector<double> make_weights(const std::vector<bool>& use, const std::vector<double>& u_m) {
   bool known = u_m.size() == use.size();
   for (std::size_t i = 0; known && i < use.size(); ++i) known = !use[i] || u_m[i] > 0;
@@ -97,7 +98,7 @@ Eigen::MatrixXd Solver::gain(double travel_m, const AxisErrors& errors,
   return gain(travel_m, errors, make_weights(usable(readings_m), u_m));
 }
 
-// First-order propagation, GUM 5.1.2: with K the gain, cov(e) = K diag(u²) Kᵀ.
+// First-order propagation (GUM 5.1.2): cov(e) = K diag(u²) Kᵀ, where K is the gain.
 Covariance5 Solver::covariance(double travel_m, const AxisErrors& errors,
                                const std::vector<bool>& use, const std::vector<double>& weights,
                                const std::vector<double>& u_m) const {

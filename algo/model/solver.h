@@ -1,5 +1,5 @@
-// Calculates five errors with covariance from the readings of one instant or dwell, with any of the
-// three models.
+// Calculates the five errors and their covariance from the probe readings of one instant or one
+// dwell, with any of the three models.
 #pragma once
 
 #include <optional>
@@ -15,31 +15,32 @@ namespace mdof::algo {
 
 class Solver {
  public:
-  // Error: the probes of the rig do not determine all five errors (the error names those they do
-  // not determine); or, for a small-angle model, the fixture is not of the paper's kind.
+  // Errors: the probes of the rig do not determine all five errors (the message states the errors
+  // that are not determined); for a small-angle model, the errors of make_small_angle_fixture().
   static Result<Solver> create(const Rig& rig, Model model);
 
-  // `readings_m`: displacement of each probe in the order of the rig, NaN if it is lost. `u_m`:
-  // standard uncertainty of each, empty or 0 if unknown (then the covariance is 0). With a lost
-  // probe the errors are not solved, and the reason is set, unless the others determine all five.
+  // `readings_m`: displacement at each probe in the order of the rig; NaN for a lost probe. `u_m`:
+  // standard uncertainty of each reading; empty or 0 if unknown (then the covariance is 0). If the
+  // probes that are not lost do not determine all five errors, the errors are not solved and the
+  // reason is set.
   AxisErrors solve(double travel_m, const std::vector<double>& readings_m,
                    const std::vector<double>& u_m) const;
 
-  // The same without the covariance, in a quarter of the time.
+  // As solve(), but without the covariance, in a quarter of the time.
   AxisErrors solve_without_covariance(double travel_m, const std::vector<double>& readings_m,
                                       const std::vector<double>& u_m) const;
 
-  // Change of the local errors, stated at the carriage, per 1 m of each probe's reading: 5 x
-  // probes, 0 for a lost probe. First order (GUM 5.1.3): the weighted pseudo-inverse of the
-  // Jacobian, at `errors` for the rigid model and at zero error for the small-angle models, which
-  // is accurate to 1e-3.
+  // Returns the change of the local errors, stated at the carriage, per 1 m of each probe's
+  // reading: 5 x probes, 0 for a lost probe. It is the weighted pseudo-inverse of the Jacobian
+  // (first order, GUM 5.1.3). The Jacobian is calculated at `errors` for the rigid model. For the
+  // small-angle models it is calculated at zero errors, which is accurate to 1e-3.
   Eigen::MatrixXd gain(double travel_m, const AxisErrors& errors,
                        const std::vector<double>& readings_m, const std::vector<double>& u_m) const;
 
   Model model() const { return model_; }
   const Fixture& fixture() const { return fixture_; }
   const Visibility& seen() const { return seen_; }
-  // Set for the small-angle models: for solve_batch().
+  // Only set for the small-angle models; used for solve_batch().
   const std::optional<SmallAngleFixture>& small_angle() const { return small_angle_; }
 
  private:

@@ -9,11 +9,11 @@
 namespace mdof::algo {
 namespace {
 
-// Angle effect at a 10 mm arm, so that the columns are comparable.
+// Angles are scaled with an arm of 10 mm, so that the columns of the Jacobian are comparable.
 constexpr double kAngleScale_m = 0.01;
-constexpr double kTravel_m = 0.0173;  // a generic position, where a probe is unlikely
+constexpr double kTravel_m = 0.0173;  // a position at which there is probably no probe
 constexpr double kRankTolerance = 1e-6;
-// Smallest share with which an error is part of an unseen combination.
+// Smallest coefficient of an error that counts as part of an undetermined combination.
 constexpr double kNamedShare = 1e-3;
 
 }  // namespace
@@ -39,8 +39,8 @@ Eigen::MatrixXd first_order_jacobian(const Fixture& fixture, double travel_m,
 }
 
 Visibility visibility(const Fixture& fixture, const std::vector<bool>& use) {
-  // The rank is the same at any travel. An unseen angle appears together with the straightness that
-  // it causes at its lever arm.
+  // The rank is the same at any travel. An undetermined angle is listed together with the
+  // straightness error that it causes with its lever arm.
   Eigen::MatrixXd J = first_order_jacobian(fixture, kTravel_m, use);
   J.rightCols(3) /= kAngleScale_m;
   Visibility result;

@@ -1,4 +1,5 @@
-// Which of the five errors a set of probes determines, before any number is solved.
+// Determines which of the five errors a set of probes can measure. Only the fixture is necessary,
+// no readings.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,23 +10,25 @@
 
 namespace mdof::algo {
 
-// First-order Jacobian of the readings: rows are probes, columns δy δz εx εy εz; m and m/rad.
+// Returns the first-order Jacobian of the readings. Rows: probes; columns: δy δz εx εy εz; m and
+// m/rad.
 //  reading = u · (δ + ε × (p - d e_x)) for a plane perpendicular to the probe's direction.
 Eigen::MatrixXd first_order_jacobian(const Fixture& fixture, double travel_m,
                                      const std::vector<bool>& use);
 
 struct Visibility {
-  int rank = 0;                     // 0 to 5
-  double condition = 0;             // largest by smallest singular value, angles scaled by 10 mm
-  std::vector<std::string> unseen;  // ISO names in a combination that is not determined
+  int rank = 0;          // 0 to 5
+  double condition = 0;  // largest / smallest singular value; angles are scaled by 10 mm
+  // ISO names of the errors that are not determined, alone or in a combination.
+  std::vector<std::string> unseen;
   bool complete() const { return rank == kErrorCount; }
 };
 
-// Rank by singular values relative to 1e-6 of the largest. `use`: probes to use.
+// The rank is the number of singular values above 1e-6 of the largest. `use`: probes to use.
 Visibility visibility(const Fixture& fixture, const std::vector<bool>& use);
 
-// "probes A B cannot separate ECX and EYX" with the rank and the remedy; for an incomplete
-// visibility.
+// Returns for example "probes A B cannot separate ECX and EYX" with the rank and what to change.
+// Only for a visibility that is not complete().
 std::string describe_unseen(const Fixture& fixture, const std::vector<bool>& use,
                             const Visibility& visibility);
 

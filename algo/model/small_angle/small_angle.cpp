@@ -53,7 +53,8 @@ Result<Roles> find_roles(const Fixture& fixture) {
   return roles;
 }
 
-// Weights of p, q, c in Δz = c + q y - p x through three points; false: the points are on one line.
+// Calculates the weights of three points for p, q, c in Δz = c + q y - p x. Returns false if the
+// points are on one line.
 bool top_weights(SmallAngleFixture& f) {
   Eigen::Matrix3d M;
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -86,8 +87,8 @@ BatchKernels batch_kernels(InstructionSet set) {
 
 }  // namespace
 
-// Limit of the distance of the side probes along z relative to that along the motion. Up to this
-// limit the steps of `exact` converge (small_angle_kernel.h).
+// Largest ratio of the distance of the side probes along z to their distance along the motion. Up
+// to this ratio the iteration of `exact` converges (small_angle_kernel.h).
 constexpr double kSteepest = 3;
 
 Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture) {

@@ -16,7 +16,7 @@ struct Vertex {
   double x = 0, y = 0;
 };
 
-// Whether b is on or below the line from a to c.
+// Returns whether b is on or below the line from a to c.
 bool is_below(const Vertex& a, const Vertex& b, const Vertex& c) {
   return (b.x - a.x) * (c.y - a.y) >= (b.y - a.y) * (c.x - a.x);
 }
@@ -29,7 +29,7 @@ class Hull {
   }
 
   const std::vector<Vertex>& vertices() const { return vertices_; }
-  // Moves to x, which must not decrease; the functions below are evaluated there.
+  // Moves to x, which must not decrease. The functions below use this x.
   void go_to(double x) {
     x_ = x;
     while (at_ + 1 < vertices_.size() && vertices_[at_ + 1].x <= x) ++at_;
@@ -74,7 +74,8 @@ std::vector<double> places_of(const Hull& above, const Hull& below) {
   return x;
 }
 
-// Parallel lines with a slope in this range touch both hulls here and do not cross them.
+// Returns the middle of the slopes for which two parallel lines touch both hulls at this x and do
+// not cross a hull.
 double middle_slope(const Hull& above, const Hull& below) {
   const double least = std::max(above.slope_right(), -below.slope_left());
   const double most = std::min(above.slope_left(), -below.slope_right());

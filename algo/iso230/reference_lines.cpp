@@ -66,7 +66,7 @@ bool is_finite(const ReferenceLine& line) {
          std::isfinite(line.zone_m) && std::isfinite(line.residual_m);
 }
 
-constexpr double kMost_m = 1e6;  // avoids overflow of products of two
+constexpr double kMost_m = 1e6;  // avoids overflow of products of two values
 
 Status check_size(std::span<const double> values, const char* what) {
   if (std::all_of(values.begin(), values.end(), [](double v) { return std::abs(v) <= kMost_m; }))

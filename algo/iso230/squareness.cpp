@@ -23,12 +23,14 @@ int sign_of(double x) {
   return x > 0 ? 1 : x < 0 ? -1 : 0;
 }
 
-// The sign of the outward normal, along `along`, of the faces perpendicular to it; 0: unknown, or
-// there is no such face. The material is around the origin of M. The top target plane goes through
-// this origin; its sign comes from its normal, the local z.
+// Returns the sign of the outward normal of the faces that are perpendicular to the axis `along`;
+// 0: the sign is unknown, or there is no such face. The material of the square is around the origin
+// of M, so the sign follows from the position of the face. The top target plane contains this
+// origin; its sign follows from its normal, the local z.
 Result<int> side_of_face(const Rig& rig, Axis along) {
   MDOF_TRY(const Fixture fixture, make_fixture(rig));
-  const auto row = local_axes(rig.axis)[static_cast<std::size_t>(along)];  // `along`, local
+  // The axis `along` in local coordinates.
+  const auto row = local_axes(rig.axis)[static_cast<std::size_t>(along)];
   int side = 0;
   for (const FixtureProbe& probe : fixture.probes) {
     const double normal = row[0] * probe.n_C.x() + row[1] * probe.n_C.y() + row[2] * probe.n_C.z();
@@ -57,7 +59,7 @@ tl::unexpected<Error> contradiction(const Rig& x, const Rig& y, const char* key,
                    remedy);
 }
 
-// Slope of the straightness of one axis along the other, error `named` of error_names().
+// Slope of the straightness of one axis in the direction of the other axis.
 struct StraightnessSlope {
   Line line;
   double u_slope_rad = 0;
@@ -77,7 +79,7 @@ double propagated(const std::vector<double>& x, const std::vector<TargetMean>& s
   return std::sqrt(std::max(0.0, sum) + trend * trend);
 }
 
-// For each run and target: difference of its visits from the mean of all runs' visits from the same
+// [run][target]: differences of the visits from the mean of the visits of all runs from the same
 // side, m.
 using OffMean = std::map<int, std::map<int, std::vector<double>>>;
 
@@ -109,9 +111,10 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-// s/√n of the slopes of the runs that have at least three targets and at least half of all targets;
-// 0 with fewer than two such runs. Slopes are fitted to the differences from the mean of the runs,
-// so that the form and the backlash of the axis do not appear as scatter if a run lacks a target.
+// Returns s/√n of the slopes of runs; 0 for fewer than two runs. Only runs with at least three
+// targets and at least half of all targets count. The slopes are fitted to the differences from the
+// mean of the runs. So the form and the backlash of the axis do not increase the scatter if a
+// target is missing in a run.
 double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                        std::size_t named) {
   std::map<int, double> travel_m;  // key: target
@@ -163,7 +166,7 @@ Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t na
   return slope;
 }
 
-constexpr double kMostArtefact_rad = 0.01;  // a larger error is not a square
+constexpr double kMostArtefact_rad = 0.01;  // an artefact with a larger error is no square
 
 Status check_given(const ArtefactGiven& given) {
   const double angle_rad = given.angle_error_rad.value_or(0), u_rad = given.u_rad.value_or(0);

@@ -11,33 +11,36 @@
 
 namespace mdof::algo {
 
-// Values of the square that the user gives; they replace those of the rigs.
+// Values of the square from the user; they replace the values of the rigs.
 struct ArtefactGiven {
   std::optional<double> angle_error_rad, u_rad;
 };
 
-// The square that both rigs describe, with the corner that their planes show. A face that is the
-// top plane of a motion faces along the normal of this plane; any other face is on the side of M's
-// origin where its position is. Errors: a given value is above 10 mrad or not a number; the rigs
-// differ; an angle error is given and the side of a face is unknown (it is at 0, on both sides, or
-// its normal contradicts).
+// Returns the square that both rigs describe, and the corner of the square that was measured. The
+// corner follows from the outward direction of each face. The top plane of a rig has the direction
+// of its normal. Any other face has the direction from the origin of M to the face. Errors:
+// - a value from the user is above 10 mrad or not a number
+// - the rigs describe different squares
+// - an angle error is given, but the direction of a face is unknown: the face is at 0, there are
+//   faces on both sides, or the normal of the face contradicts its position
 Result<SquareArtefact> combined_artefact(const Rig& rig_a, const Rig& rig_b,
                                          const ArtefactGiven& given);
 
-// Points where the straightness of the two axes is stated. From one point to another the slope
-// changes by the lever arm times the slope of an angle, and so does the squareness.
+// Points for which the straightness of the two axes is stated. At another point, the slope of
+// straightness, and therefore the squareness, differs by the lever arm times the slope of an angle.
 struct StatedPair {
   StatedAt a = kAtFixture, b = kAtFixture;
   bool operator==(const StatedPair&) const = default;
 };
 
-// Fits least-squares lines to the mean of both approaches of the straightness of each axis in the
-// direction of the other (EYX over x and EXY over y; with Z EZX and EXZ, EZY and EYZ). They are at
-// the fixture unless `at` states another point, not at the carriage: slope and face are then
-// comparable, and neither run needs to be zeroed against the other. u of a slope is the larger of
-// the propagated u of the targets (GUM 5.1.2) and the scatter of the slopes of the repeats, s/√n.
-// Errors: runs of one axis, or not in the order X, Y, Z; series of fewer than three targets; those
-// of check_usable().
+// Calculates the squareness from the straightness of each axis in the direction of the other axis:
+// EYX and EXY for X and Y, EZX and EXZ for X and Z, EZY and EYZ for Y and Z. Fits a least-squares
+// line to the mean of both approaches of each straightness error. The straightness is stated at the
+// fixture unless `at` states other points. At the fixture (not at the carriage) the slope is
+// comparable with the face of the square, and the zero of the two runs may differ. u of a slope is
+// the larger of two values: the propagated u of the targets (GUM 5.1.2), and s/√n of the slopes of
+// n repeats. Errors: runs of the same axis, or not in the order X, Y, Z; fewer than three targets;
+// the errors of check_usable().
 Result<Squareness> squareness(const Run& run_a, const Run& run_b, const SquareArtefact& artefact,
                               bool take_partial = false, const StatedPair& at = {});
 

@@ -1,4 +1,4 @@
-// Squareness by each reference line of straightness (ISO 230-1).
+// Squareness calculated with each reference line of straightness (ISO 230-1).
 #pragma once
 
 #include "schema/base/result.h"
@@ -8,8 +8,9 @@
 
 namespace mdof::algo {
 
-// Lines through the means of both approaches, at the fixture, of the two runs of `fitted`.
-// least_squares has the values of `fitted`. Error: a run with fewer than three targets.
+// Fits the reference lines to the means of both approaches of the two runs of `fitted`, stated at
+// the fixture. least_squares has the values of `fitted`. Error: a run with fewer than three
+// targets.
 Result<SquarenessLines> squareness_lines(const Run& run_a, const Run& run_b,
                                          const Squareness& fitted);
 

@@ -1,4 +1,4 @@
-// Straightness with the reference lines of ISO 230-1, and angles relative to the start.
+// Straightness with the reference lines of ISO 230-1, and angles relative to the first target.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,17 @@
 
 namespace mdof::algo {
 
-// For the two straightness errors and each approach with at least three targets, at the point where
-// `points` are stated.
+// Returns figures for the two straightness errors and for each approach with at least three
+// targets. They are stated at the point for which `points` are stated.
 std::vector<StraightnessFigure> straightness(const MovingAxis& moving,
                                              const std::vector<MeasuredPoint>& points);
 
-// The same series about each of the three reference lines, if they have at least three targets.
+// Returns the straightness of each series with at least three targets for each of the three
+// reference lines.
 std::vector<StraightnessLines> straightness_lines(const MovingAxis& moving,
                                                   const std::vector<MeasuredPoint>& points);
 
-// For the three angles and each approach with at least two targets.
+// Returns figures for the three angles and for each approach with at least two targets.
 std::vector<AngleFigure> angles(const MovingAxis& moving, const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

@@ -1,5 +1,5 @@
-// Change of the means at the targets for given changes of the errors of the points: target_means()
-// of both approaches is linear in them.
+// Calculates how the means at the targets change if the errors of the points change. The means of
+// target_means() for both approaches are linear in the errors of the points.
 #pragma once
 
 #include <array>
@@ -12,20 +12,21 @@
 
 namespace mdof::algo {
 
-// Prepared once from the points, for any number of changes.
+// Constructed once from the points; of() may then be called many times.
 class TargetChanges {
  public:
   TargetChanges(const MovingAxis& moving, const std::vector<MeasuredPoint>& points);
 
-  // `changes`: change of the errors of each point, local; m, rad. Returns the change of `named` of
-  // target_means() for the moving body, in the order of its targets.
+  // `changes`: change of the local errors of each point; m, rad. Returns the change of
+  // TargetMean::named for the moving body, in the order of target_means().
   std::vector<Errors5> of(const std::vector<Errors5>& changes) const;
 
  private:
   struct Counted {
     std::size_t target, way, point;  // way: 0 forward, 1 reverse
   };
-  using Visits = std::array<std::size_t, 2>;         // visits of a target, forward and reverse
+  // Number of visits of a target, forward and reverse.
+  using Visits = std::array<std::size_t, 2>;
   using Ways = std::array<std::vector<Errors5>, 2>;  // [way][target]
 
   std::vector<Errors5> without_drift(const std::vector<Errors5>& changes) const;
@@ -35,7 +36,7 @@ class TargetChanges {
   MovingAxis moving_;
   std::vector<Counted> counted_;
   std::vector<Visits> visits_;
-  std::optional<RunDrifts> drifts_;  // set if runs lack visits
+  std::optional<RunDrifts> drifts_;  // set if visits of some runs are missing
 };
 
 }  // namespace mdof::algo

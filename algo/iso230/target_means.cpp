@@ -46,9 +46,9 @@ TargetMean mean_of(const TargetMean& forward, const TargetMean& reverse) {
   return mean;
 }
 
-// u of the mean over runs and both directions at this target, from the scatter of the runs' own
-// means. Slow changes shift both directions of a run alike, so the mean of both does not halve
-// them. 0: fewer than two runs.
+// Returns s/√n of the n runs' means of both directions at this target; 0 for fewer than two runs.
+// Slow changes shift both directions of a run equally, so the mean of both directions does not
+// reduce their effect.
 Errors5 scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                         int target) {
   std::map<int, std::array<std::vector<Errors5>, 2>> runs;
@@ -85,14 +85,14 @@ MeansByTarget one_way(const MovingAxis& moving, const std::vector<MeasuredPoint>
   return means;
 }
 
-// Forward minus reverse, over the targets that have both.
+// Forward minus reverse at the targets that have both approaches.
 struct Reversal {
   Errors5 mean{};
-  // u if the mean is taken as the reversal of one target; from one target alone: the whole
-  // reversal.
+  // u of the reversal of a single target if the mean is used for it. If only one target has both
+  // approaches, it is the reversal itself.
   Errors5 u{};
   double position_m = 0;  // mean of the targets
-  Errors5 slope{};        // along the encoder; 0 if the scatter can cause it by chance
+  Errors5 slope{};        // per m of encoder position; 0 if not significant
   double trend(std::size_t k, double at_m) const { return slope[k] * (at_m - position_m); }
 };
 

@@ -101,7 +101,8 @@ Result<std::vector<std::vector<double>>> milling_effects(const MillingPlan& plan
     MillingPlan higher = plan, lower = plan;
     const double value = plan.*(input.input->member);
     higher.*(input.input->member) += input.u;
-    // The difference does not use a negative value of a positive input.
+    // If the input is positive and its u is larger than its value, the difference uses no negative
+    // value.
     lower.*(input.input->member) = value > 0 && input.u >= value ? value : value - input.u;
     const double width = higher.*(input.input->member) - lower.*(input.input->member);
     MDOF_TRY(const MillingResult above, milling(higher));

@@ -47,7 +47,8 @@ Result<ByTarget> by_target(const std::vector<PositioningReading>& readings) {
                    "of ISO 230-2 needs five); measure at more targets");
 }
 
-// One reading has no standard deviation. One reading everywhere is a single run, which has means.
+// One reading has no standard deviation, so each target needs two readings. A single run with one
+// reading at each target is allowed, because it has means.
 Status check_count(double target_m, const char* approach, std::size_t count, bool wanted,
                    bool single_run) {
   if (wanted ? count >= 2 || (single_run && count == 1) : count == 0) return {};
@@ -102,7 +103,7 @@ PositioningTarget target_of(double target_m, const Approaches& at) {
   return t;
 }
 
-// From the smallest to the largest value taken; NaN: no value, or a value is NaN.
+// The range from the smallest to the largest value; NaN if there is no value or a value is NaN.
 class Range {
  public:
   void take(double low, double high) {

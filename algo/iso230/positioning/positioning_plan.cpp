@@ -1,4 +1,4 @@
-// Requirements of ISO 230-2:2014, 5.3 for targets and runs.
+// Checks the requirements of ISO 230-2:2014, 5.3 for targets and runs.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -6,19 +6,20 @@
 namespace mdof::algo {
 
 struct PositioningConditions {
-  // Largest difference between the device's deviations at two positions of the travel, in either
-  // direction: a rectangular distribution with standard uncertainty a/√3.
+  // Largest difference a between the deviations of the measuring device at two positions of the
+  // travel, positive or negative. The distribution is rectangular with the standard uncertainty
+  // a/√3.
   double device_limit_m = kNoFigure;
-  // E_VE: range of the readings of the axis at rest during a time as long as the test; U(k = 2) =
+  // E_VE: range of the readings while the axis is at rest for the duration of the test; U(k = 2) =
   // 0.6 E_VE. The factor 0.6 is quoted from memory and was not checked against the text of the
   // report.
   double drift_range_m = kNoFigure;
 };
 
-// A result is NaN if a condition that it needs is unknown. It assumes no reduction by the average
-// over the runs, because drift acts alike on consecutive readings. It does not contain the
-// temperature of the machine, the alignment and the uncertainty of R, whose scatter already
-// contains the drift.
+// A result is NaN if a condition that is necessary for it is unknown. The average over the runs
+// does not reduce the uncertainty, because consecutive readings have nearly the same drift. The
+// results do not contain the temperature of the machine and the alignment. They do not contain the
+// uncertainty of R, because the scatter of the readings already contains the drift.
 PositioningUncertainty positioning_uncertainty(const PositioningConditions& conditions);
 
 }  // namespace mdof::algo

@@ -6,7 +6,8 @@
 namespace mdof::algo {
 namespace {
 
-// The line to subtract; 0 with fewer than three positions, because two are always on a line.
+// Returns the line to subtract. With fewer than three positions it is 0, because two points are
+// always on a line.
 Line line_of_run(const Run& run, std::size_t named) {
   const auto series = target_means(run.header.moving(), run.points, Approach::both);
   const auto x = positions(series);

@@ -1,5 +1,5 @@
-// The readings of a run in the form of ISO 230-2: each straightness error and each angle is a
-// series of deviations at targets.
+// Converts the points of a run to readings for ISO 230-2. Each straightness error and each angle is
+// a series of deviations at the targets.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,15 @@
 namespace mdof::algo {
 
 struct RunReadings {
-  std::vector<PositioningReading> readings;  // m or rad, at the point where the run is stated
-  // Points that are not solved or whose approach is unknown.
+  std::vector<PositioningReading> readings;  // m or rad, at the point for which the run is stated
+  // Number of points that are not solved or have an unknown approach.
   std::size_t left_out = 0;
 };
 
-// Readings of error `named` in the order of error_names(). For a straightness error the
-// least-squares line through the mean of both approaches is subtracted unless `keep_slope`, because
-// the line shows how the target was clamped and belongs to squareness. Angles stay unchanged.
+// Returns the readings of the error with the index `named` of error_names(). For a straightness
+// error the least-squares line through the mean of both approaches is subtracted, unless
+// `keep_slope`. The slope of this line depends on how the target was clamped and belongs to
+// squareness. Angles are not changed.
 RunReadings readings_of_run(const Run& run, std::size_t named, bool keep_slope);
 
 }  // namespace mdof::algo

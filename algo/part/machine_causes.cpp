@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// A known error; frame, k and kind in the order of derivatives().
+// A known error; frame, k and of_line are the indices in the result of derivatives().
 struct Known {
   std::size_t frame = 0, k = 0;
   bool of_line = false;
@@ -32,8 +32,8 @@ std::vector<Known> known_errors(const Machine& machine, std::size_t points, Mach
   return known;
 }
 
-// Effect of one unit of the source on the tool here. Measured errors are left out, because their
-// values contain it.
+// Returns the effect of one unit of the source on the position of the tool for this command.
+// Measured errors are left out, because their values already contain the effect of the source.
 Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, const Command& command,
                           const std::vector<ErrorDerivative>& all, bool with_axes) {
   Eigen::Vector3d effect = Eigen::Vector3d::Zero();
@@ -47,8 +47,8 @@ Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, con
   return effect;
 }
 
-// Adds the u of the errors of bodies at point `p`. Each cause takes its correlated part in the
-// later errors, so that the causes stay independent.
+// Adds the u of the errors of bodies at point `p`. The part of a later error that is correlated
+// with an earlier error is added to the cause of the earlier error, so the causes are independent.
 void add_parts(const std::vector<Known>& known, const std::vector<ErrorDerivative>& all,
                const std::vector<FrameValues>& values, std::size_t p, MachineCauses& causes) {
   for (const Known& one : known)
@@ -59,7 +59,8 @@ void add_parts(const std::vector<Known>& known, const std::vector<ErrorDerivativ
                                                       static_cast<Eigen::Index>(one.k));
 }
 
-// Adds the quantities that several bodies share at point `p`, one cause each, from `first` on.
+// Adds the quantities that several bodies share at point `p`: one cause for each quantity, from the
+// index `first` on.
 void add_shared(const Machine& machine, const std::vector<ErrorDerivative>& all,
                 const std::vector<FrameValues>& values, std::size_t p, std::size_t points,
                 std::size_t first, MachineCauses& causes) {

@@ -1,5 +1,5 @@
-// Causes of the error of a part that are in the machine, over the points of a path: measured errors
-// of its axes, and sources that were not measured. SI units.
+// Calculates the effects of the machine on the error of a part at the points of a path. The causes
+// are measured errors of the axes, and error sources that were not measured. SI units.
 #pragma once
 
 #include <string>
@@ -11,16 +11,17 @@
 namespace mdof::algo {
 
 struct MachineCauses {
-  // One for each known error ("EYX", "EC0Y"), and for each quantity that axes share.
+  // One cause for each known error ("EYX", "EC0Y") and for each quantity that axes share.
   std::vector<PartCause> axes;
-  // One for each source: its effect on errors that were not measured.
+  // One cause for each error source. It contains the effect of the source on errors that were not
+  // measured.
   std::vector<PartCause> budget;
   std::vector<std::string> not_measured, no_u, beyond;  // same as in ToolError
 };
 
-// Points of the path are positions of the tool in workpiece coordinates, relative to its position
-// when all commands are 0. The chain gives the commands (command_at_place()). `with_axes`: the
-// measured errors count. Otherwise the sources act on these errors, too, as in a machine that is
+// `at_m`: positions of the tool in workpiece coordinates, relative to the position of the tool when
+// all commands are 0. command_at_place() calculates the commands from the chain. `with_axes`: true:
+// measured errors are used. false: all errors follow from the sources, as for a machine that is
 // only designed.
 MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m,
                              bool with_axes = true);

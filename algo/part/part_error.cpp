@@ -8,16 +8,17 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kForTrials = 1000;  // points of the path in each trial
+constexpr std::size_t kForTrials = 1000;  // approximate number of points of the path in each trial
 
-// A normal random number with variance 1, for trial and cause.
+// Returns a normally distributed random number with variance 1 for a trial and a cause.
 double drawn(std::uint64_t seed, std::size_t trial, std::size_t cause) {
   const Philox words =
       philox({{static_cast<std::uint32_t>(trial), 0, static_cast<std::uint32_t>(cause), 0}}, seed);
   return gaussian(uniform(words[0], words[1]));
 }
 
-// Values of a cause as one list: components along the normals, or all components.
+// Returns the values of a cause at all points as one list: components along the normals, or all
+// three components.
 std::vector<double> seen(const PartPath& path, const std::vector<Eigen::Vector3d>& field) {
   std::vector<double> list;
   list.reserve(field.size() * (path.normal.empty() ? 3 : 1));
@@ -39,8 +40,9 @@ double product(const std::vector<double>& a, const std::vector<double>& b, doubl
 
 struct Causes {
   std::vector<std::vector<double>> value, u;
-  std::vector<bool> is_unknown;       // has only a u, no value
-  Eigen::MatrixXd values, mixed, us;  // mean products of value and value, value and u, u and u
+  std::vector<bool> is_unknown;  // the cause has a u and no value
+  // Mean products of two causes: value and value, value and u, u and u.
+  Eigen::MatrixXd values, mixed, us;
 };
 
 Causes looked_at(const PartPath& path, const std::vector<PartCause>& causes) {
@@ -64,12 +66,12 @@ Causes looked_at(const PartPath& path, const std::vector<PartCause>& causes) {
   return all;
 }
 
-// Mean squares of layers and causes if each cause is value + xi u.
+// Mean squares of the errors of layers and causes for given xi.
 struct Squares {
   std::vector<double> layers, causes;
 };
 
-enum class UnknownCauses { expected, drawn };  // causes with a known u and an unknown value
+enum class UnknownCauses { expected, drawn };  // for causes with a known u and an unknown value
 
 Squares squares_of(const std::vector<PartCause>& causes, const Causes& all,
                    const std::vector<double>& xi, std::size_t layers, UnknownCauses unknown) {
@@ -138,7 +140,7 @@ void find_shares(const std::vector<PartCause>& causes, const Causes& all, std::s
     }
 }
 
-// Magnitude of the error at each of the points begin, begin + every ...
+// Returns the magnitude of the error at every `every`-th point.
 std::vector<double> sizes(const PartPath& path, const Causes& all, const std::vector<double>& xi,
                           std::size_t every) {
   const std::size_t width = path.normal.empty() ? 3 : 1;
@@ -169,7 +171,8 @@ PartError part_error(const PartPath& path, const std::vector<PartCause>& causes,
   result.worst = static_cast<std::size_t>(worst - found.begin());
   result.max_m = *worst;
   result.p95_m = quantile_95(found);
-  // Compare with the same points without the draws; these may be fewer than all points.
+  // The trials may use fewer points than the estimate. So they are compared with the error at the
+  // same points without random numbers.
   const std::size_t every = std::max<std::size_t>(1, path.at_m.size() / kForTrials);
   const std::vector<double> thinned = sizes(path, all, xi, every);
   const double p95_m = quantile_95(thinned),
@@ -181,7 +184,8 @@ PartError part_error(const PartPath& path, const std::vector<PartCause>& causes,
     drawn_p95.push_back(quantile_95(drawn_sizes));
     drawn_max.push_back(*std::max_element(drawn_sizes.begin(), drawn_sizes.end()));
   }
-  // A cause with only a u always makes errors larger, so the median of the draws is the estimate.
+  // A cause with a u and no value always increases the error, so the median of the trials is the
+  // estimate.
   const auto take = [](std::vector<double> drawn, double thinned_m, double& estimate_m,
                        double& U_m) {
     if (drawn.empty()) return;

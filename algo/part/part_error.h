@@ -1,5 +1,5 @@
-// The error of a part along its path from the causes of its layers, each with its uncertainty, and
-// the share of each (README.md). SI units.
+// Calculates the error of a part along a path, and the share of each layer and of each cause in
+// this error (README.md). Each layer consists of causes with uncertainties. SI units.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,9 +10,9 @@
 
 namespace mdof::algo {
 
-// One cause over the points of a path: error = value + xi u. xi is one number of variance 1 for the
-// whole path, because repeated measurement does not reduce the uncertainty of, for example, a
-// squareness or a scale.
+// One cause of the error at the points of a path: error = value + xi u. xi is a random number with
+// variance 1. It is the same for the whole path, because the uncertainty of, for example, a
+// squareness or a scale is the same at all points.
 struct PartCause {
   std::size_t layer = 0;
   std::string name;
@@ -27,19 +27,19 @@ inline PartCause new_cause(const std::string& name, std::size_t points) {
 
 struct PartPath {
   std::vector<Eigen::Vector3d> at_m;
-  // Outward unit vectors: the error is the component along them. Empty: the error is the length of
-  // the error vector.
+  // Outward unit vectors. The error at a point is the component of the error vector along the
+  // normal. Empty: the error is the length of the error vector.
   std::vector<Eigen::Vector3d> normal;
 };
 
 struct PartShare {
-  double rms_m = 0, U_rms_m = 0;  // rms of the layer or cause, with its U
-  double share = 0, U_share = 0;  // share of the sum of all mean squares, with its U
+  double rms_m = 0, U_rms_m = 0;  // rms error of the layer or cause, with the U of this rms
+  double share = 0, U_share = 0;  // share in the sum of all mean squares, with the U of this share
 };
 
 struct PartError {
   double p95_m = 0, U_p95_m = 0, max_m = 0, U_max_m = 0;
-  std::size_t worst = 0;  // index of the point
+  std::size_t worst = 0;  // index of the point with the largest error
   std::vector<PartShare> layers, causes;
 };
 
@@ -48,9 +48,9 @@ struct PartTrials {
   std::size_t shares = 2000, errors = 400;
 };
 
-// Calculates U for 95 % by Monte Carlo over the xi: 95 % of the trials are within U of the
-// estimate. The estimate of a cause with a known u and an unknown value (a budget) is its expected
-// mean square.
+// Calculates U for 95 % by the Monte Carlo method with random xi: 95 % of the trials differ from
+// the estimate by at most U. If a cause has a known u and an unknown value (a budget), its expected
+// mean square is the estimate.
 PartError part_error(const PartPath& path, const std::vector<PartCause>& causes, std::size_t layers,
                      const PartTrials& trials = {});
 

@@ -10,9 +10,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAllowedExcess = 0.1;  // allowed excess, as a share of the calibrated range
+constexpr double kAllowedExcess = 0.1;  // as share of the calibrated range
 
-// Displacements at the ends of the calibrated range, um.
+// Returns the displacements at the ends of the calibrated range, um.
 std::array<double, 2> displacements_um(const Calibration& c) {
   std::array<double, 2> ends_um = *c.calibrated_um;
   for (double& t_um : ends_um) t_um += linearity_um(c, t_um);

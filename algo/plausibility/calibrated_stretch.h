@@ -1,5 +1,6 @@
-// Whether the probes read within the range of their calibration record. Outside, the line of the
-// record is extrapolated, and it is unknown whether the probe follows it.
+// Checks whether the readings of the probes are within the range of the calibration record. Outside
+// this range the line of the record is extrapolated, and the deviation of the probe from this line
+// is unknown.
 #pragma once
 
 #include <optional>
@@ -11,7 +12,7 @@
 
 namespace mdof::algo {
 
-// Displacements of one probe, m.
+// Range of the displacements of one probe, m.
 struct ReadingSpan {
   double least_m = 0, most_m = 0;
 };
@@ -19,11 +20,11 @@ struct ReadingSpan {
 // Extends `span` by a reading; NaN is ignored.
 void widen(std::optional<ReadingSpan>& span, double reading_m);
 
-// A notice for each probe that reads outside its calibrated range by more than a tenth of this
-// range. `spans`: [probe]; empty: the probe has no readings.
+// Returns a notice for each probe with readings outside its calibrated range by more than a tenth
+// of this range. `spans`: [probe]; empty: the probe has no readings.
 Notices stretch_notices(const Rig& rig, const std::vector<std::optional<ReadingSpan>>& spans);
 
-// For the points that have errors.
+// As above, for the readings of all points that have errors.
 Notices stretch_notices(const Rig& rig, const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

@@ -14,7 +14,8 @@ struct Reach {
   double least_m = 0, most_m = 0;
 };
 
-// The reach of one probe over the plane, along one of the plane's two axes of C, as in rigid.cpp.
+// Returns the range that one probe measures on the plane along one of the two axes of C that are in
+// the plane, as in rigid.cpp.
 Reach reach_of(const FixtureProbe& probe, bool first, double least_m, double most_m) {
   Eigen::Index normal = 0;
   probe.n_C.cwiseAbs().maxCoeff(&normal);
@@ -28,7 +29,8 @@ std::string range_text(double from_m, double to_m) {
   return from_m == to_m ? from + " mm" : from + " to " + plain_number(to_mm(to_m), 6) + " mm";
 }
 
-// Text of the probes that read outside the map: "probe A reads at 1 to 2 mm, ..."; empty: none.
+// Returns a text with the probes that measure outside the map, "probe A reads at 1 to 2 mm, ...";
+// empty: no probe does so.
 std::string read_outside(std::size_t plane, const std::vector<double>& covered_m, bool first,
                          const Fixture& fixture, double least_m, double most_m) {
   std::string outside;

@@ -1,5 +1,5 @@
-// Whether the height map of each plane covers the area that the probes reach. Outside, the rigid
-// model holds the last height, which was not measured.
+// Checks whether the height map of each plane contains the area that the probes measure. Outside
+// the map, the rigid model uses the last height of the map.
 #pragma once
 
 #include <string>
@@ -12,12 +12,13 @@
 
 namespace mdof::algo {
 
-// A notice for each plane and direction that the map does not cover over target travels d from
-// `least_m` to `most_m`: what it covers, what is reached and by which probes. A map with one
-// coordinate in a direction is constant in this direction. 50 µm outside are allowed.
+// Returns a notice for each plane and direction in which probes measure outside the map at target
+// travels d from `least_m` to `most_m`. The notice states the range of the map, the measured range
+// and the probes. A map with one coordinate in a direction is constant in this direction. Up to 50
+// µm outside are allowed.
 Notices map_notices(const Rig& rig, const Fixture& fixture, double least_m, double most_m);
 
-// For the points that have errors.
+// As above, for the travels of all points that have errors.
 Notices map_notices(const Rig& rig, const Fixture& fixture,
                     const std::vector<MeasuredPoint>& points);
 

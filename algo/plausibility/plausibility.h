@@ -1,5 +1,5 @@
-// Whether a run can be correct: figures about it, and notices of what looks wrong, such as missing
-// visits, stops that gave no point, and quantities in other units than stated.
+// Checks whether a run is plausible. Calculates figures of the run, and notices about probable
+// mistakes: missing visits, stops without a point, and quantities in other units than stated.
 #pragma once
 
 #include <cstdint>
@@ -25,19 +25,21 @@ struct RunToJudge {
 
 Plausibility plausibility(const RunToJudge& run);
 
-// Empty: nothing looks wrong. Of many similar notices only the first ones are kept, with their
-// number.
+// If there are many similar notices, only the first ones and one with their number are returned.
 Notices visit_notices(const RunToJudge& run);
 Notices unit_notices(const Rig& rig, const Plausibility& figures);
-// Notices of a probe whose reading is constant while others change, of a probe with its extreme
-// reading and no noise in three or more stops, of a probe without value where it was out of range,
-// and of an encoder that is constant while probes change.
+// Returns notices about
+// - a probe with a constant reading while others change
+// - a probe that has its largest or smallest reading without noise in three or more stops
+// - a probe without a value at stops where it was out of range
+// - an encoder with a constant reading while the probes change
 Notices signal_notices(const RunToJudge& run);
 
-// A notice if a travel (m) is implausible in the encoder's unit.
+// Returns a notice if a travel (m) is not plausible in the stated unit of the encoder.
 std::optional<Notice> encoder_unit_notice(double travel_m);
 
-// Stops at a target that gave no point, if there is no point of this target next to them either.
+// Returns the stops at a target that became no point, except for stops directly before or after a
+// point of this target.
 std::vector<DwellDetector::Summary::PassedOver> lost_stops(const RunToJudge& run);
 
 }  // namespace mdof::algo

@@ -1,4 +1,4 @@
-// Finds signals that are constant while the others show that the axis moves.
+// Finds signals that are constant although the other signals show that the axis moves.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,14 +17,14 @@ namespace {
 constexpr std::size_t kFewestSame = 6, kFewestPlaces = 3;
 constexpr std::size_t kFewestClipped = 3;
 constexpr double kExact_m = 1e-14;          // means of equal numbers are equal within this
-constexpr double kWithinNoise = 8;          // times u of a stop's mean
-constexpr double kOthersMove = 50;          // times the limit of the constant probe
+constexpr double kWithinNoise = 8;          // times the u of the mean of a stop
+constexpr double kOthersMove = 50;          // times the limit for the constant probe
 constexpr double kRestless = 30;            // times the usual sd in stops
 constexpr std::size_t kFewestRestless = 3;  // probes
 
 using Stops = std::vector<const MeasuredPoint*>;
 
-// The stops at which the probe has a value.
+// Returns the stops at which the probe has a value.
 Stops with_value(const std::vector<MeasuredPoint>& points, std::size_t probe) {
   Stops stops;
   for (const MeasuredPoint& p : points)
@@ -32,7 +32,7 @@ Stops with_value(const std::vector<MeasuredPoint>& points, std::size_t probe) {
   return stops;
 }
 
-// Range of the means of a probe in stops, and the scatter that its noise can cause.
+// Range of the means of a probe in several stops, and the range that its noise can cause.
 struct Stretch {
   double low_m = 0, high_m = 0, noise_m = 0;
   std::size_t stops = 0;
@@ -50,7 +50,8 @@ struct Stretch {
   }
 };
 
-// Index of the first stop from which the reading is constant within its noise up to the end.
+// Returns the index of the first stop after which the reading is constant within its noise up to
+// the last stop.
 std::size_t same_from(const Stops& stops, std::size_t probe) {
   Stretch stretch;
   std::size_t first = stops.size();
@@ -62,7 +63,7 @@ std::size_t same_from(const Stops& stops, std::size_t probe) {
   return first;
 }
 
-// Median over the other probes of their range from this stop on.
+// Returns the median of the ranges of the other probes from this stop on.
 double others_change_m(const RunToJudge& run, const MeasuredPoint& from, std::size_t probe) {
   std::vector<double> others_m;
   for (std::size_t k = 0; k < run.rig.probes.size(); ++k) {
@@ -99,8 +100,8 @@ void note_insensitive_probes(const RunToJudge& run, Notices& out) {
   }
 }
 
-// An amplifier at the limit of its output gives the same number throughout a stop, and this is the
-// largest or the smallest number of the run. Other stops have noise.
+// Reports probes whose amplifier is at the limit of its output. The reading is then constant during
+// a stop and is the largest or the smallest reading of the run. Other stops have noise.
 void note_clipped_probes(const RunToJudge& run, Notices& out) {
   for (std::size_t k = 0; k < run.rig.probes.size(); ++k) {
     const Stops stops = with_value(run.sequence.points, k);
@@ -120,12 +121,13 @@ void note_clipped_probes(const RunToJudge& run, Notices& out) {
   }
 }
 
-// Finds stops in which most probes change as much as only during a motion of the axis.
+// Reports stops in which most probes change as much as during a motion of the axis.
 void note_frozen_encoder(const RunToJudge& run, Notices& out) {
   const auto& points = run.sequence.points;
   if (points.size() < kFewestSame) return;
   const std::size_t probes = run.rig.probes.size();
-  std::vector<double> usual_m(probes);  // 0: always the same step of its resolution
+  // Usual sd of each probe; 0: its readings are constant in stops.
+  std::vector<double> usual_m(probes);
   for (std::size_t k = 0; k < probes; ++k) {
     std::vector<double> sd_m;
     for (const MeasuredPoint& p : points)
@@ -146,7 +148,7 @@ void note_frozen_encoder(const RunToJudge& run, Notices& out) {
   }
 }
 
-// Points in which a probe has no value because it was out of range.
+// Reports points at which a probe has no value because it was out of range.
 void note_saturated_probes(const RunToJudge& run, Notices& out) {
   const auto& points = run.sequence.points;
   for (const Probe& probe : run.rig.probes) {

@@ -1,4 +1,4 @@
-// Whether the values of each quantity are plausible in its stated unit.
+// Checks whether the values of each quantity are plausible in the stated unit.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,26 +9,27 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLongestAxis_m = 2;  // for machines with such fixtures
+constexpr double kLongestAxis_m = 2;  // of a machine with such a fixture
 constexpr double kShortestAxis_m = 0.5e-3;
-constexpr double kSlowest_hz = 2;  // for a log in seconds
+constexpr double kSlowest_hz = 2;  // rate of a log with time in seconds
 constexpr double kFastest_hz = 2e6;
 constexpr double kLargestFixture_m = 0.5;
 constexpr double kSmallestFixture_m = 0.5e-3;
-constexpr double kNarrowFixture_m = 5e-3;  // five probes do not fit in less
+constexpr double kNarrowFixture_m = 5e-3;  // a smaller fixture has no space for five probes
 constexpr double kWideFixture_m = 0.15, kWideByTravel = 5;
-constexpr double kQuietest_m = 0.5e-9;  // sd; every amplifier has more
-constexpr double kNoisiest = 2.5e-3;    // sd as a part of the range
+constexpr double kQuietest_m = 0.5e-9;  // sd; the noise of every amplifier is larger
+constexpr double kNoisiest = 2.5e-3;    // sd as share of the range
 constexpr double kNoisiest_m = 1e-6;
 constexpr double kThousandth = 1e-3;
-constexpr double kOffZero = 0.1;  // share of the range, for a gap without a stated offset
+// Share of the range, for a probe that reads a gap and has no offset.
+constexpr double kOffZero = 0.1;
 
 double largest(const ProbeFigures& p) {
   return std::max(std::abs(p.min_m), std::abs(p.max_m));
 }
 
-// All readings of the probe are within a thousandth of half its range, and its noise is below that
-// of any amplifier. Constant readings are another case.
+// Returns whether all readings of the probe are within a thousandth of half its range, and its
+// noise is below the noise of any amplifier. Does not hold for constant readings.
 bool looks_like_mm(const ProbeFigures& figures, const Probe& probe) {
   return figures.points > 0 && figures.travel_m > 0 && figures.sd_m < kQuietest_m &&
          largest(figures) <= kThousandth * probe.range_m / 2;
@@ -38,7 +39,8 @@ bool looks_like_nm(const ProbeFigures& figures, const Probe& probe) {
   return figures.points > 0 && figures.sd_m > std::max(kNoisiest_m, kNoisiest * probe.range_m);
 }
 
-// A gap is never 0. Without an offset the "displacement" is the whole gap.
+// Returns whether the probe reads a gap and the offset is missing. Without an offset, the
+// "displacement" is the whole gap, which is never 0.
 bool lacks_offset(const ProbeFigures& figures, const Probe& probe) {
   const Calibration& c = probe.calibration;
   return c.reads_gap && c.offset_um == 0 && figures.points > 0 && figures.max_m < 0 &&

@@ -1,5 +1,5 @@
-// Faults in the visits of a run: missing and doubled visits, targets found late, stops without a
-// point.
+// Finds mistakes in the visits of a run: missing visits, visits that occur twice, targets that were
+// found late, and stops without a point.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -14,14 +14,16 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostNamed = 6;     // notices of one kind; more are combined
-constexpr double kWorthATravel_m = 1e-3;  // a longer travel should have more than one stop
+// Notices of one kind; if there are more, they are combined to one.
+constexpr std::size_t kMostNamed = 6;
+// A run with a longer travel should have more than one stop.
+constexpr double kWorthATravel_m = 1e-3;
 
 const char* approach(int direction) {
   return direction > 0 ? "forward" : "reverse";
 }
 
-// A cell of the matrix n_ij.
+// A visit of the matrix n_ij (run i, target j, for each direction).
 struct Cell {
   int direction, run, target;
   bool operator<(const Cell& o) const {
@@ -59,7 +61,7 @@ class MissingVisits {
   Notices found() {
     Notices out;
     never_visited(out);
-    // Visits that are missing because the log began or ended within a pass are a separate case.
+    // Visits that are missing because the log began or ended within a pass have a separate notice.
     Cells holes, beyond;
     for (const Cell& cell : missing()) (beyond_the_log(cell) ? beyond : holes).push_back(cell);
     put(out, NoticeCode::visit_missing, holes);
@@ -84,7 +86,8 @@ class MissingVisits {
       out.push_back(
           notice(NoticeCode::target_never_visited, "", {{"targets", numbered("target", never)}}));
   }
-  // The end targets of a pendulum cycle are approached from one side.
+  // Returns whether the cycle includes this visit. The end targets of a pendulum cycle are
+  // approached from one side only.
   bool awaited(const Cell& cell) const {
     if (!visits_.directions.contains(cell.direction) || !visits_.targets.contains(cell.target))
       return false;
@@ -117,7 +120,7 @@ class MissingVisits {
     }
     return cells;
   }
-  // One notice for each run and approach.
+  // Adds one notice for each run and approach.
   void put(Notices& out, NoticeCode code, const Cells& cells) const {
     Notices alike;
     for (std::size_t i = 0; i < cells.size();) {
@@ -141,8 +144,8 @@ class MissingVisits {
   Visits visits_;
 };
 
-// During a run the targets seen so far are numbered. A target that is missed at first shifts the
-// numbers after it.
+// During a run, targets are numbered when they are visited for the first time. If the first pass
+// misses a target, the numbers of the targets after it increase by 1 when it is found.
 void note_found_late(const RunToJudge& run, Notices& out) {
   if (run.targets_given || !run.sequence.by_passes || run.sequence.points.empty()) return;
   const MeasuredPoint& start = run.sequence.points.front();
@@ -210,7 +213,7 @@ void note_shifted_targets(const RunToJudge& run, Notices& out) {
 
 void note_uneven(const RunToJudge& run, Notices& out) {
   std::vector<MeasuredPoint> points = run.sequence.points;
-  if (run.sequence.cycle == Cycle::pendulum) {  // its end targets have one approach
+  if (run.sequence.cycle == Cycle::pendulum) {  // its end targets have one approach only
     std::erase_if(points, [&](const MeasuredPoint& p) {
       return p.target == 1 || p.target == run.sequence.targets;
     });

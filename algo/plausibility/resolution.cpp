@@ -6,14 +6,15 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAlike = 1.05;  // readings with few printed digits have slightly different steps
+// Ratio of equal steps; readings with few digits have slightly different steps.
+constexpr double kAlike = 1.05;
 constexpr std::size_t kFewest = 3;
-constexpr double kDithers = 0.5;  // in steps
+constexpr double kDithers = 0.5;  // sd in steps
 
 }  // namespace
 
 void Resolution::add(std::span<const double> x) {
-  if (x.size() < 4 || x[0] != x[1]) return;  // the noise is larger than the step, as in most data
+  if (x.size() < 4 || x[0] != x[1]) return;  // usual case: the noise is larger than the step
   for (std::size_t i = 1; i + 2 < x.size(); ++i) {
     if (x[i - 1] == x[i] && x[i] != x[i + 1] && x[i + 1] == x[i + 2])
       keep(std::abs(x[i + 1] - x[i]));
@@ -26,7 +27,8 @@ void Resolution::keep(double step) {
   std::size_t i = kept_ - 1;
   for (; i > 0 && smallest_[i - 1] > step; --i) smallest_[i] = smallest_[i - 1];
   smallest_[i] = step;
-  // Most of a few steps must agree, an eighth of many, so that a single one does not count.
+  // Of fewer than 16 steps three quarters must agree, otherwise an eighth, but always kFewest. So a
+  // single step is not the resolution.
   const std::size_t alike = std::max(kFewest, kept_ < 16 ? kept_ * 3 / 4 : kept_ / 8);
   step_ = 0;
   for (std::size_t k = 0; k + alike <= kept_ && step_ == 0; ++k) {
@@ -34,8 +36,9 @@ void Resolution::keep(double step) {
   }
 }
 
-// Whether the column of marks exists does not depend on these rows only: any row of a block adds
-// it, and a replay has other blocks than the live run.
+// The result must depend on the values of probe_is_new in these rows, and not on the existence of
+// this column. Any row of a block can add the column, and a replay divides the rows into other
+// blocks than the live run.
 void ProbeResolution::add(const FrameBlock& frames, std::size_t first, std::size_t last) {
   for (std::size_t k = 0; k < found_.size(); ++k) {
     Found& probe = found_[k];

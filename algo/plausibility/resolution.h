@@ -10,11 +10,12 @@
 
 namespace mdof::algo {
 
-// Determined from the readings, because no rig states it: the smallest step that occurs repeatedly
-// between two values that both last for at least two readings. Readings have such steps if their
-// resolution is larger than their noise. If noise moves them by several steps at once, no step is
-// found, and none is needed, because the mean then resolves less than a step. Exact numbers of a
-// simulation have no step. The result does not depend on how the data are divided; memory is fixed.
+// The resolution is determined from the readings, because no rig states it. It is the smallest step
+// that occurs repeatedly between two values, each of which occurs in at least two consecutive
+// readings. Readings have such steps if their resolution is larger than their noise. If the noise
+// is several steps, no step is found; it is not necessary, because the mean of such readings has a
+// much smaller resolution. Exact numbers of a simulation have no step. The result does not depend
+// on how the data are divided into blocks; memory is fixed.
 class Resolution {
  public:
   // Takes consecutive readings in the order of time.
@@ -25,17 +26,18 @@ class Resolution {
   static constexpr std::size_t kKept = 64;
   void keep(double step);
 
-  std::array<double, kKept> smallest_{};  // steps seen, ascending
+  std::array<double, kKept> smallest_{};  // smallest steps so far, ascending
   std::size_t kept_ = 0;
   double step_ = 0;
 };
 
-// The resolution of each probe of frames, up to the first row that repeats a probe's reading. After
-// that the probe is slower than the encoder, and values between its samples hide its step.
+// The resolution of each probe of frames. It is determined up to the first row without a new sample
+// of the probe. Such a probe is slower than the encoder, and the values interpolated between its
+// samples do not show its step.
 class ProbeResolution {
  public:
   explicit ProbeResolution(std::size_t probes) : found_(probes) {}
-  // Rows `first` to `last` - 1, after the rows of earlier calls.
+  // Takes the rows `first` to `last` - 1, which follow the rows of earlier calls.
   void add(const FrameBlock& frames, std::size_t first, std::size_t last);
   double step_m(std::size_t probe) const { return found_[probe].resolution.step(); }
 
@@ -47,10 +49,11 @@ class ProbeResolution {
   std::vector<Found> found_;
 };
 
-// Standard uncertainty of a mean with uncertainty `u` of readings with this `sd`, rounded to
-// multiples of `step`. Noise of at least half a step dithers, so rounding averages out. Less noise
-// leaves a rectangular distribution one step wide (GUM F.2.2.1), so a constant reading has
-// step/√12.
+// Returns the standard uncertainty of a mean including the rounding of the readings to multiples of
+// `step`. `u`: uncertainty of the mean without rounding; `sd`: standard deviation of the readings.
+// If the noise is at least half a step, the mean of many readings has no rounding error. For
+// smaller noise the error has a rectangular distribution with the width of one step (GUM F.2.2.1),
+// so a constant reading has u = step/√12.
 double with_resolution(double u, double sd, double step);
 
 }  // namespace mdof::algo

@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kSlowTolerances = 25;  // per window: 1 mm/s with the defaults
+constexpr double kSlowTolerances = 25;  // travel in one window; 1 mm/s with the defaults
 
 }  // namespace
 

@@ -1,4 +1,5 @@
-// An axis that moves too fast to be at rest and too slowly to travel.
+// Finds times in which the axis moves slowly: too fast for a stop, and too slowly for a motion
+// between targets.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 namespace mdof::algo {
 
-// Takes each window of the dwell detection. It reports the end of a time in which the axis hardly
-// moved but no stop was found.
+// Takes each window of the dwell detection. take() returns an event at the end of a time in which
+// the axis moved slowly and no stop was found.
 class SlowStretch {
  public:
   struct Window {

@@ -19,15 +19,16 @@ namespace {
 constexpr double kLeastStepInScatter = 6, kLogRatioToSmooth = 10;
 constexpr double kLeastStep_m = 1e-9;
 constexpr double kLeastStepWeight =
-    2;  // Σ before · after/all over the places: at least four places
-constexpr double kFewestFreedom = 4;  // least freedom of the residuals of places and a step
-constexpr Eigen::Index kSmooth = 6;   // orders of the smooth change
+    2;  // sum over the places of (visits before · visits after)/visits: at least four places
+// Degrees of freedom of the residuals after the fit of places and a step.
+constexpr double kFewestFreedom = 4;
+constexpr Eigen::Index kSmooth = 6;  // order of the polynomial of a smooth change
 constexpr std::size_t kFewestCopies = 6;
-constexpr double kCopiedShare = 0.1;  // share of copied points that is reported
+constexpr double kCopiedShare = 0.1;  // smallest share of copied points that is reported
 
 using ProbeVisits = std::vector<const MeasuredPoint*>;
 
-// The visits with a reading of this probe, in the order of time.
+// Returns the visits with a reading of this probe in the order of time.
 ProbeVisits visits_of(const std::vector<MeasuredPoint>& points, std::size_t probe) {
   ProbeVisits visits;
   for (const MeasuredPoint& p : points)
@@ -35,7 +36,7 @@ ProbeVisits visits_of(const std::vector<MeasuredPoint>& points, std::size_t prob
   return visits;
 }
 
-// Subtracts the mean of each place.
+// Subtracts from each value the mean of its place.
 class AtPlaces {
  public:
   explicit AtPlaces(const ProbeVisits& visits) {
@@ -65,11 +66,12 @@ class AtPlaces {
 };
 
 struct Jump {
-  std::size_t visit = 0;  // first visit after it
+  std::size_t visit = 0;  // first visit after the jump
   double size = 0, explains = 0;
 };
 
-// The single step that leaves the smallest residuals of `y`, which is centred.
+// Returns the single step after whose subtraction the residuals of `y` are smallest. The mean of
+// each place is already subtracted from `y`.
 Jump largest_jump(const AtPlaces& at, const Eigen::VectorXd& y) {
   Eigen::VectorXd after = Eigen::VectorXd::Zero(at.places());
   double sum = 0, weight = 0;
@@ -102,7 +104,8 @@ double smooth_residual_square(const AtPlaces& at, const ProbeVisits& visits,
   return (y - columns * LeastNorm(columns).solve(y)).squaredNorm();
 }
 
-// Median of u² over the visits. The u² of a visit that contains the step is from the step itself.
+// Returns the median of u² over the visits. The mean is not used, because the step increases the u²
+// of a visit that contains it.
 double usual_u2(const ProbeVisits& visits, std::size_t probe) {
   std::vector<double> all;
   for (const MeasuredPoint* p : visits) {
@@ -112,14 +115,15 @@ double usual_u2(const ProbeVisits& visits, std::size_t probe) {
   return all.empty() ? 0 : median_of(std::move(all));
 }
 
-// The dwell detection has found a step already.
+// Returns whether ProbeWatch has already found a step of this probe.
 bool stepped_before(const ProbeVisits& visits, const std::string& id) {
   return std::any_of(visits.begin(), visits.end(),
                      [&](const MeasuredPoint* p) { return has_flag(p->point, Flag::step, id); });
 }
 
-// Whether both have scans in common, or the same means of all probes to the last bit. Readings
-// without noise, or with noise below their resolution, repeat anyway and do not count.
+// Returns whether both points contain the same scans, or have identical means of all probes.
+// Readings without noise, or with noise below their resolution, can be identical by chance and are
+// ignored.
 bool same_readings(const Point& a, const Point& b) {
   const bool same_scans = a.scan_fingerprint != 0 && a.scan_fingerprint == b.scan_fingerprint;
   return (same_scans || (a.probe_m == b.probe_m && a.position_m == b.position_m)) &&
@@ -127,7 +131,7 @@ bool same_readings(const Point& a, const Point& b) {
          std::all_of(a.probe_sd_m.begin(), a.probe_sd_m.end(), [](double sd) { return sd > 0; });
 }
 
-// Number of points with the readings of an earlier visit of their place.
+// Returns the number of points whose readings are copies of an earlier visit of the same place.
 std::size_t count_copies(const std::vector<MeasuredPoint>& points) {
   std::map<std::pair<int, int>, std::vector<const MeasuredPoint*>> before;
   std::size_t copies = 0;

@@ -4,11 +4,12 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kZeroCelsius_K = 273.15, kHPaPerKPa = 10;
-// Difference of a quantity for its slope; the relative change of the slope is 1e-2 per unit.
+// Difference of a quantity for the calculation of the slope. It is small enough, because the slope
+// changes by 1e-2 of its value per unit.
 constexpr double kStep = 0.01;
 
-// Saturation vapour pressure of water, hPa at t in °C; -50 to 50 °C. A polynomial gives the same
-// bits everywhere.
+// Saturation vapour pressure of water, hPa at t in °C; -50 to 50 °C. With a polynomial, the result
+// is identical to the last bit on every machine.
 double saturation_hPa(double t) {
   return 6.107799961 +
          t * (4.436518521e-1 +

@@ -12,7 +12,7 @@ Eigen::Vector3d tilt_of(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC) 
 
 namespace {
 
-// k (r θ)²/4, m².
+// Returns k (r θ)²/4, m².
 double tilt_area(const ProbePhysics& physics, double tilt_square) {
   const double r = physics.sensing_radius_m;
   return physics.tilt_factor * r * r * tilt_square / 4;
@@ -24,7 +24,7 @@ double tilt_excess_m(const ProbePhysics& physics, double tilt_square, double gap
   return tilt_area(physics, tilt_square) / gap_m;
 }
 
-// d - a/d = g  =>  d = (g + sqrt(g² + 4 a))/2, the root that is g if a = 0.
+// d - a/d = g  =>  d = (g + sqrt(g² + 4 a))/2, the solution for which d = g if a = 0.
 double true_gap_m(const ProbePhysics& physics, double shown_m, double tilt_square,
                   double permittivity_ratio) {
   const double g = shown_m * permittivity_ratio;

@@ -1,10 +1,12 @@
-// The gap of a capacitance probe and the gap that its amplifier shows (algo/README.md derives it).
+// The relation between the gap of a capacitance probe and the gap that its amplifier shows
+// (derivation in algo/README.md).
 //
-// d is the gap at the middle of the electrode, r its radius, θ the angle of the target to it and ε
-// the permittivity of the air. The amplifier, calibrated on a perpendicular target in air of ε_cal,
-// shows
+// d is the gap at the centre of the electrode, r the radius of the electrode, θ the angle between
+// target and electrode, and ε the permittivity of the air. The amplifier was calibrated with a
+// target perpendicular to the probe, in air with the permittivity ε_cal. It shows
 //   d_shown = (d - k (r θ)²/(4 d)) ε_cal/ε
-// A tilted target and air with a higher permittivity reduce the shown gap. m, rad.
+// k is the tilt factor of the probe. A tilted target and a higher permittivity reduce the shown
+// gap. m, rad.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,17 +17,19 @@
 
 namespace mdof::algo {
 
-// sin θ times the unit vector of the axis about which the target is tilted at a probe.
+// Returns sin θ times the unit vector of the axis about which the target is tilted relative to a
+// probe.
 Eigen::Vector3d tilt_of(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC);
 
-// k (r θ)²/(4 d): decrease of the shown gap of a tilted target.
+// Returns k (r θ)²/(4 d), the decrease of the shown gap due to the tilt of the target.
 double tilt_excess_m(const ProbePhysics& physics, double tilt_square, double gap_m);
 
-// The gap d of a shown gap; `permittivity_ratio` = ε/ε_cal. The inverse of the formula above.
+// Returns the gap d for a shown gap (the inverse of the formula above). `permittivity_ratio` =
+// ε/ε_cal.
 double true_gap_m(const ProbePhysics& physics, double shown_m, double tilt_square,
                   double permittivity_ratio);
 
-// Whether the edge of the electrode touches the target, or the gap is closed.
+// Returns whether the edge of the electrode touches the target, or the gap is closed.
 bool touches(const ProbePhysics& physics, double tilt_square, double gap_m);
 
 }  // namespace mdof::algo

@@ -13,7 +13,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr int kMostRounds = 50;  // a large tilt near the target takes 10 rounds
+constexpr int kMostRounds = 50;  // a large tilt with a small gap requires 10 rounds
 constexpr double kDone_m = 1e-12;
 
 std::string closed_text(const std::string& probe, const ProbePhysics& physics, double gap_m,
@@ -49,7 +49,8 @@ bool ReadingCorrection::correct_probe(std::size_t k, double shown_m, double tilt
                                       double ratio, CorrectedReadings& out) const {
   const double shown_gap_m = zero_shown_m_[k] - shown_m;
   const double gap_m = true_gap_m(physics_[k], shown_gap_m, tilt_square, ratio);
-  // Check with the shown gap: the gap of the formula increases with k θ and is never too small.
+  // The check uses the shown gap, because the gap of the formula increases with the tilt and is
+  // never small enough to touch.
   if (touches(physics_[k], tilt_square, shown_gap_m)) {
     out.closed = k;
     out.why_not = closed_text(ids_[k], physics_[k], shown_gap_m, tilt_square);
@@ -62,7 +63,7 @@ bool ReadingCorrection::correct_probe(std::size_t k, double shown_m, double tilt
   return true;
 }
 
-// False: a gap is closed.
+// Returns false if a gap is closed.
 bool ReadingCorrection::round(const std::vector<double>& shown_m, const Eigen::Matrix3d& R_MC,
                               double ratio, CorrectedReadings& out) const {
   for (std::size_t k = 0; k < shown_m.size(); ++k) {

@@ -1,11 +1,11 @@
-// Corrects the readings of the probes at one position of the axis for the tilt of the target and
-// for the difference of the air from that of the calibration.
+// Corrects the readings of the probes at one position of the axis for the tilt of the target, and
+// for the permittivity of the air if it differs from the permittivity during the calibration.
 //
-// The tilt of the target at each probe is from the solved errors, so it is found by iteration:
-// solve, correct, solve again, until no reading changes by more than 1 pm. The zero of a probe is
-// at the nominal position of the target with the tilt that the rig states there, so only changes
-// from there are corrected. The true angle of a probe in its clamp is unknown (u_direction_mrad is
-// its uncertainty).
+// The tilt of the target follows from the solved errors, so it is found by iteration: solve,
+// correct, solve again, until no reading changes by more than 1 pm. A probe reads zero at the
+// nominal position of the target with the tilt that the rig states for this position. Only the
+// differences from this state are corrected. The true angle of a probe in its clamp is unknown;
+// u_direction_mrad is the uncertainty of this angle.
 #pragma once
 
 #include <string>
@@ -27,20 +27,21 @@ struct CorrectedReadings {
   // Correction added to each reading; 0 for a lost probe.
   std::vector<double> tilt_m, dielectric_m;
   int rounds = 0;
-  // Why a reading cannot be corrected; empty: all are corrected. `closed`: probe with a closed gap.
+  // why_not: reason why a reading cannot be corrected; empty: all readings are corrected. closed:
+  // index of a probe with a closed gap.
   std::string why_not;
   std::optional<std::size_t> closed;
 };
 
 class ReadingCorrection {
  public:
-  // `rig.physics` is set and declares what these corrections need. `solver` is made from the rig
-  // and must outlive this object.
+  // `rig.physics` must be set and must contain the values that are necessary for these corrections.
+  // `solver` must be created from the rig and must exist longer than this object.
   ReadingCorrection(const Rig& rig, const Solver& solver, WhichCorrections which);
 
-  // Readings as in Solver::solve(). If probes are lost so that the errors cannot be solved, the
-  // tilt is unknown and only the air is corrected. `air`: at the time of the readings; ignored
-  // without the dielectric correction.
+  // The readings are as in Solver::solve(). If too many probes are lost to solve the errors, the
+  // tilt is unknown, and only the effect of the air is corrected. `air`: ambient conditions at the
+  // time of the readings; ignored without the dielectric correction.
   CorrectedReadings correct(double travel_m, const std::vector<double>& readings_m,
                             const std::vector<double>& u_m, const Air& air) const;
 

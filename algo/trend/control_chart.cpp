@@ -10,7 +10,7 @@ constexpr double kMeanRangeBySd = 1.128;  // d2: mean range of two values, in un
 constexpr double kLimits = 3;
 
 struct Part {
-  double mean = 0, square = 0, u2 = 0, n = 0;  // square: about the mean; u2: Σ u²
+  double mean = 0, square = 0, u2 = 0, n = 0;  // square: sum of squares about the mean; u2: Σ u²
 };
 
 Part part_of(const std::vector<ChartValue>& values, std::size_t begin, std::size_t end) {

@@ -6,21 +6,22 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kReach = 5;  // rows before and after
+constexpr std::size_t kReach = 5;  // rows necessary before and after a jump
 constexpr double kGreatest_m_s2 = 10;
 
 double middle(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-// Speed in m per scan from four rows: the median of their three steps, so that neither a jump
-// between two of them nor a spike of one counts.
+// Returns the speed in m per scan from four rows. It is the median of their three steps, so a jump
+// between two rows and a spike in one row do not change it.
 double speed_from(std::span<const double> x, std::size_t first) {
   return middle(x[first + 1] - x[first], x[first + 2] - x[first + 1], x[first + 3] - x[first + 2]);
 }
 
-// The median of a row and its neighbours, each moved here with the speed of the axis. A spike of
-// one scan is no jump, and a jump keeps its size in both directions of motion.
+// Returns the median of the positions in a row and in the two rows next to it, after subtraction of
+// the motion of the axis between these rows. The median removes a spike of one scan and does not
+// change the size of a jump in either direction of motion.
 double voted(std::span<const double> x, std::size_t i, double speed) {
   return middle(x[i - 1] + speed, x[i], x[i + 1] - speed);
 }
@@ -29,7 +30,7 @@ struct Step {
   double size = 0, speed_change = 0;  // m, m per scan
 };
 
-// The remaining step from i - 1 to i after subtraction of the motion before and after.
+// Returns the step from i - 1 to i after subtraction of the motion of the axis.
 Step step_at(std::span<const double> x, std::size_t i) {
   const double speed_before = speed_from(x, i - 4), speed_after = speed_from(x, i);
   const double last = voted(x, i - 1, speed_before), next = voted(x, i, speed_after);
@@ -51,7 +52,7 @@ std::optional<EncoderJump> find_jump(std::span<const std::int64_t> time_ns,
     const double size = std::abs(step.size);
     if (!(size > least_m) || 4 * size < kGreatest_m_s2 * period_s * period_s) continue;
     if (size < 3 * std::abs(step.speed_change)) continue;
-    // If the axis itself moves this fast, the neighbours have similar steps.
+    // If the axis itself moves this fast, the rows next to it have similar steps.
     const double beside = std::max(std::abs(step_at(encoder_m, i - 1).size),
                                    std::abs(step_at(encoder_m, i + 1).size));
     if (size < 4 * beside || (largest && size < std::abs(largest->size_m))) continue;

@@ -1,4 +1,4 @@
-// A sudden gain or loss of counts of the encoder.
+// Finds a jump of the encoder's count.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ struct EncoderJump {
   double size_m = 0;
 };
 
-// The largest step of the encoder in rows `first` to `last` that no axis can make: larger than
-// `least_m`, between two scans, with the same speed before and after, and with more than 10 m/s².
-// The other rows are needed as neighbours: five before and five after. Spikes of one sample are
-// removed by the median of three, and the size is correct at any steady speed; during acceleration
-// its error is up to twice the change of travel per scan. At less than about 150 Hz an axis can
-// make a step of 100 µm, so no jump is found.
+// Returns the largest step of the encoder in the rows `first` to `last` that an axis cannot make.
+// Such a step is larger than `least_m`, is between two scans, has the same speed before and after,
+// and requires an acceleration above 10 m/s². Five rows before and five rows after are also
+// necessary. A median of three removes spikes of one sample. The size of the jump is correct at any
+// steady speed; during acceleration its error is up to twice the change of travel per scan. At a
+// rate below about 150 Hz an axis can make a step of 100 µm, so no jump is found.
 std::optional<EncoderJump> find_jump(std::span<const std::int64_t> time_ns,
                                      std::span<const double> encoder_m, std::size_t first,
                                      std::size_t last, std::int64_t period_ns, double least_m);

@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// Noise of the encoder, and spikes that the dwell detection removes.
+// Allowance for the noise of the encoder, and for spikes that the dwell detection removes.
 constexpr double kNoise_m = 50e-6;
 constexpr double kBack = 0.1;  // ratio of the distances to the last place and to the stray position
 
@@ -20,7 +20,7 @@ void PlaceWatch::begin_at(std::int64_t time_ns, double position_m) {
   last_ = {time_ns, position_m};
 }
 
-// Above 0: the axis cannot have moved from there to here.
+// Returns a value above 0 if the axis cannot have moved from there to here.
 double PlaceWatch::out_of_reach_m(const Place& from, std::int64_t time_ns,
                                   double position_m) const {
   const double passed_s = 1e-9 * static_cast<double>(time_ns - from.time_ns);
@@ -31,8 +31,8 @@ bool PlaceWatch::is_placed(std::int64_t time_ns, double position_m) const {
   if (!std::isfinite(position_m)) return false;
   if (!begun_) return true;
   if (out_of_reach_m(last_, time_ns, position_m) > 0) return false;
-  // After enough time the axis could be anywhere. So a position that continues a stray one is
-  // stray, unless it is back near the last place.
+  // After a long time the axis can have reached any position. So a position that the axis can have
+  // reached from a stray position is also stray, unless it is near to the last place.
   return !is_stray_ || out_of_reach_m(stray_, time_ns, position_m) > 0 ||
          std::abs(position_m - last_.position_m) < kBack * std::abs(position_m - stray_.position_m);
 }

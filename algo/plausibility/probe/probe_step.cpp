@@ -9,13 +9,15 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kLanes = 8;
-constexpr double kAbove = 8;         // times the changes around
-constexpr double kOthers = 0.25;     // largest share of the step in the other probes
-constexpr double kStays = 0.6;       // smallest share of the step after some scans
-constexpr std::size_t kSettled = 3;  // rows for the reading before and after
+constexpr double kAbove = 8;      // times the changes in the rows before and after
+constexpr double kOthers = 0.25;  // largest change of another probe, as share of the step
+// Smallest remaining change after some scans, as share of the step.
+constexpr double kStays = 0.6;
+constexpr std::size_t kSettled = 3;  // rows of the medians before and after the step
 constexpr double kAxis_m = 2e-6;     // noise of an encoder
 
-// Largest |x[i] - x[i-1]| for i = first ... last - 1, in lanes for vector instructions.
+// Returns the largest |x[i] - x[i-1]| for i = first ... last - 1. Eight parallel maxima allow
+// vector instructions.
 double largest_change(const double* x, std::size_t first, std::size_t last) {
   std::array<double, kLanes> most{};
   std::size_t i = first;
@@ -29,7 +31,8 @@ double largest_change(const double* x, std::size_t first, std::size_t last) {
   return *std::max_element(most.begin(), most.end());
 }
 
-// Largest change in the rows of begin ... end outside first ... last and outside its neighbours.
+// Returns the largest change in the rows of begin ... end without first ... last and the rows next
+// to this range.
 double around(const double* x, std::size_t begin, std::size_t first, std::size_t last,
               std::size_t end) {
   return std::max(largest_change(x, begin + 1, std::max(begin + 1, first - 1)),
@@ -43,7 +46,8 @@ double middle(const double* x) {
   return rows[kSettled / 2];
 }
 
-// Change of the reading from before `row` to some scans after it; 0 if rows are missing.
+// Returns the change of the reading from the scans before `row` to the scans after it; 0 if these
+// rows do not exist.
 double lasting_change(const double* x, std::size_t begin, std::size_t row, std::size_t end) {
   if (row < begin + kSettled + 1 || row + kSettled + 1 > end) return 0;
   return middle(x + row + 1) - middle(x + row - kSettled - 1);

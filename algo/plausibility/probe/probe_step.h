@@ -1,4 +1,4 @@
-// A step of the reading of one probe that neither another probe nor the axis causes.
+// Finds steps of the reading of one probe that occur neither in another probe nor in the encoder.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,10 @@ struct ProbeStep {
   double size_m = 0;
 };
 
-// The largest step of each probe in rows `first` to `last` - 1 that is eight times the changes of
-// this probe in the other rows of `begin` ... `end`, if the reading stays there. The caller decides
-// whether it is more than noise and rounding, because it knows these.
+// Returns the largest step of each probe in the rows `first` to `last` - 1. A step is larger than
+// eight times the changes of this probe in the other rows of `begin` ... `end`, and the reading
+// stays at its new value. The caller compares the step with the noise and the rounding of the
+// probe.
 std::vector<ProbeStep> find_steps(const FrameBlock& frames, std::size_t begin, std::size_t first,
                                   std::size_t last, std::size_t end);
 

@@ -15,7 +15,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kFewestRows = 128, kLongerThanEver = 8, kFewestStops = 3;
-constexpr std::size_t kFewestChanges = 16;  // needed to know the resolution
+constexpr std::size_t kFewestChanges = 16;  // necessary to determine the resolution
 constexpr double kShareOfTravel = 0.8, kLeastTravel_m = 1e-3;
 constexpr double kSteps = 4;          // times the resolution: more than rounding
 constexpr double kNoise = 12;         // times the noise in the stops
@@ -97,7 +97,7 @@ bool ProbeWatch::travel_says_frozen(const Probe& probe) const {
          probe.high_m - probe.low_m >= std::max(kSteps * probe.resolution_m, kNoNoise_m);
 }
 
-// The stop in which a probe dies does not count.
+// A stop in which the probe freezes is ignored.
 void ProbeWatch::take_stop(std::size_t probe, const RobustMean& mean, double resolution_m) {
   Probe& p = probes_[probe];
   p.resolution_m = resolution_m;
@@ -142,7 +142,7 @@ bool ProbeWatch::is_dead() const {
   return probes_.size() > 1 && dead + 1 >= static_cast<std::ptrdiff_t>(probes_.size());
 }
 
-// Many small steps are a property of the probe and are not reported.
+// Many small steps are a property of the probe, so they are not reported.
 std::vector<SteppedProbe> ProbeWatch::steps() const {
   std::vector<SteppedProbe> all;
   for (const Probe& p : probes_) {

@@ -1,4 +1,5 @@
-// Probes that died or shifted: a constant value, or a step without another cause.
+// Finds probes that froze (constant reading) or stepped (a step of the reading without another
+// cause).
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,7 @@ namespace mdof::algo {
 
 struct FrozenProbe {
   std::size_t probe = 0;
-  std::int64_t begin_ns = 0, end_ns = INT64_MAX;  // INT64_MAX: to the end
+  std::int64_t begin_ns = 0, end_ns = INT64_MAX;  // INT64_MAX: until the end of the log
   double value_m = 0;
 };
 
@@ -27,17 +28,23 @@ struct SteppedProbe {
 };
 
 // A probe is frozen if its reading stays the same to the last bit
-//  - for 128 scans and eight times longer than ever before, if its noise was larger than its
-//    resolution in every stop before (at least three): rounding cannot hide such noise;
-//  - over four fifths of the travel, if it changed by four times its resolution before: rounding
-//  can
-//    hide the noise, but not the errors of the whole axis;
-//  - from the first scan to the last, if half of the others have noise larger than their
-//    resolution.
-// A probe steps if its reading changes from one scan to the next by more than 12 times its noise in
-// the stops, four times its resolution and eight times its changes around, and stays there, while
-// no other probe changes by a quarter of this and the motion of the axis does not change. A stream:
-// the result does not depend on how the data are divided; memory grows with the stops.
+// - for 128 scans and eight times longer than ever before, if its noise was larger than its
+//   resolution in every stop before (at least three), because rounding cannot hide such noise;
+// - over four fifths of the travel, if it changed by four times its resolution before, because
+//   rounding can hide the noise, but not the errors of the whole axis;
+// - from the first scan to the last, if at least half of the other probes have noise larger than
+//   their resolution.
+//
+// A probe has stepped if all these conditions are fulfilled:
+// - From one scan to the next, its reading changes by more than 12 times its noise in the stops,
+//   more than four times its resolution, and more than eight times its other changes near this
+//   time.
+// - The reading stays at its new value.
+// - No other probe changes by a quarter of the step.
+// - The motion of the axis does not change.
+//
+// The result does not depend on how the data are divided into blocks. The memory grows with the
+// number of stops.
 class ProbeWatch {
  public:
   explicit ProbeWatch(std::size_t probes) : probes_(probes) {}
@@ -48,30 +55,32 @@ class ProbeWatch {
     std::size_t begin, first, last,
         end;  // begin <= first < last <= end; the slot is first ... last
   };
-  // Takes the newest slot: its constant readings, and the travel of the axis in it.
+  // Examines the newest slot for constant readings. `low_m` ... `high_m`: range of the axis in this
+  // slot.
   void take_newest(const FrameBlock& frames, std::size_t first, std::size_t last, double low_m,
                    double high_m);
-  // Looks for steps in a slot that has others before and after it.
+  // Looks for steps in a slot. The rows before and after this slot must be known.
   void look_for_steps(const Rows& rows);
   void take_stop(std::size_t probe, const RobustMean& mean, double resolution_m);
 
-  // Results so far.
+  // The results up to now.
   std::vector<FrozenProbe> frozen() const;
   std::vector<SteppedProbe> steps() const;
-  // Readings of a frozen probe become NaN with the flag "frozen:C". Those after a step get
-  // "step:C".
+  // For a frozen probe C, the readings become NaN and the points get the flag "frozen:C". After a
+  // step, the points get the flag "step:C".
   void mark(std::vector<Point>& points, const std::vector<std::string>& ids) const;
 
-  // At most one probe ever changed its reading while the axis moved: a measuring chain without a
-  // signal, or an exact recording of an axis without errors. The readings are kept.
+  // Returns whether at most one probe changed its reading although the axis moved. Either the
+  // measuring chain had no signal, or it is an exact recording of an axis without errors. The
+  // readings are kept.
   bool is_dead() const;
 
  private:
   struct Probe {
     bool begun = false, changed = false, is_frozen = false;
-    double held_m = 0, low_m = 0, high_m = 0;  // low, high: of all readings before held_m
+    double held_m = 0, low_m = 0, high_m = 0;  // low_m, high_m: range of all readings before held_m
     std::int64_t since_ns = 0;
-    std::size_t rows = 0, longest = 0;       // with the same reading
+    std::size_t rows = 0, longest = 0;       // rows with the same reading; most such rows
     double axis_low_m = 0, axis_high_m = 0;  // during this time
     double resolution_m = 0;
     std::size_t changes = 0, stops = 0, noisy_stops = 0;
@@ -91,7 +100,7 @@ class ProbeWatch {
   double axis_low_m_ = 0, axis_high_m_ = 0;
 };
 
-// A notice for each of them, with its time after `start_ns`.
+// Returns a notice for each frozen or stepped probe, with the time after `start_ns`.
 Notices probe_notices(const ProbeWatch& watch, const std::vector<std::string>& ids,
                       std::int64_t start_ns);
 

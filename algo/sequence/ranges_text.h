@@ -1,4 +1,4 @@
-// Short texts of numbers.
+// Short texts for lists of numbers.
 #pragma once
 
 #include <string>
@@ -6,9 +6,10 @@
 
 namespace mdof::algo {
 
-// "1 to 5, 7, 8"; the numbers are ascending.
+// Returns for example "1 to 5, 7, 8". The numbers must be ascending.
 std::string ranges_text(const std::vector<int>& ascending);
-// "target 7", "targets 1 to 5, 7"; with `what` and at least one number.
+// Returns for example "target 7" or "targets 1 to 5, 7" for `what` = "target" and at least one
+// number.
 std::string numbered(const char* what, const std::vector<int>& ascending);
 
 }  // namespace mdof::algo

@@ -11,14 +11,14 @@ Eigen::Index at(std::size_t i) {
   return static_cast<Eigen::Index>(i);
 }
 
-// Numbers the keys in ascending order.
+// Sets the value of each key to its index in ascending order.
 template <class Key>
 void number(std::map<Key, std::size_t>& keys) {
   std::size_t next = 0;
   for (auto& [key, n] : keys) n = next++;
 }
 
-// Groups of visits that are linked by common runs; a group is named by its lowest visit.
+// Groups of visits that are linked by common runs. The lowest visit identifies a group.
 class Links {
  public:
   explicit Links(std::size_t visits) {
@@ -58,13 +58,15 @@ RunDrifts::RunDrifts(const std::vector<MeasuredPoint>& points) {
     of_run_[run].push_back({visit, j});
     of_visit_[visit].push_back({run, j});
   }
-  // Solves for the smaller number of effects, because the time grows with its cube.
+  // Solves for the effects of the runs or of the visits, whichever are fewer, because the
+  // calculation time grows with the cube of their number.
   runs_are_fewer_ = runs.size() <= visits.size();
   runs_are_fewer_ ? decompose(of_visit_, runs.size()) : decompose(of_run_, visits.size());
   group_linked_runs(visits.size());
 }
 
-// The normal equations without the effects of the other kind: a row and a column for each effect.
+// Decomposes the normal equations, from which the effects of the other kind are eliminated. They
+// have one row and one column for each effect.
 void RunDrifts::decompose(const std::vector<Entries>& shared, std::size_t effects) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(at(effects), at(effects));
   for (const Entries& entries : shared) {
@@ -77,8 +79,8 @@ void RunDrifts::decompose(const std::vector<Entries>& shared, std::size_t effect
   fit_.emplace(normal);
 }
 
-// [effect][error]. Differences between effects that no entries link are undetermined; the solution
-// of least norm does not change them.
+// Returns the solved effects as [effect][error]. Differences between effects that are not linked by
+// entries are not determined; the solution with the smallest norm is used.
 Eigen::MatrixXd RunDrifts::effects(const std::vector<Entries>& shared,
                                    const std::vector<Errors5>& errors) const {
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(fit_->unknowns(), kErrorCount);
@@ -112,7 +114,7 @@ std::vector<Errors5> RunDrifts::of(const std::vector<Errors5>& errors) const {
       for (std::size_t k = 0; k < kErrorCount; ++k) drifts[run][k] = solved(at(run), at(k));
     return drifts;
   }
-  // A run's drift is the mean of its errors minus the effects of its visits.
+  // The drift of a run is the mean difference between its errors and the effects of its visits.
   const Eigen::MatrixXd visits = effects(of_run_, errors);
   for (std::size_t run = 0; run < drifts.size(); ++run)
     for (const Entry& e : of_run_[run])

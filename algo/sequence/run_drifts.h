@@ -1,4 +1,5 @@
-// The drift of each run relative to the others, as a linear function of the errors of their visits.
+// Calculates the drift of each run relative to the other runs, as a linear function of the errors
+// of the visits.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +11,28 @@
 
 namespace mdof::algo {
 
-// Solves the least-squares fit error = effect of the visit (a target from one side) + effect of the
-// run. Its matrix depends only on which visits exist, so it is prepared once for any number of
-// errors.
+// Fits by least squares
+//   error = effect of the visit + effect of the run,
+//
+// where a visit is a target and an approach. The matrix of the fit depends only on the existing
+// visits, so it is decomposed once in the constructor; of() may then be called many times.
 class RunDrifts {
  public:
   // Requires at least one point.
   explicit RunDrifts(const std::vector<MeasuredPoint>& points);
 
-  // `errors`: of each point, in any frame and unit. Returns the drift of each run, in ascending
-  // order of the run numbers. The drifts of runs that are linked by visits sum to 0.
+  // `errors`: errors of each point, in any frame and unit. Returns the drift of each run, in
+  // ascending order of the run numbers. For runs that are linked by common visits, the sum of the
+  // drifts is 0.
   std::vector<Errors5> of(const std::vector<Errors5>& errors) const;
-  // The index of each point's run.
+  // Returns for each point the index of its run.
   const std::vector<std::size_t>& point_runs() const { return run_of_; }
 
  private:
   struct Entry {
     std::size_t effect, point;
   };
-  using Entries = std::vector<Entry>;  // entries that share an effect of the other kind
+  using Entries = std::vector<Entry>;  // all entries of one run or of one visit
 
   void decompose(const std::vector<Entries>& shared, std::size_t effects);
   Eigen::MatrixXd effects(const std::vector<Entries>& shared,
@@ -36,7 +40,8 @@ class RunDrifts {
   void group_linked_runs(std::size_t visits);
 
   std::vector<std::size_t> run_of_;
-  std::vector<Entries> of_run_, of_visit_;  // their effects are visits and runs
+  // Effects of the entries: visits in of_run_, runs in of_visit_.
+  std::vector<Entries> of_run_, of_visit_;
   std::vector<std::vector<std::size_t>> linked_runs_;
   bool runs_are_fewer_ = true;
   std::optional<LeastNorm> fit_;

@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostNamed = 5;  // positions named in one notice
+constexpr std::size_t kMostNamed = 5;  // positions in one notice
 
 std::string in_mm(double m) {
   std::array<char, 32> text{};
@@ -24,7 +24,7 @@ void append(std::vector<StopLeftOut>& to, std::vector<StopLeftOut> more) {
   std::move(more.begin(), more.end(), std::back_inserter(to));
 }
 
-// A log that begins with the axis at rest off its targets has an unintended first stop.
+// If the axis is at rest at no target when the log begins, its first stop is a parked axis.
 NoticeCode reason_off_targets(const std::vector<Point>& points, const Point& stop) {
   const bool parked = &stop == &points.front() && stop.direction == 0;
   return parked ? NoticeCode::stop_parked_at_start : NoticeCode::stop_near_no_target;
@@ -61,7 +61,7 @@ void number_runs(Sequence& sequence) {
   }
 }
 
-// One notice for each reason, with the first few positions.
+// Adds one notice for each reason with the first few positions.
 void note_left_out(Sequence& sequence) {
   std::vector<std::string> reasons;
   for (const auto& stop : sequence.left_out) {

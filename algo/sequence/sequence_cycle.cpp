@@ -8,9 +8,11 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMostOutOfOrder = 0.15;  // largest share of visits out of order in a cycle
-constexpr double kAlwaysForgiven = 3;     // one repeated target, in a run of any length
-// Mean visits at a target without leaving it, in a pilgrim cycle.
+// Largest share of visits that are not in the order of the cycle.
+constexpr double kMostOutOfOrder = 0.15;
+// Number of such visits that are always allowed: one repeated target.
+constexpr double kAlwaysForgiven = 3;
+// Smallest mean number of consecutive visits at a target in a pilgrim cycle.
 constexpr double kLeastAtOnce = 1.5;
 
 using RunNumbers = std::vector<int>;
@@ -29,30 +31,32 @@ RunNumbers runs_by_visits(const std::vector<Visit>& visits) {
   return runs;
 }
 
-// Number of visits that do not continue in the direction of their pass, or that another pass
-// interrupts.
+// Returns the number of visits that are not in the direction of their pass, or that do not follow
+// the visit before in the same pass.
 int out_of_order(const std::vector<Visit>& visits, const RunNumbers& runs) {
-  std::map<std::pair<int, int>, int> last;  // target of each pass, by direction and run
+  // Key: direction and run of a pass; value: its last target.
+  std::map<std::pair<int, int>, int> last;
   int count = 0;
   for (std::size_t i = 0; i < visits.size(); ++i) {
     const Visit& v = visits[i];
     const auto [pass, first] = last.try_emplace({v.direction, runs[i]}, v.target);
     const bool onward = (v.target - pass->second) * v.direction > 0;
-    // Passes of one direction have ascending numbers, so the visit before is of the same pass.
+    // The visit before with the same direction is in the same pass, because passes of one direction
+    // have ascending numbers.
     count += !first && !(onward && visits[i - 1].direction == v.direction);
     pass->second = v.target;
   }
   return count;
 }
 
-// Whether a pass has on average at least half of the targets.
+// Returns whether the passes have on average at least half of the targets.
 bool cover_targets(const std::vector<Visit>& visits, const RunNumbers& runs, int targets) {
   std::set<std::pair<int, int>> passes;
   for (std::size_t i = 0; i < visits.size(); ++i) passes.insert({visits[i].direction, runs[i]});
   return 2 * visits.size() >= passes.size() * static_cast<std::size_t>(targets);
 }
 
-// Number of groups of consecutive visits to one target.
+// Returns the number of groups of consecutive visits of one target.
 int blocks(const std::vector<Visit>& visits) {
   int n = 0;
   for (std::size_t i = 0; i < visits.size(); ++i)
@@ -64,7 +68,7 @@ bool few(int n, std::size_t of) {
   return n <= kMostOutOfOrder * static_cast<double>(of);
 }
 
-// Whether the axis moves in one direction from group to group.
+// Returns whether the axis moves in one direction only from target to target.
 bool moves_in_one_direction(const std::vector<Visit>& visits) {
   int up = 0, down = 0;
   for (std::size_t i = 1; i < visits.size(); ++i) {
@@ -80,7 +84,8 @@ bool is_pilgrim(const std::vector<Visit>& visits, int targets) {
          static_cast<double>(visits.size()) >= kLeastAtOnce * n;
 }
 
-// Whether the end target has a visit from either side at the reversals of the axis.
+// Returns whether the axis reverses outside the end targets (standard) or at the end targets
+// (pendulum). With reversals outside, an end target has two consecutive visits.
 Cycle by_turns(const std::vector<Visit>& visits, int targets) {
   int beyond = 0, at_target = 0;
   for (std::size_t i = 1; i < visits.size(); ++i) {
@@ -92,14 +97,14 @@ Cycle by_turns(const std::vector<Visit>& visits, int targets) {
   return at_target > beyond ? Cycle::pendulum : Cycle::standard;
 }
 
-// Whether all targets are visited about equally often, and so from both sides.
+// Returns whether all targets have about the same number of visits from both sides.
 bool is_balanced(const std::vector<Visit>& visits, const RunNumbers& runs, int targets) {
   if (visits.empty()) return false;
   const int most = *std::max_element(runs.begin(), runs.end());
   return few(2 * targets * most - static_cast<int>(visits.size()), visits.size());
 }
 
-// Whether the axis reverses at targets, or within a few of them, all along the travel.
+// Returns whether the axis reverses at targets, or after a few targets, along the whole travel.
 bool turns_often(const std::vector<Visit>& visits, int targets) {
   std::map<int, std::pair<std::size_t, std::size_t>> seen;  // first and last visit of each target
   for (std::size_t i = 0; i < visits.size(); ++i) {
@@ -153,7 +158,7 @@ void Passes::follow(int target) {
 }
 
 void Passes::turn(int heading, int target) {
-  // The first pass may have been short; a single stop before the reversal is no pass.
+  // A short first pass counts as a pass, but a single stop before the first reversal does not.
   if (heading_ == 0 && heading < 0 && forward_before_ > 1) forward_ = 1;
   if (heading_ == 0 && heading > 0 && reverse_before_ > 1) reverse_ = 1;
   heading_ = heading;

@@ -1,5 +1,6 @@
-// Finds the stops at no target from the typical number of visits, whether visits are from both
-// sides, and the typical interval. See leave_out_odd_stops() in sequence_stops.h.
+// Finds the stops at no target (leave_out_odd_stops() in sequence_stops.h). Criteria: the number of
+// visits, visits from both sides, and the distance to the next targets, compared with the other
+// places.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,18 +12,19 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kEnough = 0.6;  // share of the typical number of visits; from here surely a target
+// Share of the typical number of visits; a place with more visits is certainly a target.
+constexpr double kEnough = 0.6;
 constexpr double kAsMany = 0.75;    // share of the typical number of visits
-constexpr double kTooNear = 0.6;    // in typical intervals, to what is surely a target
-constexpr double kTooFar = 1.6;     // in typical intervals, beyond the last target
-constexpr std::size_t kFewest = 4;  // places needed to judge one of a single pass
-constexpr int kCertainVisits = 3;   // typical visits, of which a target would not lack all but one
+constexpr double kTooNear = 0.6;    // distance to a certain target, in typical intervals
+constexpr double kTooFar = 1.6;     // distance to the last target, in typical intervals
+constexpr std::size_t kFewest = 4;  // places necessary if all places have one visit
+constexpr int kCertainVisits = 3;   // typical number of visits; see may_be_a_target()
 
 // A place where the axis stopped.
 struct Place {
   double position_m = 0;
   int forward = 0, reverse = 0;
-  // Whether its only visit is the first stop of the log, with an approach that was not observed.
+  // true: the only visit is the first stop of the log, and its approach was not observed.
   bool parked = false;
   bool first = false, last = false;
   bool kept = false;
@@ -32,7 +34,7 @@ struct Place {
 struct Typical {
   double visits = 0;
   bool both_sides = false;
-  int direction = 0;  // if visits are from one side
+  int direction = 0;  // direction of all visits if they are from one side
   double interval_m = 0;
 };
 
@@ -52,7 +54,8 @@ std::vector<Place> places_of(const std::vector<MeasuredPoint>& points,
   return places;
 }
 
-// The number of visits that three quarters of the stops' places do not exceed.
+// Returns the upper quartile of the number of visits: for each stop, the number of visits of its
+// place.
 double typical_visits(const std::vector<Place>& places) {
   std::vector<int> of_stops;
   for (const Place& p : places)
@@ -96,9 +99,9 @@ Typical typical_of(std::vector<Place>& places) {
 }
 
 struct Neighbours {
-  // Distances to kept places.
+  // Distances to the next kept places.
   double below_m = std::numeric_limits<double>::infinity(), above_m = below_m;
-  bool sure = false;  // the next place, kept or not, is certainly a target
+  bool sure = false;  // the place directly before or after is a kept place
 };
 
 Neighbours neighbours(const std::vector<Place>& places, std::size_t at) {
@@ -123,8 +126,8 @@ bool may_be_a_target(const Place& place, const Neighbours& n, const Typical& typ
   return nearest_m <= kTooFar * typical.interval_m;
 }
 
-// Starts with the places nearest to a target, because a row of places with few visits continues
-// from there.
+// Judges first the places that are nearest to a kept place, because targets with few visits are in
+// a row that continues from there.
 void judge(std::vector<Place>& places, const Typical& typical) {
   std::vector<std::size_t> order;
   std::vector<double> distance(places.size());
@@ -142,7 +145,8 @@ void judge(std::vector<Place>& places, const Typical& typical) {
     places[i].kept = may_be_a_target(places[i], neighbours(places, i), typical);
 }
 
-// If all places have one visit, only a start off the grid can be found.
+// If all places have one visit, only a parked start with an unusual distance to the next place can
+// be found.
 void judge_start(std::vector<Place>& places) {
   const std::size_t n = places.size();
   if (n < kFewest) return;
@@ -157,7 +161,8 @@ void judge_start(std::vector<Place>& places) {
   if (places.back().parked && off_grid(intervals.back())) places.back().kept = false;
 }
 
-// An axis may stop anywhere before the first target, after the last and beyond the end targets.
+// Returns the reason why a place is no target. The axis may stop anywhere before the first visit,
+// after the last visit, and outside the end targets.
 NoticeCode reason(const std::vector<Place>& places, std::size_t at) {
   const Place& p = places[at];
   if (p.parked) return NoticeCode::stop_parked_at_start;

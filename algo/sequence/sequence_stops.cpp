@@ -10,12 +10,12 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMinStep_m = 2e-6;      // nearer stops are always one target
-constexpr double kMaxScatter_m = 50e-6;  // wider groups are never one target
+constexpr double kMinStep_m = 2e-6;      // stops at smaller distances are always one target
+constexpr double kMaxScatter_m = 50e-6;  // groups with a larger range are never one target
 constexpr double kStepToScatter = 10;
-constexpr double kLeastOvershoot_m = 40e-6;  // smaller ones do not affect the approach
+constexpr double kLeastOvershoot_m = 40e-6;  // smaller overshoots do not change the approach
 
-// Largest distance between neighbouring sorted positions of one target.
+// Returns the largest distance of neighbouring sorted positions that belong to one target.
 double scatter_limit(const std::vector<double>& sorted) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < sorted.size(); ++i) steps.push_back(sorted[i] - sorted[i - 1]);
@@ -32,8 +32,8 @@ double scatter_limit(const std::vector<double>& sorted) {
   return limit;
 }
 
-// Whether between the point before `p` and `p` the axis was farther from `p` than a merged stop
-// allows.
+// Returns whether the axis left the stop between the point before and `p`: it was farther from `p`
+// than kMaxScatter_m.
 bool has_left_stop(const Point& p) {
   return p.travel_max_m - p.position_m > kMaxScatter_m ||
          p.position_m - p.travel_min_m > kMaxScatter_m;
@@ -71,7 +71,7 @@ std::size_t nearest_target(const std::vector<double>& targets_m, double position
 
 bool correct_overshot(Point& p) {
   const double above_m = p.travel_max_m - p.position_m, below_m = p.position_m - p.travel_min_m;
-  // The last motion came from one side, the whole path from the other.
+  // Overshot: the direction of the last motion and the direction of the whole path differ.
   const double overshot_m = p.direction < 0 ? above_m : below_m;
   const double approach_travel_m = p.direction < 0 ? below_m : above_m;
   const bool overshot = overshot_m > kLeastOvershoot_m && overshot_m <= kMostOvershoot_m;
@@ -103,7 +103,7 @@ bool merge_into(MeasuredPoint& stop, MeasuredPoint& part) {
       has_left_stop(part.point))
     return false;
   if (part.point.samples > stop.point.samples) {
-    // The path to the stop is the path to its first part.
+    // The merged stop keeps the path of its first part.
     part.point.travel_min_m = stop.point.travel_min_m;
     part.point.travel_max_m = stop.point.travel_max_m;
     stop = std::move(part);

@@ -1,5 +1,5 @@
-// Steps of recognise_sequence(): the target and the approach of each stop, and the stops that are
-// at no target.
+// Functions of recognise_sequence(). They determine the target and the approach of each stop, and
+// find the stops that are at no target.
 #pragma once
 
 #include <cstddef>
@@ -11,40 +11,45 @@
 
 namespace mdof::algo {
 
-// A stop with at most this overshoot has the approach of the path to it, because the last motion
-// was a correction. With a larger overshoot the axis was commanded past the target to approach it
-// from the other side.
+// If the axis overshoots a target by at most this, the last motion back was a correction, and the
+// approach is the direction of the whole path to the target. With a larger overshoot, the axis was
+// commanded past the target to approach it from the other side.
 inline constexpr double kMostOvershoot_m = 0.25e-3;
 
-// Targets from the stops of the axis: the sorted positions are divided where the distance to the
-// next is at least ten times the scatter within a target (and above 2 µm). The position of each
-// target is its first stop, so that it does not change with later stops. Ascending.
+// Returns the targets from the stops of the axis, in ascending order. The sorted positions are
+// divided where the distance to the next position is at least ten times the scatter within a target
+// (and above 2 µm). The position of a target is the position of its first stop, so later stops do
+// not change it.
 std::vector<double> stop_targets(const std::vector<Point>& points);
 std::size_t nearest_target(const std::vector<double>& targets_m, double position_m);
 
-// If a stop was overshot by at most kMostOvershoot_m and the axis came back, its direction becomes
-// that of the path from the stop before. Returns the number of such stops.
+// If the axis overshot a stop by at most kMostOvershoot_m and moved back, the direction of the stop
+// is set to the direction of the path from the stop before. Returns the number of such stops.
 int correct_overshot(std::vector<Point>& points);
 
-// The same for a single stop; returns whether it was overshot.
+// The same for a single stop. Returns whether the axis overshot it.
 bool correct_overshot(Point& stop);
 
-// Sets unknown approaches: a point at the target of the stop before continues this stop, any other
-// belongs to the motion to the next stop.
+// Sets the approach of points with unknown approach. If the stop before is at the same target, the
+// point gets the approach of this stop. Otherwise it gets the approach of the motion to the next
+// stop.
 void assume_approaches(std::vector<MeasuredPoint>& points);
 
-// Merges two consecutive stops at one target and from one side, without a departure of the axis;
-// the longer one is kept.
+// Merges two consecutive stops at one target with the same approach if the axis did not leave the
+// target between them. The longer stop is kept.
 void merge_interrupted(std::vector<MeasuredPoint>& points);
 
-// Merges `part` into `stop` if it continues it as above.
+// Merges `part` into `stop` under the conditions of merge_interrupted(). Returns whether they were
+// merged.
 bool merge_into(MeasuredPoint& stop, MeasuredPoint& part);
 
-// Removes from `points` the stops at no target, as the other stops show: a parked axis, a pause, a
-// reversal. Targets without points are removed from `targets_m`, and the others are renumbered.
+// Finds by comparison with the other stops the stops at no target (a parked axis, a pause, a
+// reversal). Removes these stops from `points` and returns them. Removes targets without points
+// from `targets_m`; the target numbers of the points are changed accordingly.
 std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,
                                              std::vector<double>& targets_m);
-// The same for a first stop at a target that the axis leaves and then approaches again.
+// The same for the first stop of the log at a target, if the axis leaves the target and then
+// approaches it again.
 std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

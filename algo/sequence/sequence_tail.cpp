@@ -9,7 +9,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kNewTarget_m = 50e-6;  // a stop farther from each target is a new target
+// A stop at a larger distance from each target is a new target.
+constexpr double kNewTarget_m = 50e-6;
 
 }  // namespace
 
@@ -32,7 +33,7 @@ int SequenceTail::number(const MeasuredPoint& p) {
   return by_passes_ ? pass : visit;
 }
 
-// False: it is at no given target.
+// Returns false if the point is at no target of options_.targets_m.
 bool SequenceTail::place(MeasuredPoint& p, Sequence& sequence) const {
   auto& targets_m = sequence.targets_m;
   const double at_m = p.point.position_m;
@@ -53,7 +54,7 @@ bool SequenceTail::place(MeasuredPoint& p, Sequence& sequence) const {
   return true;
 }
 
-// The last point gets the approach of the motion that followed.
+// Sets the approach of the last point to the direction of the motion to `next`.
 void SequenceTail::set_last_direction(const MeasuredPoint& next, Sequence& sequence) {
   awaits_direction_ = false;
   MeasuredPoint& last = sequence.points.back();

@@ -1,4 +1,5 @@
-// Adds the next stop to a recognised sequence, at a cost that does not grow with the sequence.
+// Adds the next stop to a recognised sequence. The calculation time does not depend on the length
+// of the sequence.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +12,15 @@
 
 namespace mdof::algo {
 
-// Assigns stop after stop as recognise_sequence() does, with the recognised targets and cycle.
-// Facts that only the whole sequence shows (another cycle, odd stops, a target between known ones)
-// wait until the whole is recognised again.
+// Assigns each stop as recognise_sequence() does, with the targets and the cycle that are already
+// recognised. Some changes are only found when the whole sequence is recognised again: another
+// cycle, stops at no target, a new target between known targets.
 class SequenceTail {
  public:
   // Continues `sequence`, which was recognised with `options`.
   SequenceTail(const Sequence& sequence, SequenceOptions options);
-  // Returns the index of the first new or changed point, whose errors must be solved.
+  // Returns the index of the first new or changed point. The errors of the points from this index
+  // on must be solved.
   std::size_t append(Point stop, Sequence& sequence);
 
  private:
@@ -29,8 +31,9 @@ class SequenceTail {
 
   SequenceOptions options_;
   bool by_passes_ = false;
-  bool awaits_direction_ = false;  // the last point has the approach of the next motion
-  Passes passes_, passes_before_;  // passes_before_: before the last visit
+  // The approach of the last point is the direction of the next motion.
+  bool awaits_direction_ = false;
+  Passes passes_, passes_before_;  // passes_before_: state before the last visit
   std::map<Visited, int> visits_;
 };
 

@@ -19,15 +19,16 @@ std::size_t index_of(const MeasuredPoint& point) {
   return static_cast<std::size_t>(point.target) - 1;
 }
 
-// The last point of each target; kNever: no point.
+// Returns the index of the last point of each target; kNever: the target has no point.
 std::vector<std::size_t> last_visits(const Sequence& sequence) {
   std::vector<std::size_t> last(sequence.targets_m.size(), kNever);
   for (std::size_t i = 0; i < sequence.points.size(); ++i) last[index_of(sequence.points[i])] = i;
   return last;
 }
 
-// Targets whose last visit is before point `split`, and the other visited targets, ascending. If no
-// target has visits on both sides, these are the targets of the two sides.
+// Returns the targets whose last visit is before point `split`, and the other visited targets, both
+// ascending. If no target has visits before and after `split`, these are the targets before and
+// after it.
 std::pair<Places, Places> split_targets(const Sequence& sequence,
                                         const std::vector<std::size_t>& last, std::size_t split) {
   std::pair<Places, Places> places;
@@ -37,7 +38,8 @@ std::pair<Places, Places> split_targets(const Sequence& sequence,
   return places;
 }
 
-// The shift from `before` to `after`, if one distance fits all targets that both have.
+// Returns the shift from `before` to `after` if the same shift applies to all targets of the
+// smaller list.
 std::optional<double> shift_between(const Places& before, const Places& after) {
   const std::size_t n = std::min(before.size(), after.size());
   if (n < kFewestTargets) return {};
@@ -57,7 +59,7 @@ std::optional<double> shift_between(const Places& before, const Places& after) {
 
 std::optional<ShiftedTargets> find_shifted_targets(const Sequence& sequence) {
   const auto last = last_visits(sequence);
-  std::size_t still_visited = 0;  // last visit of any target seen so far
+  std::size_t still_visited = 0;  // latest last visit of the targets before `split`
   for (std::size_t split = 1; split < sequence.points.size(); ++split) {
     const MeasuredPoint& newest = sequence.points[split - 1];
     still_visited = std::max(still_visited, last[index_of(newest)]);

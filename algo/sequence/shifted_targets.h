@@ -1,5 +1,5 @@
-// All targets visited again at a constant shift, which is how a jump of the encoder's count
-// appears.
+// Finds a constant shift of all targets during a run. A jump of the encoder's count causes such a
+// shift.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,14 @@ struct ShiftedTargets {
   double shift_m = 0;        // from the old to the new positions, along the encoder
 };
 
-// Finds a time before and after which different targets are visited, at least three each, and those
-// after it are those before it shifted by one distance, less than half of their range, within 50
-// µm. This is the only sign of a jump while the axis reverses or creeps, because a step of one
-// sample then looks like motion.
+// Finds a time with these properties:
+// - At least three targets are visited only before it, and at least three other targets only after
+//   it.
+// - The positions after it are the positions before it plus one shift, within 50 µm.
+// - The shift is less than half of the range of the targets.
+//
+// If the count jumps while the axis reverses or creeps, find_jump() cannot distinguish the jump
+// from motion, so only this function finds it.
 std::optional<ShiftedTargets> find_shifted_targets(const Sequence& sequence);
 
 }  // namespace mdof::algo

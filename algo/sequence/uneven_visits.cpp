@@ -24,7 +24,7 @@ std::vector<MeasuredPoint> counted_points(const std::vector<MeasuredPoint>& poin
   return out;
 }
 
-// Ascending.
+// Returns the runs that lack a visit which another run has, in ascending order.
 std::vector<int> find_incomplete_runs(const std::vector<MeasuredPoint>& points) {
   std::set<Cell> of_all;
   std::map<int, std::set<Cell>> of_run;

@@ -1,5 +1,5 @@
-// Runs that lack visits which others have, and targets that were approached from one side only, and
-// how a mean of both approaches takes them into account.
+// Handles missing visits of a run, and targets that were approached from one side only, in the
+// calculation of means of both approaches.
 #pragma once
 
 #include <string>
@@ -10,24 +10,26 @@
 
 namespace mdof::algo {
 
-// Means use the points with errors and a known approach.
+// Returns whether means use this point: it has errors and a known approach.
 bool counts_in_means(const MeasuredPoint& point);
-// `counted`: points for which counts_in_means() holds.
+// Returns whether a run lacks a visit that another run has. `counted`: points for which
+// counts_in_means() is true.
 bool any_run_lacks_visits(const std::vector<MeasuredPoint>& counted);
 
 struct WithoutDrift {
   std::vector<MeasuredPoint> points;
   Errors5 u_level{};  // local; m, rad
 };
-// The valid points with a known approach, in their order. If a run lacks a visit (a target from one
-// side) that another run has, the mean drift of each run relative to the others is subtracted from
-// its errors; otherwise the means of some targets would contain it and tilt the result. The drifts
-// are from the least-squares fit error = effect of the visit + effect of the run; they sum to 0.
-// u_level is their scatter, s/√n: the uncertainty of the common level of all targets, for any
-// number of runs that visited them; 0 if nothing was subtracted.
+// Returns the valid points with a known approach in the same order. A visit is a target and an
+// approach. If a run lacks a visit that another run has, the means of different targets contain
+// different runs, so drifts between the runs would change the slope of the result. Then the mean
+// drift of each run relative to the other runs is subtracted from its errors (run_drifts.h); the
+// sum of the drifts is 0. u_level is s/√n of the n drifts. It is the uncertainty of the common
+// level of all targets, for targets with any number of runs. It is 0 if nothing was subtracted.
 WithoutDrift subtract_run_drifts(const std::vector<MeasuredPoint>& points);
 
-// Notices of what the means take into account, and of what they cannot.
+// Returns notices about missing visits and targets with one approach: which of them the means take
+// into account, and which they cannot take into account.
 Notices uneven_visits(const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

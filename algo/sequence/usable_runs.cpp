@@ -28,8 +28,8 @@ bool continues_from(const Run& run, const Run& other) {
   return run.header.supersedes && *run.header.supersedes == other.header.id;
 }
 
-// Whether both are the mean of the same samples. A log that was compressed in between has another
-// hash.
+// Returns whether both points are means of the same samples. The hashes of the logs are not
+// compared, because a compressed log has a different hash.
 bool same_reading(const MeasuredPoint& a, const MeasuredPoint& b) {
   return a.point.begin_ns == b.point.begin_ns && a.point.end_ns == b.point.end_ns &&
          a.point.position_m == b.point.position_m && a.point.probe_m == b.point.probe_m &&
@@ -57,7 +57,7 @@ std::string readings_in_common(const Run& a, const Run& b) {
     return name_of(b) + " continues " + name_of(a) + " and contains the readings of " + name_of(a);
   if (continues_from(a, b))
     return name_of(a) + " continues " + name_of(b) + " and contains the readings of " + name_of(b);
-  // Imported readings have no times.
+  // Imported readings have no times, so they cannot be compared.
   if (!is_imported(a.header) && share_a_reading(a, b))
     return name_of(a) + " and " + name_of(b) + " have readings in common";
   return "";

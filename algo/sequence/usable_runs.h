@@ -1,4 +1,4 @@
-// Whether runs may be combined to one result.
+// Checks whether runs may be combined to one result.
 #pragma once
 
 #include <string>
@@ -13,17 +13,18 @@ namespace mdof::algo {
 using Runs = std::vector<const Run*>;
 Runs all_of(const std::vector<Run>& runs);
 
-// Errors: a run that is not complete (a partial run is accepted with `take_partial`); simulated
-// together with measured runs; readings that would count twice (the same run, the same recording, a
-// run and the run that it continues, the same log in two files), because their scatter would make
-// the uncertainty too small. `what`: "a table".
+// `what`: the result in the text of the error, for example "a table". Errors:
+// - a run that is not complete; with `take_partial` a partial run is accepted
+// - simulated and measured runs together
+// - readings that would be used twice, which would make the uncertainty too small: the same run,
+//   the same recording, a run and the run that it continues, the same log in two files
 Status check_usable(const Runs& runs, bool take_partial, const std::string& what);
 
-// Why both have the same readings, as above; empty: they do not.
+// Returns the reason why two runs have readings in common; empty: they have no readings in common.
 std::string readings_in_common(const Run& a, const Run& b);
 
-// Notices of the runs that hold for the result, too: which runs are partial, and each notice of
-// each run, with the run as its source.
+// Returns the notices of the runs that also apply to the result: which runs are partial, and all
+// notices of each run with the run as source.
 Notices inherited_notices(const Runs& runs);
 
 }  // namespace mdof::algo

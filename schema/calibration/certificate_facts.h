@@ -1,6 +1,6 @@
-// Facts that the certificate of a laboratory states about a probe in addition to its values: keys
-// of the only probe in its calibration record (schema/calibration/record.h), and of [[probe]] in a
-// rig.
+// Statements of a laboratory's certificate about a probe, in addition to its calibration values.
+// They are keys of [[probe]] in a rig, and of the probe in the calibration record of the
+// certificate (schema/calibration/record.h), which has one probe only.
 #pragma once
 
 #include <string>
@@ -10,15 +10,16 @@
 
 namespace mdof {
 
-// Empty: not stated. Dates are YYYY-MM-DD.
+// An empty string: not stated. Dates are YYYY-MM-DD.
 struct CertificateFacts {
   std::string certificate, laboratory, serial_number, calibrated, due;
-  double u_linearity_m = 0;  // u of a displacement after the table's correction; 0: unknown
+  // U of a displacement that is corrected with the linearity table; 0: unknown.
+  double u_linearity_m = 0;
 };
 
 CertificateFacts read_certificate(TomlTable& probe);
 
-// Same as record_text(record), for a record of one probe.
+// Returns record_text(record) with these facts, for a record of one probe.
 std::string record_text(const CalibrationRecord& record, const CertificateFacts& facts);
 
 }  // namespace mdof

@@ -1,4 +1,4 @@
-// Covariances of the quantities that one calibration determined together.
+// Covariances of the quantities that were determined by the same calibration.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +8,13 @@
 
 namespace mdof {
 
-// Names: "A.x" is the position of probe A along X, m; "A.zero" its zero, m; "A.nx" the component of
-// its direction along X, rad.
+// Names of the quantities of a probe A:
+// - "A.x": position along X, m
+// - "A.zero": displacement that the probe reads at the nominal surface, m
+// - "A.nx": component of the direction along X, rad
 struct CalibrationCovariance {
   std::vector<std::string> of;
-  std::vector<std::vector<double>> m2;  // symmetric; a row and a column for each name
+  std::vector<std::vector<double>> m2;  // symmetric; one row and one column for each name
 
   void erase(const std::string& quantity) {
     const auto at = std::find(of.begin(), of.end(), quantity);

@@ -16,7 +16,8 @@ constexpr std::string_view kHashKey = "sha256 = \"";
 constexpr std::size_t kIdDigits = 8;
 constexpr double kUm2 = 1e12;  // square micrometres in a square metre
 
-// Writes numbers, strings and lists of TOML as in JSON, to the last bit.
+// Returns a line of TOML. Numbers, strings and lists are written as in JSON, and numbers without
+// rounding.
 template <class T>
 std::string line(const char* key, const T& value) {
   JsonWriter json;
@@ -48,7 +49,7 @@ std::string table_of(const std::vector<std::array<double, 2>>& linearity) {
   return text + "]\n";
 }
 
-// The strings of a certificate by their keys, for the writer and the reader.
+// Returns the keys of the strings of a certificate, for the writer and the reader.
 template <class Facts>
 auto certificate_keys(Facts& facts) {
   return std::array{std::pair{"certificate", &facts.certificate},
@@ -200,7 +201,8 @@ CalibratedProbe read_probe(TomlTable& table) {
   return probe;
 }
 
-// Checks: a row and a column for each name, symmetric, no correlation above 1.
+// Reads the covariance. Checks that it has one row and one column for each name, is symmetric, and
+// has no correlation above 1.
 CalibrationCovariance read_covariance(TomlTable& table) {
   CalibrationCovariance covariance{table.strings("covariance_of"), table.matrix("covariance_um2")};
   const std::size_t n = covariance.of.size();

@@ -1,11 +1,12 @@
-// A stored calibration: a TOML file that a rig refers to.
+// A stored calibration: a TOML file to which a rig refers.
 //
 //   [[calibration_record]]
 //   sha256 = "…"            of all bytes after this line, up to the next record or the end
 //   id = "mounting-2026-11-23-5c0e8b51"
 //   kind = "mounting"       or "sensitivity"
 //   …
-// The text of a rig that refers to records has these records appended, so that it is complete.
+// When a rig is read, the records to which it refers are appended to the text of the rig, so that
+// the text is complete.
 #pragma once
 
 #include <array>
@@ -23,7 +24,8 @@
 
 namespace mdof {
 
-// The values found for a probe. A value is empty if the calibration did not determine it. SI units.
+// The values that a calibration determined for a probe. Empty: the calibration did not determine
+// this value. SI units.
 struct CalibratedProbe {
   std::string id;
   std::optional<Vec3> position_m;
@@ -33,7 +35,7 @@ struct CalibratedProbe {
   std::optional<double> offset_um;  // raw reading at the nominal surface
   double u_offset_m = 0;
   std::optional<double> um_per_V;
-  std::vector<std::array<double, 2>> linearity;  // same form as in the rig
+  std::vector<std::array<double, 2>> linearity;  // pairs as in the rig
   // First and last calibrated reading, in units of the first column of `linearity`.
   std::optional<std::array<double, 2>> calibrated_um;
   double u_sensitivity_1 = 0;
@@ -64,15 +66,16 @@ struct CalibrationRecord {
 
 inline constexpr std::string_view kRecordHead = "[[calibration_record]]";
 
-// The text of the file with its id and hash; `record.id` is ignored.
+// Returns the text of the file with a new id and the hash; `record.id` is ignored.
 std::string record_text(const CalibrationRecord& record);
 
 // Reads one [[calibration_record]]; errors are recorded in the table.
 CalibrationRecord read_record(TomlTable& table);
 
-// Each record of a text, from its head to the next head or the end.
+// Returns the text of each record, from kRecordHead to the next kRecordHead or to the end of the
+// text.
 std::vector<std::string_view> record_parts(std::string_view text);
-// Whether the hash of a record matches its text.
+// Returns whether the hash of a record is correct for its text.
 bool is_unchanged(std::string_view record_part);
 
 }  // namespace mdof

@@ -1,5 +1,5 @@
-// The result of a calibration of a probe against the encoder of the approaching axis
-// (algo/calibration/sensitivity.h).
+// The result of a calibration of a probe with an encoder as reference: the encoder of the axis that
+// moves the target towards the probe (algo/calibration/sensitivity.h).
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@ namespace mdof {
 
 struct SensitivityCalibration {
   std::string id;            // id of the probe
-  double sensitivity_1 = 1;  // reading per true displacement, by least squares
+  double sensitivity_1 = 1;  // change of the reading / true displacement, by least squares
   double u_sensitivity_1 = 0;
   // Degrees of freedom of u_sensitivity_1.
   double freedom = std::numeric_limits<double>::infinity();
-  double linearity_m = 0;  // largest residual of the line
+  double linearity_m = 0;  // largest residual from the least-squares line
   double residual_sd_m = 0;
-  double from_m = 0, to_m = 0;  // readings, as displacements
+  double from_m = 0, to_m = 0;  // range of the readings, converted to displacements
   std::size_t stops = 0;
-  // For the rig: the scale of a probe in volts, and the remaining corrections at t = raw - offset
-  // (schema/rig/rig.h, Calibration).
+  // Values for the rig: the scale of a probe that reads volts, and the corrections of the remaining
+  // deviations at t = raw - offset (schema/rig/rig.h, Calibration).
   std::optional<double> um_per_V;
   double offset_um = 0;
   std::vector<std::array<double, 2>> linearity;
   std::array<double, 2> calibrated_um{};  // t of the first and the last position
-  std::vector<std::string> not_seen;      // sentences: what u does not include
+  std::vector<std::string> not_seen;      // sentences about effects that u does not include
 };
 
 }  // namespace mdof

@@ -16,7 +16,7 @@ std::string one_line(std::string text) {
   return std::string(trimmed(text));
 }
 
-// The text of a part that every DCC must have.
+// Returns the text of an element that every DCC must have.
 Result<std::string> text_at(const XmlElement& from, const char* path, const std::string& source) {
   const XmlElement* element = from.at(path);
   std::string text = element ? one_line(element->text) : "";
@@ -74,7 +74,8 @@ Status read_head(const XmlElement& data, DccCertificate& certificate) {
   return statements ? read_due(*statements, certificate) : Status();
 }
 
-// Reads the quantities of dcc:data or of a dcc:list. Lists in it become separate lists.
+// Reads the quantities of dcc:data or of a dcc:list. A dcc:list inside becomes a separate list of
+// the result.
 Status read_data(const XmlElement& data, const std::string& source,
                  std::vector<DccQuantity>& quantities, DccResult& result) {
   for (const XmlElement& child : data.children) {

@@ -10,8 +10,8 @@
 namespace mdof {
 namespace {
 
-// The places of an uncertainty in the D-SI format 2.2 and with the older names: the element, the
-// value in it, and the coverage factor (nullptr: a standard uncertainty).
+// Names of the elements of an uncertainty in the D-SI format 2.2 and in older formats: the
+// uncertainty, its value, and its coverage factor (nullptr: a standard uncertainty).
 struct UncertaintyForm {
   const char *element, *value, *coverage_factor;
 };
@@ -66,7 +66,7 @@ class QuantityReader {
     return all;
   }
 
-  // One number for each value, or one for all values.
+  // Reads n numbers. If the element has one number, it applies to all values.
   Result<std::vector<double>> as_many(const XmlElement& parent, const char* child,
                                       std::size_t n) const {
     const XmlElement* element = parent.child(child);
@@ -104,7 +104,7 @@ class QuantityReader {
     return {};
   }
 
-  // The unit of a list of units; empty: they are not all the same.
+  // Returns the unit of a list of units; empty if the units differ.
   std::optional<SiUnit> unit_of(const XmlElement& element, std::string& text) const {
     const auto units = words(element.text);
     if (units.empty() || std::any_of(units.begin(), units.end(),
@@ -114,7 +114,7 @@ class QuantityReader {
     return si_unit(text);
   }
 
-  // si:real or si:realListXMLList, inside or outside si:hybrid.
+  // Reads si:real or si:realListXMLList, inside or outside of si:hybrid.
   Result<std::optional<DccQuantity>> read_one(const XmlElement& parent) const {
     for (const XmlElement& form : parent.children) {
       if (form.name == "si:hybrid") {

@@ -1,4 +1,4 @@
-// Reads the quantities of a DCC's results: values, units and uncertainties of the D-SI format.
+// Reads the quantities in the results of a DCC: values, units and uncertainties in the D-SI format.
 #pragma once
 
 #include <optional>
@@ -10,15 +10,16 @@
 
 namespace mdof {
 
-// "file:12: dcc:item".
+// Returns for example "file:12: dcc:item".
 std::string place_of(const std::string& source, const XmlElement& element);
 
-// The words of an attribute such as refType="basic_measuredValue gp_table1".
+// Returns the words of the attribute refType, for example of refType="basic_measuredValue
+// gp_table1".
 std::vector<std::string> read_ref_types(const XmlElement& element);
-// The text of the first dcc:content in dcc:name; absent: empty.
+// Returns the text of the first dcc:content in dcc:name; empty if there is none.
 std::string name_of(const XmlElement& element);
 
-// Reads a dcc:quantity. Empty: its unit has neither length nor voltage.
+// Reads a dcc:quantity. Returns nothing if its unit has neither length nor voltage.
 Result<std::optional<DccQuantity>> read_quantity(const XmlElement& element,
                                                  const std::string& source);
 

@@ -23,7 +23,7 @@ constexpr std::array<std::pair<std::string_view, double>, 9> kPrefixes = {{{"nan
                                                                            {"pico", 1e-12},
                                                                            {"giga", 1e9}}};
 
-// Takes the next \word from the text; empty if none begins.
+// Removes the next \word from the text and returns it; empty if the text does not begin with \.
 std::string_view take_word(std::string_view& text) {
   if (text.empty() || text.front() != '\\') return {};
   const std::size_t end = std::min(std::min(text.find('\\', 1), text.find('{', 1)), text.size());
@@ -32,7 +32,7 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-// Takes {n} after \tothe.
+// Removes {n} after \tothe from the text and returns n.
 std::optional<int> take_power(std::string_view& text) {
   const std::size_t end = text.find('}');
   if (text.empty() || text.front() != '{' || end == text.npos) return std::nullopt;
@@ -44,7 +44,8 @@ std::optional<int> take_power(std::string_view& text) {
   return power;
 }
 
-// Takes one unit with its prefix and power; false: neither a length nor a voltage.
+// Removes one unit with its prefix and power from the text. Returns false if it is neither a length
+// nor a voltage.
 bool take_unit(std::string_view& text, SiUnit& unit) {
   std::string_view word = take_word(text);
   const bool per = word == "per";

@@ -7,7 +7,7 @@
 
 namespace mdof {
 
-// The value in the document * factor is the value in m^metre V^volt.
+// A unit m^metre V^volt times a factor: value in SI units = value in the DCC * factor.
 struct SiUnit {
   double factor = 1;
   int metre = 0, volt = 0;
@@ -15,7 +15,7 @@ struct SiUnit {
   bool is(int of_metre, int of_volt) const { return metre == of_metre && volt == of_volt; }
 };
 
-// Empty: the unit has neither length nor voltage, or cannot be read.
+// Returns nothing if the unit has neither length nor voltage, or cannot be read.
 std::optional<SiUnit> si_unit(std::string_view text);
 
 }  // namespace mdof

@@ -23,7 +23,7 @@ constexpr Field kFields[] = {
 #include "schema/field/names/study.inc"
 #include "schema/field/names/table.inc"
 #include "schema/field/names/uncertainty.inc"
-// Last, because a probe may have any name.
+// These rows are last, because a probe may have any name.
 #include "schema/field/names/csv.inc"
 #undef FIELD
 };

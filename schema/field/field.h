@@ -1,7 +1,8 @@
-// The names in the documents that mdof and mdofd write. Each row has the type of a name, the
-// meaning of null and the meaning of the name. A name has one meaning in JSON and CSV; if the
-// meaning depends on the document, its row states each meaning. The result schemas of rpc.discover
-// and the manual's list of fields are made from these rows.
+// A list of all names of members and columns in the JSON and CSV documents that mdof and mdofd
+// write. Each row states the type of a name, the meaning of null and the meaning of the name. A
+// name has the same meaning in JSON and CSV. If the meaning depends on the document, the row states
+// each meaning. The result schemas of rpc.discover and the list of fields in the manual are
+// generated from these rows.
 #pragma once
 
 #include <optional>
@@ -11,10 +12,16 @@
 
 namespace mdof {
 
-// A name ends with its unit. Groups stand for letters: {linear} is X, Y or Z; {angular} is A, B or
-// C; {axis} is any of the six; {small} is x, y or z; {approach} is forward, reverse or mean;
-// {probe} is the id of a probe (A, B2), {number} a number; {field} at the end is the name of
-// another row; {figure} is the name of a result (EYX_straightness_um).
+// A name ends with its unit. A group in a name stands for one of several texts:
+// - {linear}: X, Y or Z
+// - {angular}: A, B or C
+// - {axis}: one of these six letters
+// - {small}: x, y or z
+// - {approach}: forward, reverse or mean
+// - {probe}: the id of a probe (A, B2)
+// - {number}: a number
+// - {field}, at the end: the name of another row
+// - {figure}: the name of a result (EYX_straightness_um)
 struct Field {
   std::string_view name;
   std::string_view type;  // JSON type: "number", "[string]" (array), "number|object" (either)
@@ -22,18 +29,18 @@ struct Field {
   std::string_view meaning;
 };
 
-// The row of a name, with its meaning for this name.
+// The row of a name, and the meaning of this name.
 struct KnownField {
   const Field* row;
   std::string meaning;
 };
 
-std::span<const Field> fields();  // in the order of topics
+std::span<const Field> fields();  // in the order of field.cpp
 
-// Finds the row of a name in a document, "u_EYX_um", or of a row itself, "u_{field}".
+// Finds the row of a name in a document ("u_EYX_um"), or the row with this name ("u_{field}").
 std::optional<KnownField> find_field(std::string_view name);
 
-// A regular expression of ECMAScript, as in JSON Schema; without {field}.
+// Returns an ECMAScript regular expression, as in JSON Schema, for a name without {field}.
 std::string field_regex(std::string_view name);
 
 }  // namespace mdof

@@ -30,14 +30,14 @@ constexpr std::string_view kScalars[] = {"number", "integer", "string", "boolean
 // One of the possible types of a value.
 struct ShapeAlternative {
   std::string type;
-  std::string keywords;  // ,"items":... : they do not apply to values of other types
+  std::string keywords;  // ,"items":...; keywords for this type only
 };
 using ShapeType = std::vector<ShapeAlternative>;
 
 struct ShapeMembers {
   std::vector<std::pair<std::string, std::string>> properties, patterns;  // name, schema
   std::vector<std::string> required;
-  std::size_t families = 0;  // names with groups; each has one or more members
+  std::size_t families = 0;  // number of names with groups; each stands for one or more members
   std::string others = "false";
 };
 
@@ -73,7 +73,7 @@ class ShapeReader {
   void expect(std::string_view token) {
     if (!take(token)) shape_bug(rest_);
   }
-  std::string_view read_name();  // with its groups
+  std::string_view read_name();  // including groups
   ShapeType read_type();
   void add_alternative(ShapeType& type);
   void read_member(ShapeMembers& members, bool optional);
@@ -181,7 +181,8 @@ void ShapeReader::read_others(ShapeMembers& members) {
   members.others = take(":") ? schema_of(read_type()) : "true";
 }
 
-// The row's type without objects, because only a shape states the members of an object.
+// Returns the type of the row without "object", because only a shape states the members of an
+// object.
 ShapeType type_of_row(const Field& row) {
   ShapeType type = ShapeReader(row.type).whole();
   if (type.size() > 1)
@@ -204,7 +205,7 @@ void ShapeReader::read_member(ShapeMembers& members, bool optional) {
   const bool family = name.find('{') != std::string::npos;
   auto& named = family ? members.patterns : members.properties;
   if (std::any_of(named.begin(), named.end(), [&](const auto& each) { return each.first == name; }))
-    shape_bug(name);  // given twice
+    shape_bug(name);  // the name occurs twice
   named.emplace_back(name, schema_of(type, description));
   if (optional) return;
   family ? void(++members.families) : members.required.push_back(name);
@@ -223,7 +224,8 @@ std::string any_of(const ShapeType& type) {
   return json.end_array().end_object().take();
 }
 
-// The keywords of objects and arrays differ, so one schema is enough for both.
+// One schema can describe an object and an array, because the keywords of objects and arrays
+// differ.
 std::string schema_of(const ShapeType& type, std::string_view description) {
   if (count_of(type, "object") > 1 || count_of(type, "array") > 1)
     return with_meaning(any_of(type), description);

@@ -1,13 +1,17 @@
-// The shape of a result: a short text with the members of an object, next to the code that writes
-// it. With the rows of field.h it becomes a JSON Schema.
+// A shape is a short text that lists the members of a JSON object. It is next to the code that
+// writes the object. json_schema() converts it to a JSON Schema by means of the rows of field.h.
 //
 //   {run, axis, note?, points: [point], E{linear}{axis}_um, u: errors, ...header}
 //
-// A member has the type of its row or the type after the colon: an object, an array [...], a named
-// shape of shapes.inc, or several with "|". "?": the member may be absent. "!": the member is never
-// null, although its row states a null that other documents have. A name with groups stands for one
-// or more members. "...header": the members of this shape; "...header?": they may be absent. "*":
-// other members are allowed; "*: number": other members of this type.
+// Syntax:
+// - name: a member with the type of its row; a name with groups stands for one or more members
+// - name: type: a member with this type, which is an object {...}, an array [...], a named shape of
+//   shapes.inc, or several of them with "|" between them
+// - "?": the member may be absent
+// - "!": the member is never null, although its row states a meaning of null, because other
+//   documents can have null
+// - "...header": all members of the named shape "header"; "...header?": these members may be absent
+// - "*": other members are allowed; "*: number": other members of this type are allowed
 #pragma once
 
 #include <string>
@@ -15,7 +19,7 @@
 
 namespace mdof {
 
-// A draft 7 schema as JSON text. An invalid shape or a name without a row is a bug.
+// Returns a JSON Schema (draft 7) as text. An invalid shape or a name without a row is a bug.
 std::string json_schema(std::string_view shape);
 
 }  // namespace mdof

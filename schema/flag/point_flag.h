@@ -1,4 +1,4 @@
-// Flags of a point for its readers, as data: a flag, and the channel that it is about.
+// Flags of a point. A flag states an event of the point or of one of its channels.
 #pragma once
 
 #include <string>
@@ -24,6 +24,6 @@ struct PointFlag {
 std::string to_string(const PointFlag& flag);                // "spike:A", as stored and shown
 std::string to_string(const std::vector<PointFlag>& flags);  // space between them
 std::vector<std::string> flag_texts(const std::vector<PointFlag>& flags);
-Result<PointFlag> point_flag_from(std::string_view text);  // error (bad_input): no such flag
+Result<PointFlag> point_flag_from(std::string_view text);  // error (bad_input): unknown flag
 
 }  // namespace mdof

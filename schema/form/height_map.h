@@ -1,4 +1,4 @@
-// A measured surface: heights over a grid of pixels, of which some may be missing.
+// A measured surface: heights on a grid of pixels. Some heights may be missing.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ struct SurfaceMap {
   double dx_m = 0, dy_m = 0;   // pixel size, above 0
   std::size_t nx = 0, ny = 0;  // columns along x, rows along y
   std::vector<double> z_m;     // nx ny values, row by row; kMissing: not measured
-  Notices notices;             // assumptions made when it was read
+  Notices notices;             // assumptions that were made when the map was read
 
   double x_m(std::size_t column) const { return x0_m + static_cast<double>(column) * dx_m; }
   double y_m(std::size_t row) const { return y0_m + static_cast<double>(row) * dy_m; }
@@ -31,13 +31,14 @@ struct SurfaceMap {
   }
 };
 
-// A map with the same pixels and no heights.
+// Returns a map with the same pixels and without heights.
 inline SurfaceMap empty_like(const SurfaceMap& map) {
   SurfaceMap empty{map.name, map.x0_m, map.y0_m, map.dx_m, map.dy_m, map.nx, map.ny, {}, {}};
   empty.z_m.assign(map.z_m.size(), SurfaceMap::kMissing);
   return empty;
 }
 
-inline constexpr std::size_t kMostPixels = 50'000'000;  // per map, because all are in memory
+// In one map, because all pixels are in memory.
+inline constexpr std::size_t kMostPixels = 50'000'000;
 
 }  // namespace mdof

@@ -14,7 +14,7 @@ constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // columns or rows
 constexpr double kGridTolerance = 0.05;                    // share of a pixel
 constexpr std::size_t kMaxPixelsPerPoint = 64;  // at least one pixel of this many has a point
 
-// Distinct values in any order: a table of their bits with open addressing.
+// Collects distinct values in a hash table of their bits with open addressing.
 class Distinct {
  public:
   Distinct() : slot_(4096, kEmpty) {}
@@ -59,7 +59,7 @@ struct Steps {
   double first_m = 0, step_m = 0;  // step 0: only one position
   std::size_t count = 0;
 
-  // Index of the step; npos: the position is on no step.
+  // Returns the index of the grid position at x_m; npos: x_m is at no grid position.
   static constexpr std::size_t npos = ~std::size_t{0};
   std::size_t index(double x_m) const {
     if (count == 1) return 0;
@@ -85,11 +85,11 @@ Result<Steps> steps_of(const std::vector<double>& places, char axis, const std::
   const std::vector<double> value = distinct.sorted();
   const double span = value.back() - value.front();
   if (!(span > 0)) return Steps{value.front(), 0, 1};
-  // Values that differ only by rounding are the same.
+  // Values whose difference is only rounding count as the same value.
   double least = span;
   for (std::size_t k = 1; k < value.size(); ++k)
     if (const double gap = value[k] - value[k - 1]; gap > 1e-9 * span) least = std::min(least, gap);
-  std::vector<double> single;  // gaps of one step
+  std::vector<double> single;  // distances of one step
   for (std::size_t k = 1; k < value.size(); ++k)
     if (const double gap = value[k] - value[k - 1]; gap > 1e-9 * span && gap < 1.5 * least)
       single.push_back(gap);

@@ -1,4 +1,4 @@
-// Finds the grid of points that are in any order.
+// Finds the grid of points. The points may be in any order.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,10 @@ struct MapPoints {
   std::vector<double> x_m, y_m, z_m;  // z: SurfaceMap::kMissing if there is no height
 };
 
-// Pixels, whole rows and columns may be missing, and positions may be rounded by up to a twentieth
-// of a pixel. `place(k)` is the origin of point k ("map.csv:7: "). Errors: points that are on no
-// grid, two points on one pixel, a single position, no height at all.
+// Pixels and complete rows and columns may be missing. Positions may differ from the grid by up to
+// a twentieth of a pixel because of rounding. `place(k)` returns the file and line of point k for
+// messages ("map.csv:7: "). Errors: points that are not on a grid; two points on one pixel; all
+// points at one position; a map without heights.
 Result<SurfaceMap> grid_of(const MapPoints& points, const std::string& source,
                            const std::function<std::string(std::size_t)>& place);
 

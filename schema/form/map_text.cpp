@@ -18,7 +18,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-// Reads a number that fills the cell. Empty cells and nan are missing.
+// Reads a cell that contains only a number. An empty cell or nan is a missing value.
 bool read_cell(std::string_view cell, double& x) {
   cell = trimmed(cell);
   if (cell.empty()) {
@@ -47,7 +47,7 @@ std::optional<double> unit_m(std::string_view name) {
   return {};
 }
 
-// x / 1e3 is rounded once, x * 1e-3 twice.
+// Divides by 1e3 or 1e6, because x / 1e3 is rounded once and x * 1e-3 twice.
 double in_m(double x, double unit_m) {
   if (unit_m == 1e-3) return from_mm(x);
   if (unit_m == 1e-6) return from_um(x);
@@ -78,7 +78,8 @@ std::string MapTextReader::place_of_point(std::size_t point) const {
   return place(after->second + point - after->first);
 }
 
-// Reserves the points of the whole file; its rows are assumed as long as those of the first piece.
+// Reserves memory for the points of the whole file. It assumes that the mean length of a row is the
+// same as in the first piece.
 void MapTextReader::reserve_points(std::size_t bytes_read) {
   const std::size_t read = points_.z_m.size();
   if (bytes_expected_ <= bytes_read || read == 0) return;

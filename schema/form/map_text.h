@@ -1,5 +1,5 @@
-// Height maps as text with one pixel a row: CSV with the header x_mm,y_mm,z_um, and XYZ, which has
-// no header and separates by blanks.
+// Height maps as text with one pixel in each row. Formats: CSV with the header x_mm,y_mm,z_um, and
+// XYZ without a header and with blanks between the values.
 #pragma once
 
 #include <array>
@@ -17,26 +17,29 @@
 
 namespace mdof {
 
-// Units of a file without header, as a factor to metres.
+// Units of a file without header, as factors that convert to metres.
 struct XyzUnits {
   double xy_m = 1e-3, z_m = 1e-6;
 };
-// "mm": all three columns; "mm,um": x and y, and z. Known units: m, mm, um, nm.
+// `text` is for example "mm" (unit of all three columns) or "mm,um" (unit of x and y, unit of z).
+// Known units: m, mm, um, nm.
 Result<XyzUnits> xyz_units(const std::string& text);
 
-// Reads one file in pieces of any size. Rows may be in any order, and so may the columns of a
-// header; other columns are ignored. A height is missing if its pixel has no row, z is empty or z
-// is nan. Lines that begin with # are ignored. Errors name file and line. Without `units` an XYZ
-// file has the units of the CSV, with a notice.
+// Reads one file in pieces of any size. The rows may be in any order. The columns of a file with a
+// header may be in any order; other columns are ignored. A height is missing if its pixel has no
+// row, or if z is empty or nan. Lines that begin with # are ignored. Errors state file and line.
+// Without `units`, an XYZ file has the units of the CSV format, and a notice states this
+// assumption.
 class MapTextReader {
  public:
   MapTextReader(std::string source, std::optional<XyzUnits> units)
       : source_(std::move(source)), units_(units) {}
-  // Size of the whole file, if known, to reserve memory once.
+  // Sets the size of the whole file, so that the memory is reserved once. The call is optional.
   void expect_bytes(std::size_t bytes) { bytes_expected_ = bytes; }
   Status feed(std::string_view piece);
   Result<SurfaceMap> finish();
-  // Whether the file has a header, whose names state the units. `units` is then not used.
+  // Returns whether the file has a header. The names in the header state the units, so `units` is
+  // not used.
   bool has_header() const { return form_ == Form::csv; }
 
  private:
@@ -62,12 +65,12 @@ class MapTextReader {
   std::size_t line_ = 0;
   std::size_t bytes_expected_ = 0;
   MapPoints points_;
-  // Starts of groups of points on consecutive lines: (point, its line).
+  // For each group of points on consecutive lines: index of the first point, and its line number.
   std::vector<std::pair<std::size_t, std::size_t>> line_groups_;
   Notices notices_;
 };
 
-// Writes such a CSV with a row for every pixel, in pieces.
+// Writes a map in the CSV format, with one row for each pixel. Calls `take` for pieces of the text.
 Status write_map_csv(const SurfaceMap& map, const std::function<Status(std::string_view)>& take);
 
 }  // namespace mdof

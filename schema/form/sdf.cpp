@@ -1,4 +1,5 @@
-// ISO 25178-71: a header of "key = value", "*", the heights profile by profile, "*", a trailer.
+// ISO 25178-71: a header with lines "key = value", then "*", the heights profile by profile, "*",
+// and a trailer.
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -24,7 +25,7 @@ class SdfReader {
       return bad_input(source_ + ": has more than " + std::to_string(kMostPixels) + " pixels");
     MDOF_TRY(map.dx_m, scale("Xscale"));
     if (map.ny == 1) {
-      map.dy_m = map.dx_m;  // a profile has no meaningful Yscale
+      map.dy_m = map.dx_m;  // a single profile has no distance along y
     } else {
       MDOF_TRY(map.dy_m, scale("Yscale"));
     }

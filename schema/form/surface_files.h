@@ -1,4 +1,4 @@
-// Height maps in the formats of instruments.
+// Reads height maps in the file formats of instruments.
 #pragma once
 
 #include <string>
@@ -9,15 +9,16 @@
 
 namespace mdof {
 
-// ISO 25178-71 .sdf as text (aISO-1.0, aISO-2.0, and the older aBCR-1.0): heights are in m after
-// multiplication with Zscale, BAD is missing, the first point is at (0, 0), and y increases with
-// the number of the profile.
-// True for the text form, and for the binary form, which parse_sdf() rejects.
+// ISO 25178-71 .sdf as text (aISO-1.0, aISO-2.0, and the older aBCR-1.0). A height times Zscale is
+// in m. BAD is a missing height. The first point is at (0, 0), and y increases with the number of
+// the profile.
+//
+// is_sdf() is true for the text format, and for the binary format, which parse_sdf() rejects.
 bool is_sdf(std::string_view bytes);
 Result<SurfaceMap> parse_sdf(std::string_view text, const std::string& source);
 
-// Zygo MetroPro .dat, formats 1 to 3: the connected phase as heights. x increases with the column
-// and y with the row of the camera; the camera's first pixel is (0, 0).
+// Zygo MetroPro .dat, formats 1 to 3: the connected phase is converted to heights. x increases with
+// the column and y with the row of the camera; the first pixel of the camera is at (0, 0).
 bool is_zygo_dat(std::string_view bytes);
 Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& source);
 

@@ -10,9 +10,10 @@
 namespace mdof {
 namespace {
 
-constexpr std::string_view kMagic = "\x88\x1b\x03";  // then 'o', 'p' or 'q' for the format
+// The next byte of the file is 'o', 'p' or 'q' for the format.
+constexpr std::string_view kMagic = "\x88\x1b\x03";
 constexpr std::size_t kLeastHeader = 834;
-constexpr std::int32_t kNoPhase = 2147483640;  // this value and above
+constexpr std::int32_t kNoPhase = 2147483640;  // this value or above: no phase
 
 // Positions of values in the header.
 enum Offset : std::size_t {

@@ -1,4 +1,4 @@
-// The JSON form of imported runs, the same for the command line and the RPC.
+// Writes imported runs as JSON, for the command line and the RPC.
 #pragma once
 
 #include "schema/base/json_writer.h"
@@ -8,12 +8,12 @@
 
 namespace mdof {
 
-// {"target", "run", "direction" (null: unknown), "position_mm", "EXX_um", "u": {"EXX_um"}}; u is
-// null if none was declared.
+// Writes {"target", "run", "direction" (null: unknown), "position_mm", "EXX_um", "u": {"EXX_um"}}.
+// "u" is null if no uncertainty was declared.
 void write_imported_point(JsonWriter& json, const MeasuredPoint& point, const std::string& key);
 
-// Writes the header, "imported", "error" and "sense", and for positioning "positioning_sense", as
-// members of an open object.
+// Writes the members of the header, "imported", "error" and "sense" into an open object; for
+// positioning also "positioning_sense".
 void write_imported_members(JsonWriter& json, const RunHeader& header, NoticeWords words);
 
 }  // namespace mdof

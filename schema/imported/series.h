@@ -1,10 +1,10 @@
-// Errors of an axis that another instrument measured: the series that was read from a file, and the
-// run that is stored from it.
+// Errors of an axis that were measured with another instrument: the series in a file, and the run
+// that is stored from this series.
 //
 // An imported run has the axis, the file with its hash, and a point for each reading. It has no rig
 // and no solved errors: `probe_m` of a point is the deviation (actual - nominal, m or rad), and
-// `probe_u_m` its declared standard uncertainty (empty: none declared). Its `model` is the name of
-// the error.
+// `probe_u_m` its declared standard uncertainty (empty: none declared). The `model` of the run is
+// the name of the error.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@
 
 namespace mdof {
 
-// 'E', direction and axis: "EXX" for X.
+// Returns the name of the positioning error: "EXX" for X.
 std::string positioning_name(Axis axis);
 
 // One of the six errors of an axis.
@@ -30,14 +30,14 @@ struct ImportedError {
   bool angle = false;
   std::string key() const { return name + (angle ? "_urad" : "_um"); }
 };
-// Error (usage): the axis has no such error; the error names those that it has.
+// Error (usage): the axis has no such error; the message states the errors of the axis.
 Result<ImportedError> imported_error(Axis axis, const std::string& name);
 
-// A reading, in the order of the file.
+// A reading. Readings are in the order of the file.
 struct ImportedReading {
   double position_m = 0;
-  int direction = 0;     // +1: approached in the + sense, -1: in the - sense, 0: unknown
-  int run = 1;           // pass over the targets
+  int direction = 0;     // direction of approach: +1, -1; 0: unknown
+  int run = 1;           // number of the pass over the targets
   double deviation = 0;  // actual - nominal; m, rad
 };
 
@@ -52,30 +52,35 @@ struct ImportedSeries {
   std::vector<ImportedReading> readings;
   // Statements of the file about itself: machine, date, operator.
   std::vector<std::string> about;
-  Notices notices;  // changes that were made to the data when they were read
+  Notices notices;  // changes of the data that were made when the file was read
 };
 
-// The sense of a deviation along the axis. command: actual minus commanded position in the
-// controller's coordinates. body: along + of the machine. Their signs differ if the body moves
-// along - when the command increases. Positions are commands in both.
+// The sign of a positioning deviation.
+// - command: actual minus commanded position in the coordinates of the controller
+// - body: the deviation is positive if the body is too far along + of the machine
+//
+// The two signs differ if the body moves along - of the machine when the command increases. In both
+// cases the positions are commands.
 enum class PositioningSense { command, body };
 struct ImportedSense {
   PositioningSense sense = PositioningSense::command;
-  std::optional<bool> against_command;  // true: travel "-"; empty: not stated at the import
+  // true: the body moves along - when the command increases (travel "-"); empty: not stated at the
+  // import.
+  std::optional<bool> against_command;
 };
-// The sense of every compensation table, for any sense of its runs.
+// All compensation tables have this sense, whatever the sense of their runs.
 inline constexpr PositioningSense kTablePositioningSense = PositioningSense::command;
 const char* to_string(PositioningSense sense);  // "command", "body"
 std::optional<PositioningSense> positioning_sense_from(std::string_view word);
 
-// The error of an imported run.
+// Returns which error an imported run contains.
 ImportedError imported_run_error(const RunHeader& run);
-// The deviation of a point of an imported run, in m or rad; NaN: the point has no deviation.
+// Returns the deviation of a point of an imported run, m or rad; NaN: the point has no deviation.
 double deviation(const MeasuredPoint& point);
 double deviation_uncertainty(const MeasuredPoint& point);
 
 bool is_imported(const RunHeader& run);
-// Error (bad_input): the run is imported and lacks the data that `what` needs.
+// Error (bad_input): the run is imported, so it has no data for `what`.
 Status check_measured(const RunHeader& run, const std::string& what);
 
 }  // namespace mdof

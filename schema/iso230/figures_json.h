@@ -1,4 +1,5 @@
-// Figures of the errors of a run as nested objects: {"EYX_um": {"forward": {...}, ...}, ...}.
+// Writes figures of the errors of a run as nested objects: {"EYX_um": {"forward": {...}, ...},
+// ...}.
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@
 namespace mdof {
 namespace {
 
-// Replaces -0, an artefact of subtractions, by 0 for readers and scripts.
+// Returns 0 for -0, because -0 can result from a subtraction and confuses readers and scripts.
 double unsigned_zero(double x) {
   return x + 0.0;
 }
@@ -38,7 +38,7 @@ void write_squareness_line(JsonWriter& json, const char* name, const Squareness&
       .end_object();
 }
 
-// Writes fields whose names end with one unit.
+// Writes several members whose names end with the same unit.
 class Figures {
  public:
   Figures(JsonWriter& json, bool angle) : json_(json), unit_(angle ? "_urad" : "_um") {}

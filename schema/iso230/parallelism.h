@@ -1,5 +1,5 @@
-// Parallelism of two motions along one axis (ISO 230-1): the angle between the reference lines of
-// their straightness, in each of the two planes that contain the axis.
+// Parallelism of two motions along one axis (ISO 230-1). It is the angle between the straightness
+// reference lines of both motions, in each of the two planes that contain the axis.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,10 @@
 namespace mdof {
 
 struct ParallelismLine {
-  double slope_a_rad = 0, slope_b_rad = 0;  // along the travel of the moving body in + of M
-  // slope_b - slope_a. +: as the axis moves to +, B deviates from A towards + of the error's first
-  // letter (EYX: to +Y).
+  // Over the travel of the moving body in the + direction of M.
+  double slope_a_rad = 0, slope_b_rad = 0;
+  // slope_b - slope_a. Positive: when the axis moves towards +, motion B deviates from motion A in
+  // the + direction of the straightness error (EYX: +Y).
   double angle_rad = 0;
 };
 
@@ -25,7 +26,7 @@ struct ParallelismOfPlane {
   Budget budget;  // budget of the least-squares angle
 };
 
-// Both runs are stated at the fixture.
+// The errors of both runs are stated at the fixture.
 struct Parallelism {
   std::int64_t run_a = 0, run_b = 0;
   Axis axis = Axis::x;

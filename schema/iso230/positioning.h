@@ -1,5 +1,5 @@
-// Parameters of ISO 230-2 with their names in the standard, for positioning and in the same way for
-// straightness and angles. Values are in m or rad, like the deviations.
+// Parameters of ISO 230-2 with their names in the standard. mdof calculates them for positioning,
+// and in the same way for straightness and angles. Values are in m or rad.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace mdof {
 
 struct PositioningReading {
   double target_m = 0;
-  int direction = 0;  // +1: target approached in the + sense (forward), -1: reverse
+  int direction = 0;  // direction of approach: +1 forward, -1 reverse
   int run = 0;
   double deviation = 0;  // actual - nominal
 };
@@ -22,7 +22,7 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 struct TargetApproach {
   std::size_t n = 0;
   double mean = kNoFigure;
-  double s = kNoFigure;  // n - 1 degrees of freedom
+  double s = kNoFigure;  // standard deviation, n - 1 degrees of freedom
   double R = kNoFigure;  // 4 s
 };
 
@@ -35,7 +35,8 @@ struct PositioningTarget {
   double R = kNoFigure;
 };
 
-// Values that need the other approach are NaN if all targets were approached from one side only.
+// If all targets were approached from one side only, the parameters of the other approach and of
+// both approaches are NaN.
 struct Positioning {
   std::vector<PositioningTarget> targets;  // ascending
   double B = kNoFigure, B_mean = kNoFigure;
@@ -44,22 +45,25 @@ struct Positioning {
   double A_forward = kNoFigure, A_reverse = kNoFigure, A = kNoFigure;
 };
 
-// Expanded uncertainties (k = 2) of these parameters, m.
+// Expanded uncertainties (k = 2) of the parameters, m.
 struct PositioningUncertainty {
-  double device = 0;  // due to the measuring device, from its limits of error
+  double device = 0;  // due to the measuring device, calculated from its error limits
   double drift = 0;   // due to environmental variation during the test
-  double E_M_A = 0;   // U of E, M and A: device and drift
-  // Drift only, because the device has the same error on either side of a target.
+  double E_M_A = 0;   // U of E, M and A, due to device and drift
+  // U of B, due to drift only, because the device has the same error for both approaches of a
+  // target.
   double B = 0;
 };
 
-// Expanded uncertainties (95 %) of the parameters of one error of a run, m or rad, propagated from
-// the declarations of its rig and from the run itself (GUM 5, JCGM 101). NaN: no such parameter.
+// Expanded uncertainties (95 %) of the parameters of one error of a run, m or rad. They are
+// propagated from the declared uncertainties of the rig and from the scatter of the run (GUM 5,
+// JCGM 101). NaN: the parameter does not exist.
 struct RunPositioningUncertainty {
-  // B, E, M as values of the axis: U contains the scatter of the visits.
+  // U of B, E and M. U contains the scatter of the visits, so it applies to the axis.
   double B = kNoFigure, B_mean = kNoFigure;
   double E_forward = kNoFigure, E_reverse = kNoFigure, E = kNoFigure, M = kNoFigure;
-  // R of these visits: U does not contain how well a few visits determine the R of the axis.
+  // U of R. It applies to the visits of this run. It does not contain the uncertainty of the R of
+  // the axis because of the small number of visits.
   double R_forward = kNoFigure, R_reverse = kNoFigure, R = kNoFigure;
   bool noise_only = false;
   std::string covers;  // sentence about the contributors of U

@@ -1,4 +1,5 @@
-// Squareness of two axes from one run along each, both against the same square target (Fig. 6).
+// Squareness of two axes. It is calculated from one run of each axis with the same square target
+// (Fig. 6).
 #pragma once
 
 #include <cstddef>
@@ -16,27 +17,31 @@ struct AxisPair {
   bool operator==(const AxisPair&) const = default;
 };
 
-// ISO 230-1: rotation of b from the perpendicular of a, right-hand rule: "EC0Y", "EB0Z", "EA0Z".
+// Returns "EC0Y", "EB0Z" or "EA0Z" (ISO 230-1). The squareness error is the rotation of b from the
+// perpendicular of a, with the sign of the right-hand rule.
 const char* squareness_name(AxisPair axes);
-// +1: the angle from +a to +b is 90° + the error (EC0Y, EA0Z), -1: 90° - the error (EB0Z).
+// Returns +1 if the angle from +a to +b is 90° + the error (EC0Y, EA0Z), and -1 if it is 90° - the
+// error (EB0Z).
 int squareness_sign(AxisPair axes);
-// "the angle from +X to +Y is 90 deg + EC0Y"; `degrees` is " deg" or "°".
+// Returns for example "the angle from +X to +Y is 90 deg + EC0Y". `degrees` is " deg" or "°".
 std::string squareness_sense(AxisPair axes, const std::string& degrees);
-// Index in error_names(of) of the straightness of the axis `of` in the direction of the axis
-// `along`: EYX for X in the direction of Y.
+// Returns the index in error_names(of) of the straightness error of the axis `of` in the direction
+// of the axis `along`. For X in the direction of Y it is the index of EYX.
 std::size_t straightness_along(Axis of, Axis along);
 
-// The square artefact: at the corner of the faces that the two runs measure, the material encloses
-// 90° + angle_error_rad.
+// The square artefact. The angle of the material between the two measured faces is 90° +
+// angle_error_rad.
 struct SquareArtefact {
   double angle_error_rad = 0;
   std::optional<double> u_rad;  // standard uncertainty; absent: not declared
-  // +1: the corner is at +a +b or at -a -b, -1: at -a +b or at +a -b; 0: unknown
+  // Position of the corner of the two faces. +1: at +a +b or at -a -b; -1: at -a +b or at +a -b; 0:
+  // unknown.
   int corner = 0;
   bool operator==(const SquareArtefact&) const = default;
 };
 
-// From the slopes of the straightness of each axis in the direction of the other, at the fixture:
+// Calculates the squareness from the slopes of the straightness of each axis in the direction of
+// the other axis, stated at the fixture:
 //   EC0Y = -slope(EXY over y) - slope(EYX over x) + corner * artefact angle error
 //   EA0Z = -slope(EYZ over z) - slope(EZY over y) + corner * artefact angle error
 //   EB0Z =  slope(EXZ over z) + slope(EZX over x) - corner * artefact angle error
@@ -48,15 +53,15 @@ struct Squareness {
   AxisPair axes;
   std::int64_t run_a = 0, run_b = 0;
   double error_rad = 0;  // EC0Y, EB0Z or EA0Z
-  // Combined standard uncertainties, as in their budgets. algo::squareness() sets only the part
-  // from noise, repeatability and the artefact.
+  // Combined standard uncertainties, the same as in the budgets. algo::squareness() includes only
+  // noise, repeatability and the artefact.
   double u_error_rad = 0;
-  // Deviation of the axes from straight lines: √(s_a² + s_b²), where s is the standard deviation of
-  // a fitted slope from the residuals of its line. It states how well one angle describes the axes,
-  // not how well this angle is known.
+  // Effect of the straightness deviations of both axes: √(s_a² + s_b²), where s is the standard
+  // deviation of a fitted slope, calculated from the residuals of the line. It states how well one
+  // angle describes the axes. It is not the uncertainty of this angle.
   double form_rad = 0;
-  // Slopes of the straightness of each axis in the direction of the other, along the travel of the
-  // moving body in + of M.
+  // Slopes of the straightness of each axis in the direction of the other axis, over the travel of
+  // the moving body in the + direction of M.
   double slope_a_rad = 0, u_slope_a_rad = 0;
   double slope_b_rad = 0, u_slope_b_rad = 0;
   SquareArtefact artefact;
@@ -64,7 +69,7 @@ struct Squareness {
   std::string created_utc;
   bool operator==(const Squareness&) const = default;
 
-  // Names of the two straightness errors: "EYX" and "EXY".
+  // Names of the two straightness errors, for example "EYX" and "EXY".
   const char* straightness_a() const {
     return error_names(axes.a)[straightness_along(axes.a, axes.b)].name;
   }

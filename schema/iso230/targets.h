@@ -1,4 +1,4 @@
-// Which positions belong to one target of a series.
+// Finds the targets of a series of positions.
 #pragma once
 
 #include <cstddef>
@@ -6,12 +6,13 @@
 
 namespace mdof {
 
-// Written positions are rounded; positions within this distance belong to one target.
+// Positions within this distance belong to one target, because positions in files are rounded.
 inline constexpr double kSameTarget_m = 1e-7;
 
-// The different positions, ascending; the first position of each target.
+// Returns the targets in ascending order. The position of a target is the smallest of its
+// positions.
 std::vector<double> distinct_targets(std::vector<double> positions_m);
-// Index of the nearest target.
+// Returns the index of the nearest target.
 std::size_t target_at(const std::vector<double>& targets_m, double position_m);
 
 }  // namespace mdof

@@ -1,6 +1,6 @@
-// A machine as a chain of frames from the workpiece to the tool, with the measured errors of its
-// axes (algo/machine/README.md has the equations). Coordinates are those of the machine, fixed to
-// the bed; if all commands are 0, they are also those of every body.
+// A machine: a chain of frames from the workpiece to the tool, with the measured errors of the axes
+// (algo/machine/README.md has the equations). The machine coordinates are fixed to the bed. If all
+// commands are 0, the coordinates of every body are the same as the machine coordinates.
 #pragma once
 
 #include <array>
@@ -17,29 +17,31 @@
 
 namespace mdof {
 
-// The six errors of a body: along X, Y, Z (m) and about X, Y, Z, named A, B, C (rad).
+// The six errors of a body: translations along X, Y, Z (m) and rotations A, B, C about X, Y, Z
+// (rad).
 inline constexpr std::size_t kBodyErrors = 6;
 
-// An error of the body of an axis as a function of the command of the axis: actual - nominal. It is
-// linear between the positions; outside, the end value is held.
+// An error (actual - nominal) of the body of an axis as a function of the command of the axis. It
+// is interpolated linearly between the positions; outside, the end value is used.
 struct ErrorFunction {
   std::vector<double> position;  // m or rad, strictly increasing; empty: a constant
   std::vector<double> forward;   // m or rad; empty: not measured
-  std::vector<double> reverse;   // for decreasing command; empty: same as forward
+  std::vector<double> reverse;   // values for decreasing command; empty: same as forward
   std::vector<double> u;         // standard uncertainty; empty: not declared
   std::string file;              // file name in MACHINE.toml; empty: the values are in MACHINE.toml
-  // The part of u that is independent from position to position, such as noise; empty: unknown.
+  // The part of u that is independent at each position, such as noise; empty: unknown.
   std::vector<double> u_independent{};
-  // For each interval, 1/m or rad/m²: the additional u between two positions because of linear
-  // interpolation, ½ (x - x_i) (x_{i+1} - x) curvature; empty: none.
+  // Curvature in each interval, 1/m or rad/m². Linear interpolation at x between x_i and x_{i+1}
+  // adds the u ½ (x - x_i) (x_{i+1} - x) curvature. Empty: adds no u.
   std::vector<double> curvature{};
   bool noise_only = false;  // u contains only noise and repeatability
 
   bool known() const { return !forward.empty(); }
 };
 
-// Effect of one standard uncertainty of a quantity, which also affects errors of other bodies, on
-// the six errors of a body; linear between the positions. [position of ErrorCovariance]
+// A quantity that affects the errors of several bodies. `at` is the effect of one standard
+// uncertainty of this quantity on the six errors of a body, for each position of ErrorCovariance;
+// it is interpolated linearly between the positions.
 struct SharedPart {
   std::string name;  // "probe A: sensitivity"
   std::vector<std::array<double, kBodyErrors>> at;
@@ -47,35 +49,38 @@ struct SharedPart {
 
 using Covariance6 = std::array<std::array<double, kBodyErrors>, kBodyErrors>;
 
-// Covariance of the errors of a body that one set of probes measured, as a function of the command:
-// the sum of `noise`, `declared` and the squares of `shared`. They are stored separately, so that
-// none is calculated as the difference of two large values.
+// Covariance of the errors of a body that were measured with the same probes, as a function of the
+// command. It is the sum of `noise`, `declared` and the products of the parts of `shared`. The
+// three terms are stored separately, so that no term is calculated as the difference of two large
+// values.
 struct ErrorCovariance {
-  std::vector<double> position;         // m or rad, strictly increasing; empty: no covariance
-  std::array<bool, kBodyErrors> has{};  // errors that it contains; the others have only their own u
-  std::vector<Covariance6> noise;       // independent from position to position
-  std::vector<Covariance6> declared;    // without `shared`
-  // Entry p is the same quantity in all frames that have entries.
+  std::vector<double> position;  // m or rad, strictly increasing; empty: no covariance
+  // True: the covariance contains this error; false: the error has only its u.
+  std::array<bool, kBodyErrors> has{};
+  std::vector<Covariance6> noise;     // independent at each position
+  std::vector<Covariance6> declared;  // without `shared`
+  // Element p is the same quantity in all frames whose `shared` is not empty.
   std::vector<SharedPart> shared;
 };
 
-// Errors of the location of the line of an axis: a squareness, a position of a rotary axis.
+// An error of the location or orientation of the line of an axis, for example a squareness or the
+// position of a rotary axis.
 struct LocationError {
   std::optional<double> value;  // m or rad; empty: not measured
   std::optional<double> u;      // empty: not declared
   bool noise_only = false;      // see ErrorFunction
 };
 
-// Rows of the database that a description names. They are read where the database is available
-// (daemon/measure/machine); before that their values are unknown.
+// Database rows to which MACHINE.toml refers. daemon/measure/machine reads the rows; before this
+// their values are unknown.
 struct StoredRows {
   std::vector<std::int64_t> ids;
-  bool latest = false;  // the newest row; ids is then empty
+  bool latest = false;  // true: the newest row; ids is then empty
   bool any() const { return latest || !ids.empty(); }
 };
 
-// Whether a description states positioning as the position in the controller's coordinates, or as
-// that of the body.
+// Sense in which MACHINE.toml states the positioning error. command: in the coordinates of the
+// controller; body: as the motion of the body.
 enum class StatedSense : std::uint8_t { none, command, body };
 
 enum class FrameKind { linear, rotary, fixed };
@@ -83,56 +88,61 @@ enum class FrameKind { linear, rotary, fixed };
 struct MachineFrame {
   std::string id;  // letter of the axis, or name of a fixed frame
   FrameKind kind = FrameKind::fixed;
-  std::size_t direction = 0;  // along or about X, Y, Z: 0, 1, 2; unused for a fixed frame
-  bool carries_work = false;  // false: it carries the tool
+  // Direction or rotation axis: 0, 1, 2 for X, Y, Z; unused for a fixed frame.
+  std::size_t direction = 0;
+  bool carries_work = false;  // true: between bed and workpiece; false: between bed and tool
   bool against_command = false;
-  // Point where EXk, EYk, EZk hold; for a rotary axis a point on the axis. m.
+  // Point for which EXk, EYk, EZk are stated, m. For a rotary axis it is a point on the axis.
   Vec3 at_m{};
-  // Whether the point moves with the body of a linear axis. If not, it is at rest, like a fixture
-  // in the spindle over a table.
+  // true: the point moves with the body of the linear axis. false: the point is at rest, like a
+  // fixture in the spindle above a moving table.
   bool point_moves = false;
-  // For a body of kind `fixed` that moves along `direction` with the command of a linear axis, like
-  // the sliding rod of a tilt drive: the letter of this axis, and the ratio of both travels. 0: it
-  // does not move.
+  // A body of kind `fixed` can move along `direction` with the command of a linear axis, like the
+  // sliding rod of a tilt drive. `moves_with` is the letter of this axis; 0: the body does not
+  // move. `ratio` is the travel of the body / travel of the axis.
   char moves_with = 0;
   double ratio = 0;
   std::array<ErrorFunction, kBodyErrors> error;
   std::array<LocationError, kBodyErrors> location;
   ErrorCovariance covariance;                  // covariance of the errors of the body
-  std::optional<std::array<double, 2>> range;  // used range of the command, m or rad
-  // Position of a linear axis while the others were measured. Its angles from stored runs and
-  // tables are 0 there, because the squareness of the others contains them. m; empty: 0 is assumed.
+  std::optional<std::array<double, 2>> range;  // range of the command that is used, m or rad
+  // Position of a linear axis while the other axes were measured, m; empty: 0 is assumed. The
+  // angles of this axis from stored runs and tables are set to 0 at this position, because the
+  // squareness of the other axes contains the angles at this position.
   std::optional<double> angles_zero_m;
 
-  // Whether the error was measured; `of_line`: the error of the location.
+  // Returns whether an error of the body was measured; with `of_line`, whether a location error was
+  // measured.
   bool is_known(std::size_t k, bool of_line) const {
     return of_line ? location[k].value.has_value() : error[k].known();
   }
-  std::string file;  // file with columns for several errors; empty: none
-  // Sense of the error along a linear axis in the description. Values in a file are not yet
-  // converted. none: values in the description are of the body, and a file must state the sense if
-  // it matters.
+  std::string file;  // file with columns for several errors; empty: no such file
+  // Sense of the positioning error of a linear axis in MACHINE.toml. Values in a file are not yet
+  // converted. none: values in MACHINE.toml have the sense of the body, and a file must state its
+  // sense if the two senses differ.
   StatedSense positioning_sense = StatedSense::none;
-  StoredRows runs;    // runs of the axis, with five probes or imported; their means are used
+  // Runs of the axis, measured with five probes or imported; the means of the runs are used.
+  StoredRows runs;
   StoredRows tables;  // compensation tables of the axis
 };
 
-// A source of errors that varies and was not measured: a screw, a clearance, an assembly. It can
-// have several effects at the same time.
+// Distribution of an error source.
 enum class SourceShape { normal, rectangular, triangular, u_shaped };
 
 struct SourceEffect {
   std::size_t frame = 0, k = 0;  // index in Machine::frames; index of the error
   bool of_line = false;          // true: a location error; false: an error of the body
-  double factor = 0;             // error per source: m or rad per unit of the source
-  // The same per command of the axis `of`, m or rad.
+  double factor = 0;             // error / source: m or rad per unit of the source
+  // Factor per command (m or rad) of the axis `of`.
   double factor_per_position = 0;
   std::size_t of = 0;  // index in Machine::frames
 };
 
+// A quantity that varies, was not measured and causes errors: for example a screw, a clearance, an
+// assembly. It can affect several errors at the same time.
 struct ErrorSource {
-  std::string name, unit;  // the unit is only text; the factors convert
-  double u = 0;            // standard uncertainty, in this unit
+  std::string name, unit;  // the unit is only a text
+  double u = 0;            // standard uncertainty of the source in this unit
   SourceShape shape = SourceShape::normal;
   std::vector<SourceEffect> acts_on;
 };
@@ -141,58 +151,61 @@ struct Machine {
   std::string name;
   Chain chain;
   std::vector<MachineFrame> frames;  // from the workpiece to the tool
-  Vec3 tool_m{};                     // tool point
+  Vec3 tool_m{};                     // position of the tool point
   bool simulated = false;
   std::vector<ErrorSource> sources;
   StoredRows squareness;  // at most one for each pair of axes, or the latest
 
   const MachineFrame* find(std::string_view id) const;
-  bool names_stored_rows() const;  // whether the database is needed
+  bool names_stored_rows() const;  // true: the database is necessary
 };
 
-// Whether the u of all, some or none of its errors contains only noise; errors without u do not
-// count. `with_sources`: includes the sources, which declare their u.
+// Returns whether the u of all, some or none of the errors contains only noise. Errors without u
+// are ignored. `with_sources`: the sources are included; their u is declared.
 NoiseOnly noise_only(const Machine& machine, bool with_sources = false);
-// Sentence about the contributors of the u of the tool error. `some_without_u`: an error that acts
-// there has no u.
+// Returns a sentence about the contributors to the u of the tool error. `some_without_u`: an error
+// that affects the tool has no u.
 std::string covers_text(const Machine& machine, bool some_without_u, bool with_sources = false);
 
-// The axes of a chain without errors; their positions are unknown.
+// Returns a machine with the axes of a chain and without errors. The positions of the axes are
+// unknown.
 Machine nominal_machine(const Chain& chain);
 
-// Whether its body moves along a line, as a linear axis or together with one.
+// Returns whether the body of the frame moves along a line: it is a linear axis or moves with a
+// linear axis.
 bool moves_along(const MachineFrame& frame);
 
-// "EXX", "EX(column)"; for the location of an axis "EC0Y".
+// error_name() returns for example "EXX" or "EX(column)", location_name() for example "EC0Y".
 std::string error_name(const MachineFrame& frame, std::size_t k);
 std::string location_name(const MachineFrame& frame, std::size_t k);
-// The name with its unit: "EXX_um", "EAX_urad".
+// Returns the name with its unit, for example "EXX_um" or "EAX_urad".
 std::string with_unit(const std::string& name, std::size_t k);
-// Whether an axis can have this location error: a rotation about itself and, for a linear axis, a
-// shift are not possible.
+// Returns whether an axis can have this location error. A rotation of the line about itself is not
+// possible, and a shift is not possible for a linear axis.
 bool has_location(const MachineFrame& frame, std::size_t k);
 
-// Converts positioning in the sense of the command to that of the body.
+// Converts the positioning error from the sense of the command to the sense of the body.
 void convert_positioning(MachineFrame& frame);
 
-// Converts written positions of an axis: mm, for a rotary axis degrees.
+// Convert between the position of an axis (m or rad) and its value in files (mm, or degrees for a
+// rotary axis).
 double position_from_written(const MachineFrame& frame, double written);
 double written_position(const MachineFrame& frame, double position);
 const char* position_unit(const MachineFrame& frame);  // "mm", "deg"
 
-// Errors: numbers of values and positions differ; positions do not increase; values are not finite
-// or larger than in any machine (0.1 rad, 10 mm: confusion of µm and mm). `where` begins the
-// message.
+// `where` is the start of the error message. Errors: different numbers of values and positions;
+// positions that do not increase; values that are not finite, or above 0.1 rad or 10 mm (µm and mm
+// were confused).
 Status check_function(const ErrorFunction& function, std::size_t k, const std::string& where);
 
 const char* to_string(SourceShape shape);
 
-// The machine of Wang, Ye and Gunawan (2021) as MACHINE.toml; the text marks what the paper does
-// not state.
+// Returns the machine of Wang, Ye and Gunawan (2021) as text of MACHINE.toml. Comments in the text
+// mark values that the paper does not state.
 std::string_view co_planar_machine();
 
-// Reads MACHINE.toml (schema/machine/README.md). Errors name file, line, key and remedy. Other
-// files are not read: `file` of a frame or of an error names them.
+// Reads MACHINE.toml (schema/machine/README.md). Other files are not read; `file` of a frame or of
+// an error has their names. Errors state file, line, key and what to change.
 Result<Machine> parse_machine(std::string_view text, const std::string& source_name);
 
 }  // namespace mdof

@@ -35,7 +35,7 @@ double read_factor(TomlTable& table, const std::string& key) {
   return 0;
 }
 
-// factor_per_mm of a linear axis, factor_per_deg of a rotary one.
+// Reads factor_per_mm for a linear axis, or factor_per_deg for a rotary axis.
 void read_factor_per_position(TomlTable& table, const Machine& machine, SourceEffect& effect) {
   const std::string of = table.string("of");
   const MachineFrame* axis = machine.find(of);

@@ -1,4 +1,4 @@
-// [[source]] of MACHINE.toml (README.md).
+// Reads the tables [[source]] of MACHINE.toml (README.md).
 #pragma once
 
 #include "schema/base/toml/toml_reader.h"

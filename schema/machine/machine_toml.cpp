@@ -1,4 +1,5 @@
-// MACHINE.toml: the chain, the points where the errors of each axis hold, and the errors.
+// Reads MACHINE.toml: the chain, the errors of each axis, and the points for which the errors are
+// stated.
 #include <algorithm>
 #include <cmath>
 
@@ -41,7 +42,8 @@ void read_rows(TomlTable& table, const std::string& key, const MachineFrame& fra
   }
 }
 
-// The standard uncertainty of a key. Without the error it is not read, so that its key is unknown.
+// Reads the standard uncertainty of an error. If the error itself is missing, the uncertainty is
+// not read and is reported as an unknown key.
 std::optional<double> read_u(TomlTable& table, const std::string& key, std::size_t k) {
   const std::string of = "u_" + key;
   if (!table.has(of)) return std::nullopt;
@@ -51,7 +53,7 @@ std::optional<double> read_u(TomlTable& table, const std::string& key, std::size
   return u;
 }
 
-// Reads a number, rows, or the name of a file in EXX_file.
+// Reads an error as a number, as rows, or as the name of a file in EXX_file.
 void read_function(TomlTable& table, const std::string& name, const MachineFrame& frame,
                    std::size_t k, ErrorFunction& function) {
   const std::string key = with_unit(name, k), file_key = name + "_file";
@@ -73,7 +75,8 @@ void read_function(TomlTable& table, const std::string& name, const MachineFrame
   if (auto fit = check_function(function, k, name); !fit) table.reject(key, fit.error().message);
 }
 
-// A fixed frame is named by its table, so its errors are "EX".
+// Returns the name of an error as a key. A fixed frame has its own table with its name, so the keys
+// of its errors are for example "EX".
 std::string name_in_table(const MachineFrame& frame, std::size_t k) {
   const std::string id = frame.kind == FrameKind::fixed ? "" : frame.id;
   return "E" + std::string(1, kLetters[k]) + id;
@@ -104,7 +107,7 @@ void read_range(TomlTable& table, MachineFrame& frame) {
   frame.range = {position_from_written(frame, ends[0]), position_from_written(frame, ends[1])};
 }
 
-// Reads the number of a row, a list of them, or "latest".
+// Reads the number of a row, a list of numbers, or "latest".
 StoredRows read_stored_rows(TomlTable& table, const std::string& key) {
   StoredRows rows;
   if (!table.has(key)) return rows;
@@ -160,7 +163,7 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
   frame.file = table.string("file", "");
   read_range(table, frame);
   read_errors(table, frame);
-  // Values in files are converted when they are read.
+  // Values in files are converted when the files are read.
   if (frame.file.empty() && frame.error[frame.direction].file.empty()) convert_positioning(frame);
 }
 
@@ -198,7 +201,8 @@ void read_axes(TomlTable& root, Machine& machine) {
                               (kLetters.find(axis.letter) < 3 ? "holds_at_mm" : "centre_mm"));
 }
 
-// Index for a frame after `link` of the chain, seen from the workpiece.
+// Returns the index at which a frame is inserted after `link` of the chain, in the direction from
+// the workpiece to the tool.
 std::optional<std::size_t> place_after(const Machine& machine, const std::string& link) {
   if (link == "w") return 0;
   const auto& frames = machine.frames;
@@ -209,8 +213,8 @@ std::optional<std::size_t> place_after(const Machine& machine, const std::string
   return link == "b" ? std::optional(frames.size()) : std::nullopt;
 }
 
-// Reads the motion of a body with the command of a linear axis, along another direction: with,
-// along, ratio.
+// Reads the keys with, along and ratio: the body moves with the command of a linear axis along
+// another direction.
 void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& frame) {
   const std::string with = table.string("with"), along = table.string("along");
   const MachineFrame* axis = machine.find(with);
@@ -237,7 +241,7 @@ void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& fr
                  "(errors at a point that moves with the body)");
 }
 
-// A body that is not an axis has errors, too: those of its assembly on the body before.
+// Reads the bodies that are not axes. Their errors are errors of the assembly on the body before.
 void read_fixed_frames(TomlTable& root, Machine& machine) {
   for (TomlTable& table : root.tables("frame")) {
     MachineFrame frame;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kDeg = std::numbers::pi / 180;
 constexpr double kMm = 1e-3, kUm = 1e-6, kPerMm2 = 1e6, kPerMm = 1e3;
 
-// Limits of a number: (above, up to].
+// Limits of a number: greater than `above`, at most `up_to`.
 struct Limits {
   double above = 0, up_to = 0;
   bool includes_lower = false;
@@ -26,7 +26,7 @@ class Reader {
   Reader(TomlTable& root, std::vector<std::pair<const MillingInput*, double>>& u)
       : root_(root), u_(u) {}
 
-  // The table of this name; a missing table is reported as an error.
+  // Returns the TOML table with this name; a missing table is reported as an error.
   TomlTable& table(const char* name) {
     name_ = name;
     table_ = root_.table(name);

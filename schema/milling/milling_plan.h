@@ -1,5 +1,5 @@
-// PLAN.toml of mdof milling: a micro end mill, its run-out, the cut and the force coefficients, in
-// SI units.
+// The content of PLAN.toml for mdof milling: a micro end mill, its run-out, the cut and the force
+// coefficients, in SI units.
 #pragma once
 
 #include <array>
@@ -16,7 +16,8 @@ namespace mdof {
 enum class ChipModel { sine, eq8, trochoid };
 enum class DeflectionModel { rigid, paper, steady };
 
-// A cylinder of the beam model of the tool, in the order from the holder.
+// A cylinder of the beam model of the tool. The cylinders are in the order from the holder to the
+// tip.
 struct ToolSection {
   double length_m = 0, diameter_m = 0;
 };
@@ -30,8 +31,8 @@ struct MillingPlan {
   double helix_rad = 0;
   std::vector<ToolSection> sections;
   double youngs_modulus_Pa = 0;
-  // [runout]
-  // At the tip; tilt: m per m of height.
+  // [runout] Run-out at the tip: magnitude and angle. runout_tilt: change of the run-out, m per m
+  // of height.
   double runout_m = 0, runout_angle_rad = 0, runout_tilt = 0;
   // [cut]
   bool is_up = true;
@@ -48,10 +49,11 @@ struct MillingPlan {
   double overhang_m() const;
 };
 
-// A number of the plan that can have a standard uncertainty, with "u_" before its key.
+// A number of PLAN.toml that can have a standard uncertainty. The key of the uncertainty is "u_" +
+// key.
 struct MillingInput {
   const char* table;
-  const char* key;  // with its unit
+  const char* key;  // including the unit
   double MillingPlan::*member;
   double unit;  // SI value of one unit
 };
@@ -62,10 +64,11 @@ struct DeclaredMillingPlan {
   std::vector<std::pair<const MillingInput*, double>> u;  // declared u, SI
 };
 
-// Errors name file, line, key and limit; an unknown key is an error.
+// Errors state file, line, key and limit. An unknown key is an error.
 Result<DeclaredMillingPlan> parse_milling_plan(std::string_view text, const std::string& source);
 
-// The tool and the cut of Huo et al. (2017); the text marks what the paper does not state.
+// Returns the tool and the cut of Huo et al. (2017) as text of PLAN.toml. Comments in the text mark
+// values that the paper does not state.
 std::string_view micro_end_mill_preset();
 
 const char* to_string(ChipModel model);

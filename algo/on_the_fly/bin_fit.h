@@ -14,7 +14,7 @@ struct BinFit {
   std::size_t used = 0, rejected = 0;
 };
 
-inline constexpr std::size_t kLeastReadingsPerBin = 8;  // readings
+inline constexpr std::size_t kLeastReadingsPerBin = 8;
 
 // Fits the least-squares parabola to the readings of a bin. `place`: distance of each reading from
 // the target in half bins (-1 ... 1), in the order of time. A parabola is necessary: the error of a

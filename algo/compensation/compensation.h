@@ -55,7 +55,7 @@ Result<Notices> uneven_visit_notices(const std::vector<Run>& runs);
 // u_interpolation is added to u. It assumes that the curvature of the errors between two targets is
 // the same as around them.
 struct TableValue {
-  Errors5 error{};  // named; NaN: the table has no value
+  Errors5 error{};  // named errors; NaN: the table has no value
   Errors5 u{};
   Errors5 u_interpolation{};  // part of u; 0 at the targets and where an end value is held
   // true: the position is within the measured positions of this approach. For the mean, it is

@@ -12,10 +12,10 @@ namespace mdof::algo {
 
 // The reference of a value: for each target the weight of the mean of both approaches.
 using Reference = std::vector<double>;
-Reference as_measured(std::size_t targets);  // no reference
-// Linear interpolation between two targets; outside, the end value is held.
+Reference as_measured(std::size_t targets);  // all weights 0: no reference
+// Reference of linear interpolation between two targets; outside the targets the end value is held.
 Reference interpolation_at(const std::vector<double>& x, double at);
-Reference line_at(const std::vector<double>& x, double at);  // the least-squares line
+Reference line_at(const std::vector<double>& x, double at);  // reference of the least-squares line
 
 // Returns u of one approach as [named error][target]; NaN if the approach did not visit the target.
 // `references`: [named error][target]. `grid`: target_means() of both approaches of these points.

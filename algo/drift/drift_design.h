@@ -35,7 +35,7 @@ class DriftDesign {
  public:
   static constexpr double kFewestSeen = 0.02;
   static constexpr int kMostOrders = 6, kFewestFreedom = 4;
-  static constexpr std::size_t kMostPlaces = 48;  // in DriftRows
+  static constexpr std::size_t kMostPlaces = 48;  // limit of DriftRows::places
 
   explicit DriftDesign(std::vector<TimedVisit> visits);
 

@@ -19,7 +19,7 @@ int decimals_of(double u, int otherwise) {
   constexpr int kMostDecimals = 9;
   if (!(u > 0) || !std::isfinite(u)) return otherwise;
   const auto exponent = static_cast<int>(std::floor(std::log10(u)));
-  const double two_digits = std::round(u * std::pow(10.0, 1 - exponent));  // 10 to 100
+  const double two_digits = std::round(u * std::pow(10.0, 1 - exponent));  // between 10 and 100
   return std::min(1 - exponent - (two_digits >= 100 ? 1 : 0), kMostDecimals);
 }
 

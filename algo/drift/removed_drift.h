@@ -1,4 +1,4 @@
-// Uncertainty of a run due to the removal of its drift.
+// Uncertainty of the errors of a run due to the removal of the drift.
 #pragma once
 
 #include <vector>

@@ -72,7 +72,8 @@ class DriftFit {
 
   DriftDesign design_;
   double freedom_ = 0;
-  Eigen::MatrixXd correlation_;  // lower root of the correlation of the series' noise
+  // Lower triangular root of the correlation matrix of the noise of the series.
+  Eigen::MatrixXd correlation_;
   std::vector<Estimate> estimates_;
   std::vector<SeriesDrift> series_;
 };

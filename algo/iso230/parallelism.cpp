@@ -13,7 +13,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kStraightnessErrors = 2;  // named errors 0 and 1 of an axis
+constexpr std::size_t kStraightnessErrors = 2;  // indices 0 and 1 of error_names()
 // Smallest ratio of the common travel to the longer travel.
 constexpr double kLeastShare = 0.5;
 

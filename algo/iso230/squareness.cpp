@@ -17,7 +17,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAcross = 0.7;  // smallest cosine of a plane that faces along an axis
+constexpr double kAcross = 0.7;  // smallest cosine between a plane's normal and the axis
 
 int sign_of(double x) {
   return x > 0 ? 1 : x < 0 ? -1 : 0;

@@ -23,7 +23,7 @@ class TargetChanges {
 
  private:
   struct Counted {
-    std::size_t target, way, point;  // way: 0 forward, 1 reverse
+    std::size_t target, way, point;  // way: 0: forward, 1: reverse
   };
   // Number of visits of a target, forward and reverse.
   using Visits = std::array<std::size_t, 2>;

@@ -91,7 +91,7 @@ class Turn {
     const double to = std::min(high, plan_.is_up ? free : wall);
     if (!(to > from)) return {};
     const bool at_edge =
-        // In a slot the free edge is at 0 or π.
+        // In a slot the free edge is at 0 or π and does not depend on the deflection.
         free > low && free < high && free > 0 && free < kHalfTurn_rad;
     const double slope = at_edge ? 1 / (plan_.radius_m() * std::sin(free) * step_rad_) : 0;
     return {(to - from) / step_rad_, plan_.is_up ? slope : -slope};

@@ -15,11 +15,12 @@ struct CutTurn {
   // Angles of tooth 0 at the tip. Their number is steps_per_turn, rounded up to a multiple of the
   // number of teeth.
   std::vector<double> turned_rad;
-  std::vector<double> height_m;        // heights of the elements from the tip
-  Eigen::MatrixXd fx_N, fy_N;          // force on the tool: [angle][element]
-  std::vector<double> power_W;         // cutting power, by angle
-  double entry_rad = 0, exit_rad = 0;  // angles of tooth 0 in the lowest element
-  int iterations = 0;                  // largest number of iterations
+  std::vector<double> height_m;  // heights of the elements from the tip
+  Eigen::MatrixXd fx_N, fy_N;    // force on the tool: [angle][element]
+  std::vector<double> power_W;   // cutting power, by angle
+  // Angles at which tooth 0 enters and leaves the workpiece in the lowest element.
+  double entry_rad = 0, exit_rad = 0;
+  int iterations = 0;  // largest number of iterations
 
   // Returns the force on the whole tool: one row for each angle, columns x and y.
   Eigen::MatrixXd force_N() const;

@@ -27,7 +27,7 @@ struct Chip {
   int earlier = 1;
 };
 
-// One tooth at one height.
+// One tooth at one height above the tip.
 class CuttingEdge {
  public:
   CuttingEdge(const MillingPlan& plan, int tooth, double height_m);

@@ -13,9 +13,10 @@
 namespace mdof::algo {
 
 struct WallFigures {
-  double form_m = 0;  // largest - smallest mean over the depth
+  double form_m = 0;  // largest minus smallest mean of the profiles over the depth
   double waviness_tip_m = 0, waviness_root_m = 0;
-  double offset_tip_m = 0, offset_root_m = 0, offset_mean_m = 0;  // outward, + overcut
+  // Mean deviation outward from the nominal wall, +: overcut.
+  double offset_tip_m = 0, offset_root_m = 0, offset_mean_m = 0;
   double Ra_tip_m = 0, Ra_root_m = 0;
 };
 
@@ -32,12 +33,12 @@ struct MillingResult {
   int iterations = 0;
 };
 
-// Errors (check): no equilibrium; a deflection beyond half of the radius.
+// Errors (check): there is no equilibrium; the deflection exceeds half of the radius.
 Result<MillingResult> milling(const MillingPlan& plan);
 
-// Correction to add to the tool radius in the controller, so that the mean of the wall is at the
-// programmed position. The sign is the same for G41 and G42, because both keep the tool away from
-// the wall by the radius.
+// A correction that is added to the tool radius in the controller. The mean of the wall is then at
+// the programmed position. The sign is the same for G41 and G42, because with both the distance of
+// the tool from the wall is the radius.
 struct WearOffset {
   double offset_m = 0;
   double u_m = 0;  // standard uncertainty, first order (GUM 5); NaN: no uncertainty declared

@@ -20,7 +20,8 @@ struct VaryingInput {
 // Returns the inputs of milling_inputs() that have a declared u or a value other than 0.
 std::vector<VaryingInput> varying_inputs(const DeclaredMillingPlan& declared);
 
-// x_max_N, y_max_N, deflection_um, offset_um (mean of the wall), form_um, waviness_tip_um.
+// Returns the names of the outputs: x_max_N, y_max_N, deflection_um, offset_um (mean of the wall),
+// form_um, waviness_tip_um.
 const std::vector<std::string>& milling_outputs();
 std::vector<double> milling_output_values(const MillingResult& result);
 

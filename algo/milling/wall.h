@@ -15,7 +15,7 @@ struct WallLine {
   std::vector<double> outward_m;
 
   double mean_m() const;
-  double waviness_m() const;  // largest - smallest
+  double waviness_m() const;  // largest minus smallest value
   double Ra_m() const;        // mean distance from the mean (ISO 21920-2)
 };
 

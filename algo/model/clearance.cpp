@@ -11,7 +11,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kParallelShare = 1e-4;  // share of the travel: 100 um in one metre
+// Smaller motions along the probe, per travel, count as 0 (100 um in one metre).
+constexpr double kParallelShare = 1e-4;
 
 // Returns the motion of the surface along the measuring line of the probe, divided by the travel of
 // the target in the + direction of a machine axis.

@@ -49,7 +49,8 @@ Result<const TargetPlane*> named_plane(const Rig& rig, const Probe& probe) {
 // Returns the plane of a probe; nullptr: the rig has no planes, so the plane is perpendicular to
 // the probe.
 Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
-  constexpr double kLooksAt = 0.5, kMargin = 0.15;  // cosines
+  // Cosines of angles between direction and normal.
+  constexpr double kLooksAt = 0.5, kMargin = 0.15;
   if (!probe.plane.empty()) return named_plane(rig, probe);
   if (rig.planes.empty()) return nullptr;
   const TargetPlane *best = nullptr, *second = nullptr;

@@ -1,4 +1,4 @@
-// A sum with the same order of additions on every machine.
+// A sum whose additions have the same order on every machine.
 #pragma once
 
 #include <array>

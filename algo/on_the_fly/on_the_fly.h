@@ -40,7 +40,7 @@ class OnTheFly {
   Sequence sequence() const;
   // Error: there is no point. The error states measured values and what to change.
   Status check_has_points() const;
-  // Notices about the log in addition to the points.
+  // Notices about events in the log that are not visible in the points.
   Notices notices() const;
   // Notices about the method: that the run was measured in motion, omitted bins, speeds, and the
   // effects of the motion.

@@ -17,7 +17,7 @@ struct BinPoint {
   Point point;
   double speed_m_s = 0;
   std::vector<double> slope;  // for each probe: slope of the reading over the position
-  std::size_t last_row = 0;   // index in the rows of the pass
+  std::size_t last_row = 0;   // last row of the bin in the rows of the pass
 };
 
 enum class BinFault { none, speed_changes, too_few, gap };
@@ -42,7 +42,7 @@ struct PassBins {
 
 struct ProbesOfBins {
   std::vector<std::string> ids;
-  std::vector<double> range_m, step_m;  // step of the readings; 0: unknown
+  std::vector<double> range_m, step_m;  // step_m: resolution of the readings; 0: unknown
 };
 
 // Each bin has a range of travel. The bin begins when the axis first reaches this range and ends

@@ -17,7 +17,7 @@ inline constexpr int kGapPeriods = 3;  // a longer time without a scan is a gap
 struct AxisPass {
   const FrameBlock& frames;
   std::size_t first = 0, last = 0;
-  int direction = 0;  // +1, -1
+  int direction = 0;  // +1: forward, -1: reverse
 };
 
 // A reversal is found when the axis has moved back by 50 µm. Rows at rest, before a reversal or
@@ -33,7 +33,8 @@ class PassFinder {
   // Ends the data and calls `take` for the last pass.
   void flush(const Take& take);
 
-  static constexpr std::size_t kMostScans = std::size_t{1} << 22;  // per pass
+  // Largest number of scans in a pass.
+  static constexpr std::size_t kMostScans = std::size_t{1} << 22;
 
  private:
   struct Extreme {
@@ -48,7 +49,7 @@ class PassFinder {
   int heading_ = 0;
   std::size_t begin_ = 0;
   bool begun_ = false;
-  Extreme low_, high_;  // since the last reversal
+  Extreme low_, high_;  // lowest and highest position since the last reversal
 };
 
 // Returns the median of the encoder's readings in this row and in the two rows next to it. The

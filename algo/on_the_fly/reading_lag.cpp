@@ -27,10 +27,10 @@ struct BothWays {
   bool whole() const { return forward.n > 0 && reverse.n > 0; }
 };
 
-// One row of the fit.
+// One equation of the fit.
 struct Difference {
   double position_m = 0, difference_m = 0;
-  double factor_m_s = 0;  // difference per second of delay
+  double factor_m_s = 0;  // change of the difference per second of delay
 };
 
 std::vector<Difference> differences_of(const std::vector<PassBins>& passes, std::size_t probe,

@@ -1,4 +1,4 @@
-// Undeclared delays of probes, from the difference between forward and reverse passes.
+// Finds undeclared delays of probes from the difference between forward and reverse passes.
 #pragma once
 
 #include <cstddef>

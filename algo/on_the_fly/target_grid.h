@@ -18,7 +18,7 @@ struct OnTheFlyOptions {
   // Range of the targets; empty: the range in which the axis moves at a steady speed.
   std::optional<double> from_mm, to_mm;
 
-  std::string json() const;  // for the provenance
+  std::string json() const;  // for the provenance of a run
 };
 
 // Errors (usage), which state the key: neither interval nor targets; an empty range; bins that
@@ -32,7 +32,7 @@ class TargetGrid {
   TargetGrid(const OnTheFlyOptions& options, std::vector<double> targets_m);
 
   struct Target {
-    std::int64_t place = 0;  // ascends with the position
+    std::int64_t place = 0;  // place number, which increases with the position
     double position_m = 0;
   };
   double bin_m() const { return bin_m_; }

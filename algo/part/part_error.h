@@ -19,7 +19,7 @@ struct PartCause {
   std::vector<Eigen::Vector3d> value_m, u_m;
 };
 
-// A cause with zero error and u.
+// Returns a cause with error 0 and u 0 at all points.
 inline PartCause new_cause(const std::string& name, std::size_t points) {
   return {0, name, std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero()),
           std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero())};

@@ -16,7 +16,7 @@ namespace mdof::algo {
 
 struct RunToJudge {
   const Rig& rig;
-  const Sequence& sequence;  // its points are solved
+  const Sequence& sequence;  // the errors of its points must be solved
   const DwellDetector::Summary& dwells;
   std::uint64_t scans_lost = 0;
   bool targets_given = false;

@@ -16,10 +16,11 @@ namespace {
 
 constexpr std::size_t kFewestSame = 6, kFewestPlaces = 3;
 constexpr std::size_t kFewestClipped = 3;
-constexpr double kExact_m = 1e-14;          // means of equal numbers are equal within this
+// Largest difference of means of equal numbers, due to rounding.
+constexpr double kExact_m = 1e-14;
 constexpr double kWithinNoise = 8;          // times the u of the mean of a stop
 constexpr double kOthersMove = 50;          // times the limit for the constant probe
-constexpr double kRestless = 30;            // times the usual sd in stops
+constexpr double kRestless = 30;            // times the usual sd in the stops
 constexpr std::size_t kFewestRestless = 3;  // probes
 
 using Stops = std::vector<const MeasuredPoint*>;

@@ -96,11 +96,11 @@ class Aligner {
   void mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bool fresh) const;
 
   AlignOptions options_;
-  std::int64_t lag_bound_ns_ = 0;  // including the longest delay
+  std::int64_t lag_bound_ns_ = 0;  // lag_bound_s plus the longest delay
   std::int64_t delay_ns_ = 0;      // the longest delay; 0: no probe is later than the encoder
   Track encoder_;
   std::vector<Track> probes_;
-  std::vector<int> channel_of_;  // for known_channels_: [probe..., encoder]
+  std::vector<int> channel_of_;  // index in known_channels_ of each probe and, last, of the encoder
   std::vector<Channel> known_channels_;
   std::int64_t newest_ns_ = INT64_MIN;
   std::uint64_t given_up_ = 0;

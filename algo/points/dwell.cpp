@@ -249,7 +249,7 @@ void DwellDetector::begin_dwell() {
   truncated_ = false;
   still_since_ns_ = slots_.front().begin_ns;
   unplaced_before_ = slots_.front().unplaced;
-  // A knock or a glitch of the encoder within a stop is no new approach. In a slow log the slots
+  // A short disturbance of the position within a stop is no new approach. In a slow log the slots
   // are so long that the axis can move past an end target and return within one slot.
   const bool is_slow = slot_ns_ > static_cast<std::int64_t>(options_.window_s * 1e9) /
                                       static_cast<std::int64_t>(kSlotsPerWindow);

@@ -62,14 +62,14 @@ class DwellDetector {
   // ends at this time, and the approach of the next dwell is unknown. Call it before frames after
   // this time are pushed.
   void break_after(std::int64_t time_ns);
-  // Ends the data; the current dwell is complete.
+  // Ends the data and completes the current dwell.
   void flush(std::vector<Point>& out);
 
   // Changes the points by means of the whole log so far. Adds flags to the points of a probe that
   // froze or stepped. If a stop with a constant reading was averaged before the resolution of the
   // probe was known, sets the uncertainty of the rounding.
   void mark(std::vector<Point>& points) const;
-  // Notices about the log in addition to the points.
+  // Notices about events in the log that are not visible in the points.
   Notices notices(const std::vector<Point>& points) const;
   const std::vector<DwellEvent>& events() const { return events_; }
 
@@ -77,9 +77,9 @@ class DwellDetector {
     std::uint64_t scans = 0;
     double encoder_min_m = 0, encoder_max_m = 0;
     double period_s = 0;         // median of the first intervals
-    std::uint64_t gaps = 0;      // intervals longer than three periods
+    std::uint64_t gaps = 0;      // number of intervals longer than three periods
     std::uint64_t unplaced = 0;  // frames without a place (place_watch.h), not in `scans`
-    double longest_still_s = 0;  // to explain why no stop was found
+    double longest_still_s = 0;  // longest time at rest; explains why no stop was found
     double tolerance_m = 0;      // at the end
     // Stops that became no point because they are too short or creep; only the first
     // kMaxPassedOver.
@@ -152,9 +152,9 @@ class DwellDetector {
   Summary summary_;
 
   PlaceWatch places_;
-  FrameBlock early_;  // until the period is known
+  FrameBlock early_;  // rows that are collected until the period is known
   std::int64_t period_ns_ = 0, slot_ns_ = 0, hole_ns_ = 0, origin_ns_ = 0, last_ns_ = 0;
-  std::array<double, 2> encoder_before_{};  // for the median of three
+  std::array<double, 2> encoder_before_{};  // the last two positions, for the median of three
   FrameBlock buffer_;                       // rows of the slots below and of the current dwell
   std::deque<Slot> slots_;                  // the last window, newest at the back
   std::size_t row_ = 0;                     // first row of buffer_ that belongs to no slot yet
@@ -178,8 +178,8 @@ class DwellDetector {
   bool travel_observed_ = true;
   // Range since the last point (or the beginning), and range up to the start of the last stop.
   Way travelled_range_, range_to_stop_;
-  Way range_since_stop_;             // since the axis left the last stop
-  bool last_stop_is_point_ = false;  // for the last stop
+  Way range_since_stop_;             // range of positions since the axis left the last stop
+  bool last_stop_is_point_ = false;  // the last stop became a point
   int direction_ = 0;                // direction of approach of the current stop
   std::vector<double> scratch_, finite_;
 

@@ -20,7 +20,7 @@ enum class DwellEventKind {
 struct DwellEvent {
   DwellEventKind kind;
   std::int64_t time_ns = 0;  // start of the event
-  double position_m = 0;     // at the start
+  double position_m = 0;     // position at the start of the event
   double size_m = 0, length_s = 0;
 };
 

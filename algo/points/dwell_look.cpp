@@ -20,7 +20,7 @@ void DwellDetector::note(const DwellEvent& event) {
   if (events_.size() < kMostEvents) events_.push_back(event);
 }
 
-// Examines the window that ends with the slot just closed.
+// Examines the window that ends with the newest slot.
 void DwellDetector::examine_window(bool still) {
   const Slot& newest = slots_.back();
   resolution_.add(buffer_, newest.first_row, newest.first_row + newest.rows);

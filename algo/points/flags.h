@@ -1,4 +1,4 @@
-// Flags of a point, each at most once.
+// Handles the flags of a point. A point has each flag at most once.
 #pragma once
 
 #include <algorithm>

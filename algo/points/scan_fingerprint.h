@@ -1,4 +1,4 @@
-// Recognises repeated scans.
+// A fingerprint of the scans of a dwell, to find two dwells with the same scans.
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,8 @@ struct WhichCorrections {
 };
 
 struct CorrectedReadings {
-  std::vector<double> readings_m;  // in the order of the rig; NaN: lost, or see why_not
+  // Corrected readings in the order of the rig; NaN: lost, or see why_not.
+  std::vector<double> readings_m;
   // Correction added to each reading; 0 for a lost probe.
   std::vector<double> tilt_m, dielectric_m;
   int rounds = 0;

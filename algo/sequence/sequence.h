@@ -21,7 +21,7 @@ struct SequenceOptions {
 };
 
 struct Sequence {
-  std::vector<MeasuredPoint> points;  // in time order, errors not yet solved
+  std::vector<MeasuredPoint> points;  // in the order of time; the errors are not yet solved
   Notices notices;                    // which stops were left out, and why
   std::vector<StopLeftOut> left_out;
   std::vector<double> targets_m;  // ascending

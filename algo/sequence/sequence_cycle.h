@@ -11,7 +11,7 @@ enum class Cycle {
   // Over all targets and back, with reversals outside the end targets; or in one direction only.
   standard,
   pendulum,  // over all targets and back, with reversals at the end targets
-  pilgrim,   // all visits of a target one after the other, then the next target (step cycle)
+  pilgrim,   // all visits of a target, then all visits of the next target (step cycle)
   // repeated motion back and forth over a few targets, or at each target, along the whole travel
   quasi_pilgrim,
   none,

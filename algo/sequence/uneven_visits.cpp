@@ -79,7 +79,7 @@ WithoutDrift subtract_run_drifts(const std::vector<MeasuredPoint>& points) {
       out.points[j].errors.local[k] -= drifts[run_drifts.point_runs()[j]][k];
   const auto n = static_cast<double>(drifts.size());
   for (std::size_t k = 0; k < 5; ++k) {
-    double square = 0;  // the drifts sum to 0
+    double square = 0;  // squares about 0, because the sum of the drifts is 0
     for (const Errors5& drift : drifts) square += drift[k] * drift[k];
     if (n > 1) out.u_level[k] = std::sqrt(square / (n - 1) / n);
   }

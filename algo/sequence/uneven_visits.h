@@ -18,7 +18,7 @@ bool any_run_lacks_visits(const std::vector<MeasuredPoint>& counted);
 
 struct WithoutDrift {
   std::vector<MeasuredPoint> points;
-  Errors5 u_level{};  // local; m, rad
+  Errors5 u_level{};  // local errors; m, rad
 };
 // Returns the valid points with a known approach in the same order. A visit is a target and an
 // approach. If a run lacks a visit that another run has, the means of different targets contain

@@ -18,7 +18,8 @@ struct Chart {
   double centre = 0, sigma = 0;
   std::vector<double> low, high;     // limits of each value: centre ± 3 max(sigma, u of the value)
   std::vector<std::size_t> outside;  // indices of the values beyond these limits
-  // Indices of the eighth, ninth ... consecutive value on one side of the centre.
+  // Indices of values with at least seven values before them on the same side of the centre without
+  // interruption.
   std::vector<std::size_t> one_side;
 
   // Set if the last value is in one of the two lists above. `since`: index from which the values

@@ -13,7 +13,7 @@ namespace mdof {
 // a plane. NaN: the logs do not determine the value, and the rig does not declare its uncertainty.
 struct MountedProbe {
   std::string id;
-  Vec3 position_m{}, u_position_m{};  // in M, machine axes
+  Vec3 position_m{}, u_position_m{};  // in the frame M, along the machine axes
   Vec3 direction{};                   // unit vector
   double u_direction_rad = 0;         // the larger u of the two axes of rotation
   double zero_m = 0, u_zero_m = 0;    // displacement that the probe reads at the nominal surface

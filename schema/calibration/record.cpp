@@ -197,7 +197,7 @@ CalibratedProbe read_probe(TomlTable& table) {
     if (!(probe.sensitivity_freedom >= 1))
       table.reject("sensitivity_dof", "must be a number of degrees of freedom, 1 or greater");
   }
-  read_certificate(table);  // apply_records() takes it
+  read_certificate(table);  // the result is not used here; apply_records() uses it
   return probe;
 }
 

@@ -21,8 +21,8 @@ struct PointFlag {
   std::string channel = {};  // id of a probe, or "encoder"; empty: the whole point
   bool operator==(const PointFlag&) const = default;
 };
-std::string to_string(const PointFlag& flag);                // "spike:A", as stored and shown
-std::string to_string(const std::vector<PointFlag>& flags);  // space between them
+std::string to_string(const PointFlag& flag);  // "spike:A"; this text is stored and shown
+std::string to_string(const std::vector<PointFlag>& flags);  // with a space between two flags
 std::vector<std::string> flag_texts(const std::vector<PointFlag>& flags);
 Result<PointFlag> point_flag_from(std::string_view text);  // error (bad_input): unknown flag
 

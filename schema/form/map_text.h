@@ -61,7 +61,7 @@ class MapTextReader {
   std::array<std::size_t, 3> column_{{0, 1, 2}};  // columns of x, y, z
   std::size_t columns_ = 3;
   double xy_m_ = 1e-3, z_m_ = 1e-6;
-  std::string rest_;  // start of a line that continues in the next piece
+  std::string rest_;  // start of a line that is completed in the next piece
   std::size_t line_ = 0;
   std::size_t bytes_expected_ = 0;
   MapPoints points_;

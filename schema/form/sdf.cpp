@@ -58,7 +58,7 @@ class SdfReader {
 
   Status read_header() {
     std::string_view line;
-    next_line(line);  // the format name
+    next_line(line);  // the first line is the name of the format
     while (next_line(line)) {
       if (line.starts_with('*')) return {};
       line = trimmed(line.substr(0, line.find(';')));  // text after ; is a comment

@@ -1,4 +1,4 @@
-// The preset of mdof machine budget.
+// The machine that `mdof machine budget` offers as a preset.
 #include "schema/machine/machine.h"
 
 namespace mdof {

@@ -55,7 +55,7 @@ struct MillingInput {
   const char* table;
   const char* key;  // including the unit
   double MillingPlan::*member;
-  double unit;  // SI value of one unit
+  double unit;  // factor that converts the number in PLAN.toml to SI
 };
 const std::vector<MillingInput>& milling_inputs();
 

@@ -10,7 +10,7 @@ constexpr int kIterations = 60;
 
 struct CommandGrid {
   std::array<std::size_t, 3> size;
-  std::vector<double> value;  // X fastest
+  std::vector<double> value;  // the index of X changes fastest
 
   std::size_t index(std::size_t node, std::size_t axis) const {
     const std::size_t stride = axis == 0 ? 1 : axis == 1 ? size[0] : size[0] * size[1];

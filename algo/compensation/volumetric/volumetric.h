@@ -44,7 +44,7 @@ double largest_correction_m(const VolumetricTable& table, std::size_t axis);
 struct VolumetricValue {
   Vec3 correction_m{}, u_m{};
   Vec3 u_common_m{}, u_independent_m{};  // parts of u_m; NaN: parts unknown
-  bool inside = true;                    // false: the value of the nearest point of the grid
+  bool inside = true;                    // false: the values are from the nearest point of the grid
 };
 // Interpolates linearly along each axis between the nodes.
 // - The common part of u combines the u of the surrounding nodes and the interpolation error at

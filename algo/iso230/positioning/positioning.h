@@ -6,7 +6,7 @@
 //   x̄_i = (x̄_i↑ + x̄_i↓)/2    B_i = x̄_i↑ - x̄_i↓    B = max|B_i|    B̄ = mean of the signed B_i
 //   R_i↑ = 4 s_i↑    R_i = max(2 s_i↑ + 2 s_i↓ + |B_i|, R_i↑, R_i↓)    R = max R_i
 //   E↑ = range of x̄_i↑    E = range of x̄_i↑ and x̄_i↓ together    M = range of x̄_i
-//   A↑ = max(x̄_i↑ + 2 s_i↑) - min(x̄_i↑ - 2 s_i↑)    A: the same over both approaches
+//   A↑ = max(x̄_i↑ + 2 s_i↑) - min(x̄_i↑ - 2 s_i↑)    A: range over both approaches
 #pragma once
 
 #include <string>

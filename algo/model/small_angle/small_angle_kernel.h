@@ -40,7 +40,7 @@ inline FirstOrder<V> first_order(const SmallAngleFixture& f, const V (&m)[5]) {
   return o;
 }
 
-// Eq. 8-12: first order, elimination.
+// The simplified solution of first order (Eq. 8-12).
 template <class V>
 inline void simplified(const SmallAngleFixture& f, const V& travel, const V (&m)[5], V (&out)[5]) {
   const FirstOrder<V> o = first_order(f, m);

@@ -9,7 +9,7 @@ namespace mdof::algo {
 
 struct EncoderJump {
   std::int64_t time_ns = 0;
-  double position_m = 0;  // before the jump
+  double position_m = 0;  // position before the jump
   double size_m = 0;
 };
 

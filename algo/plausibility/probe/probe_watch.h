@@ -49,7 +49,7 @@ class ProbeWatch {
  public:
   explicit ProbeWatch(std::size_t probes) : probes_(probes) {}
 
-  // Rows of a slot, with the rows before and after it.
+  // The rows of a slot (first ... last - 1), with rows before and after the slot.
   struct Rows {
     const FrameBlock& frames;
     std::size_t begin, first, last,
@@ -81,12 +81,12 @@ class ProbeWatch {
     double held_m = 0, low_m = 0, high_m = 0;  // low_m, high_m: range of all readings before held_m
     std::int64_t since_ns = 0;
     std::size_t rows = 0, longest = 0;       // rows with the same reading; most such rows
-    double axis_low_m = 0, axis_high_m = 0;  // during this time
+    double axis_low_m = 0, axis_high_m = 0;  // range of the axis during these rows
     double resolution_m = 0;
     std::size_t changes = 0, stops = 0, noisy_stops = 0;
     std::vector<double> sd_m;  // for each stop
     std::vector<FrozenProbe> frozen;
-    std::vector<SteppedProbe> steps;  // candidates
+    std::vector<SteppedProbe> steps;  // candidates for steps
   };
 
   bool never_changed(const Probe& probe) const;

@@ -1,5 +1,5 @@
-// Converts raw readings of a device to displacements in metres and sets their quality. This is the
-// last step after every driver: later code needs no volts or gaps.
+// Converts the raw readings of a device to displacements in metres and sets their quality. This
+// step runs directly after the driver, so that later code handles no volts and no gaps in µm.
 #pragma once
 
 #include <array>
@@ -15,28 +15,31 @@
 
 namespace mdof::drivers {
 
-// Displacement along `measures`, m, for a raw reading in µm (schema/rig/rig.h, Calibration).
+// Displacement, m, in the direction `measures`, for a raw reading in µm (schema/rig/rig.h,
+// Calibration).
 double displacement_m(const Calibration& calibration, double raw_um);
 
-// The lower and the upper displacement along `measures`, m. A reading between them is not at the
-// end of the range of the probe.
+// Lower and upper limit of the displacement, m, in the direction `measures`. A reading between
+// these limits is not at an end of the probe's measuring range.
 std::array<double, 2> displacement_window_m(const Probe& probe);
 
-// One notice for each probe whose calibration record states um_per_V although its channel gives a
-// length. The amplifier then sets the sensitivity, but u still comes from the record.
+// Makes one notice for each probe whose calibration record states um_per_V although the channel of
+// the probe has a unit of length. For such a probe the amplifier sets the sensitivity, but the
+// uncertainty u is taken from the calibration record.
 Notices unused_scales(const Rig& rig, const std::vector<Channel>& channels);
 
-// Reentrant. Copies the parts of the rig that it needs.
+// Reentrant. Copies the data of the rig that it needs.
 class Calibrator {
  public:
   explicit Calibrator(const Rig& rig);
 
-  // Converts the probes and the encoder of `block` to Unit::metre, in place. A reading at the end
-  // of its probe's range (within 0.05 % of it) gets Quality::over_range, a NaN gets
+  // Converts the readings of the probes and of the encoder in `block` to Unit::metre, in place. A
+  // reading within 0.05 % of an end of the probe's range gets Quality::over_range. A NaN gets
   // Quality::missing. Channels that are not in the rig are left unchanged. Errors: a channel in
-  // volts without um_per_V; a probe or the encoder in a unit that is not a length.
+  // volts has no um_per_V; the unit of a probe or of the encoder is not a length.
   Status apply(SampleBlock& block) const;
-  // Reports the same errors for the channels of a device, before the device gives samples.
+  // Reports the same errors as apply() for the channels of a device, before the device sends
+  // samples.
   Status check(const std::vector<Channel>& channels) const;
 
  private:

@@ -1,5 +1,5 @@
 // A driver turns the data of a device into SampleBlocks. The simulator and the replay are drivers
-// too, so all later code runs without hardware.
+// too, therefore all later code also runs without hardware.
 #pragma once
 
 #include <chrono>
@@ -20,35 +20,37 @@ namespace mdof::drivers {
 struct DeviceInfo {
   std::string name;               // from the configuration, unique
   std::string driver;             // name in registry.cpp: "qsb"; for "replay": "csv" or "recording"
-  std::string description;        // one line, for users
-  std::vector<Channel> channels;  // empty until open(), if only the device knows its channels
+  std::string description;        // one line of text for users
+  std::vector<Channel> channels;  // empty until open() if only the device itself knows its channels
   double rate_hz = 0;             // scans a second; 0: not known
-  bool simulated = false;         // no machine behind it; every result is marked as simulated
-  std::optional<ClockState> clock;  // if the device counts or stamps its samples
+  bool simulated = false;  // true: there is no real machine; every result is marked as simulated
+  std::optional<ClockState> clock;  // set if the device counts its samples or sends time stamps
   // Reason why an incremental encoder has lost its datum after the driver first opened it: the
-  // encoder lost power, its source restarted, or counts may have been lost. Its positions are then
-  // suspect for the life of the driver, unless trust_count() is called or marks_passed() increases.
+  // power of the encoder failed, the source of the counts restarted, or counts may have been lost.
+  // All later positions are then suspect until trust_count() is called or marks_passed() increases.
   // "": the datum is valid, or the encoder is absolute.
   std::string datum_lost = {};
-  // Settings of the device that change the readings; results must state them.
+  // Settings of the device that change its readings. Results must state these settings.
   Notices notices = {};
-  // As datum_lost, for the encoders of further axes (DriverContext::further), by channel.
+  // As datum_lost, for the encoders of further axes (DriverContext::further), by the name of the
+  // channel.
   std::map<std::string, std::string> further_datum_lost = {};
-  Remedy datum_remedy = Remedy::set_encoder;  // for a lost datum of any of its encoders
+  // What the user must do if an encoder of this device has lost its datum.
+  Remedy datum_remedy = Remedy::set_encoder;
 };
 
-// How the positions of an encoder are referred to the axis.
+// Relation between the positions of an encoder and the positions of its axis.
 struct EncoderOrigin {
-  bool counts = false;              // counts from the position at which it was switched on
-  std::optional<double> offset_mm;  // added to its position, from the configuration
-  // Axis position at the encoder's reference mark, which the driver must detect.
+  bool counts = false;  // true: the encoder counts from the position at which it was switched on
+  std::optional<double> offset_mm;  // added to the measured position; from the configuration
+  // Position of the axis at the reference mark of the encoder. The driver must detect this mark.
   std::optional<double> index_mm = std::nullopt;
   std::string index_where = {};  // "mdofd.toml:12: axis.device.channel.index_mm", for messages
 };
 
 enum class ReadState {
-  more,  // block holds scans, or is empty because none arrived before the time-out
-  end,   // the source has ended (a file); no more scans follow
+  more,  // `block` contains scans, or is empty because no scan arrived before the time-out
+  end,   // the source (a file) has ended; no more scans follow
 };
 
 // Thread-bound: created, used and destroyed on the thread of its reader.
@@ -56,21 +58,21 @@ class Driver {
  public:
   virtual ~Driver() = default;  // releases the device; never throws
   virtual DeviceInfo info() const = 0;
-  // The clock whose state is in info(); nullptr: no clock. Must be cheap: it is called for each
-  // block.
+  // The clock whose state info() returns; nullptr: no clock. This function is called for each
+  // block, so it must be fast.
   virtual const DeviceClock* clock() const { return nullptr; }
-  // May be called again after an error of read().
+  // The caller may call open() again after an error of read().
   virtual Status open() = 0;
-  // Replaces `block` (its capacity is reused). Waits at most `timeout`. An error means that the
-  // device is gone or that its stream is invalid; the caller closes the driver, waits and opens it
-  // again.
+  // Replaces the contents of `block` and reuses its memory. Waits at most `timeout`. An error means
+  // that the device is disconnected or that its data stream is invalid. The caller then waits and
+  // calls open() again.
   virtual Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) = 0;
-  // The user has set the position of the axis: the present count of the encoder is valid, even if
-  // DeviceInfo::datum_lost gives a reason.
+  // Call this after the user has set the position of the axis: the present count of the encoder is
+  // then valid, even if DeviceInfo::datum_lost gave a reason before.
   virtual void trust_count() {}
-  // How often the encoder has passed the reference mark of EncoderOrigin::index_mm. The number
-  // increases with a block: from the first scan of this block on, positions are counted from the
-  // mark, and DeviceInfo::datum_lost is cleared.
+  // Number of times that the encoder has passed the reference mark of EncoderOrigin::index_mm. When
+  // this number increases with a block, the positions from the first scan of that block on are
+  // counted from the mark, and DeviceInfo::datum_lost is cleared.
   virtual int marks_passed() const { return 0; }
   // As trust_count(), for the encoder of a further axis (DriverContext::further).
   virtual void trust_further_count(const std::string& /*channel*/) {}

@@ -1,5 +1,6 @@
-// How Linux shows a connected device, and who may open it. Each driver's row states it; the udev
-// rules (udev_rules.h) and the checks of `mdof doctor` are made from it.
+// How Linux presents a connected device, and which users may open it. Each driver's row in
+// registry.cpp states it. The udev rules (udev_rules.h) and the checks of `mdof doctor` are made
+// from it.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace mdof::drivers {
 
-// The node of a USB device that the driver opens.
+// The device file of a USB device that the driver opens.
 enum class UsbNode {
   bus,     // /dev/bus/usb/001/007, by libusb
   hidraw,  // /dev/hidraw0, by hidapi
@@ -16,32 +17,37 @@ enum class UsbNode {
 };
 
 struct UsbDevice {
-  const char* name;                                     // "MCC USB-1608FS-Plus"
-  std::uint16_t vendor;                                 // idVendor
-  std::optional<std::uint16_t> product = std::nullopt;  // idProduct; none: any of this vendor
+  const char* name;      // "MCC USB-1608FS-Plus"
+  std::uint16_t vendor;  // idVendor
+  // idProduct; nullopt: any product of this vendor.
+  std::optional<std::uint16_t> product = std::nullopt;
   UsbNode node = UsbNode::bus;
-  int interface = 0;              // of hidraw: bInterfaceNumber
-  const char* manufacturer = "";  // its string, if other devices have the same ids
-  const char* note = "";          // for the reader of the rules
+  int interface = 0;  // bInterfaceNumber, for UsbNode::hidraw only
+  // Manufacturer string of the device, if other devices have the same ids.
+  const char* manufacturer = "";
+  const char* note = "";  // explanation for readers of the udev rules
 };
 
-// Devices of a kernel class. The node of each has the name of the class: /dev/comedi0.
+// Devices of one kernel class. The device file of each device begins with the name of the class:
+// /dev/comedi0.
 struct ClassDevice {
-  const char* name;       // "Comedi board"
-  const char* subsystem;  // "comedi": folder in /sys/class, beginning of each node's name
-  const char* group;      // "iocard": its members may open the device
-  const char* remedy;     // for a user who may not open the device
+  const char* name;  // "Comedi board"
+  // "comedi": a folder in /sys/class, and the beginning of each device file's name.
+  const char* subsystem;
+  const char* group;   // "iocard": members of this group may open the device
+  const char* remedy;  // advice for a user who may not open the device
   const char* note = "";
 };
 
-// Files of a device in sysfs that the driver writes.
+// Files in sysfs that belong to a device and that the driver writes.
 struct SysfsFile {
   const char* name;       // "IIO converter"
   const char* subsystem;  // "iio"
-  const char* devices;    // `name` of the device, as udev matches it: "ad7745|ad7746"
-  // Files in the folder of the device, for a shell: "count*/preset count*/preset_enable".
+  const char* devices;    // names of the devices, as a pattern of udev: "ad7745|ad7746"
+  // Files in the folder of the device, as patterns of the shell: "count*/preset
+  // count*/preset_enable".
   const char* files;
-  const char* key;  // key of mdofd.toml that needs them: "sampling_hz"
+  const char* key;  // key of mdofd.toml for which the driver writes these files: "sampling_hz"
   const char* note = "";
 };
 

@@ -1,6 +1,6 @@
-// A step of a driver may take long, for example when it reads all registers of a slow slave. The
-// driver then announces the latest end of the step, so that the watchdog of its thread does not
-// report a hung thread.
+// An operation of a driver may take long, for example when it reads all registers of a slow slave.
+// The driver then announces the latest time at which the operation ends, so that the watchdog of
+// the driver's thread does not report a hung thread.
 #pragma once
 
 #include <chrono>
@@ -11,13 +11,13 @@ namespace mdof::drivers {
 
 using LongStepWatcher = std::function<void(std::chrono::steady_clock::time_point until)>;
 
-// Watcher of the calling thread; empty: none.
+// The watcher of the calling thread; empty: this thread has no watcher.
 inline LongStepWatcher& long_step_watcher() {
   thread_local LongStepWatcher watcher;
   return watcher;
 }
 
-// The next step ends at the latest after `duration`.
+// Announces that the next operation ends at the latest after `duration`.
 inline void expect_long_step(std::chrono::steady_clock::duration duration) {
   if (const auto& watcher = long_step_watcher())
     watcher(std::chrono::steady_clock::now() + duration);

@@ -14,7 +14,7 @@
 
 namespace mdof::drivers {
 
-// The simulated twin of a device. mdof-simulate serves it as a kind with the name of its driver.
+// The simulated twin of a device. The device kind in mdof-simulate has the same name as the driver.
 struct SimulatedKind {
   std::size_t most_inputs;
   const char* inputs;   // for users: "up to 14 probes, in volts, and the encoder"
@@ -28,17 +28,19 @@ struct DriverRow {
   const char* folder;   // in drivers/
   const char* devices;  // one line: the devices and their connection
   Result<DriverSpec> (*configure)(TomlTable&, const DriverContext&);
-  std::optional<LinuxNode> node = std::nullopt;  // none: a network device, a file, a script
-  std::optional<SimulatedKind> simulated = std::nullopt;  // none: no twin (README.md)
-  // Why `index_mm` of an encoder is refused; nullptr: the driver reliably detects that the axis
-  // passes the mark (counter/index_mark.h).
+  // nullopt: the device is in the network, or it is a file or a script.
+  std::optional<LinuxNode> node = std::nullopt;
+  std::optional<SimulatedKind> simulated = std::nullopt;  // nullopt: no twin (README.md)
+  // Reason why the key `index_mm` of an encoder is rejected; nullptr: the key is allowed, because
+  // the driver reliably detects that the axis passes the mark (counter/index_mark.h).
   const char* no_index = "this device has no counter and detects no reference mark";
 };
-const std::vector<DriverRow>& driver_rows();  // by name
+const std::vector<DriverRow>& driver_rows();  // sorted by name
 const DriverRow* find_driver(const std::string& name);
 
-// Reads the driver's keys from `table` (the caller has read `driver` and `name`) and finishes the
-// table. Errors name file, line and key; the error of an unknown driver lists the known drivers.
+// Reads the driver's keys from `table`; the caller has read `driver` and `name` before. Rejects
+// unknown keys in the table. Errors name file, line and key; the error for an unknown driver lists
+// all drivers.
 Result<DriverSpec> configure_driver(const std::string& driver, TomlTable& table,
                                     const DriverContext& context);
 

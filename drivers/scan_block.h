@@ -1,4 +1,4 @@
-// Fills a SampleBlock scan by scan.
+// Fills a SampleBlock, one scan at a time.
 #pragma once
 
 #include <cassert>
@@ -13,7 +13,7 @@
 
 namespace mdof::drivers {
 
-// Empties `block`; its memory is reused.
+// Removes all scans of `block`; its memory is reused.
 inline void start_block(SampleBlock& block, const std::string& device,
                         const std::vector<Channel>& channels) {
   block.device = device;
@@ -26,14 +26,16 @@ inline void start_block(SampleBlock& block, const std::string& device,
   for (auto& column : block.quality) column.clear();
 }
 
-// Reserves memory for `scans` scans, so that a small block needs few allocations.
+// Reserves memory for `scans` scans. Without it, a block would allocate memory several times while
+// it grows.
 inline void reserve_scans(SampleBlock& block, std::size_t scans) {
   block.time_ns.reserve(scans);
   for (auto& column : block.value) column.reserve(scans);
   for (auto& column : block.quality) column.reserve(scans);
 }
 
-// `values`: one for each channel. NaN gets Quality::missing, all others get `quality`.
+// `values`: one value for each channel. A NaN gets Quality::missing; all other values get
+// `quality`.
 inline void add_scan(SampleBlock& block, std::int64_t time_ns, std::span<const double> values,
                      Quality quality = Quality::good) {
   assert(values.size() == block.channels.size());

@@ -1,5 +1,5 @@
-// Connects a simulated device to the simulated machine: the channels of the rig at the inputs of
-// the device, and the keys of the device in a plan of mdof-simulate.
+// Connects a simulated device to the simulated machine. Assigns channels of the rig to the inputs
+// of the device, and reads the keys of the device from a plan of mdof-simulate.
 #pragma once
 
 #include <filesystem>
@@ -16,21 +16,21 @@
 
 namespace mdof::drivers {
 
-// The signal of a rig's channel at an input of the device.
+// The signal of a channel of the rig at an input of the device.
 struct SensedInput {
-  std::string channel;  // of the rig, or "encoder"; "": not connected
-  double per_unit = 1;  // input = raw µm (encoder: µm of travel) * per_unit + offset
-  double offset = 0;    // µm/V become V with per_unit = 1 / um_per_V
+  std::string channel;  // id of a probe in the rig, or "encoder"; "": not connected
+  double per_unit = 1;  // input = µm * per_unit + offset; µm: raw reading, or travel at the encoder
+  double offset = 0;    // in the unit of the input; for an input in V, per_unit is 1 / um_per_V
 };
 
-// Thread-bound. Errors in the plan are rejected at their keys. The caller finishes table().
+// Thread-bound. Errors in the plan are reported with their keys. The caller finishes table().
 class SimulatedWiring {
  public:
-  // Makes the signals of the machine at these inputs.
+  // Returns the signals of the machine for these inputs.
   using Machine = std::function<Senses(std::vector<SensedInput>)>;
 
-  // `folder`: folder of the plan. `inputs`: a channel of the rig, "encoder" or "" for each input 0,
-  // 1 ... All arguments must outlive the object.
+  // `folder`: folder of the plan. `inputs`: for each input 0, 1 ... the id of a probe in the rig,
+  // "encoder" or "". The arguments must exist longer than the object.
   SimulatedWiring(const Rig& rig, const std::filesystem::path& folder, const Machine& machine,
                   const std::vector<std::string>& inputs, TomlTable& table)
       : rig_(rig), folder_(folder), machine_(machine), inputs_(inputs), table_(table) {}
@@ -41,13 +41,13 @@ class SimulatedWiring {
   TomlTable& table() { return table_; }
 
   SensedInput um(const std::string& channel) const { return {channel, 1, 0}; }
-  // As volts behind an amplifier, by the rig's calibration.
+  // The input in V after an amplifier; the calibration in the rig gives µm/V.
   SensedInput volt(const std::string& channel);
-  // As counts of the encoder's counter; reads the key um_per_count.
+  // The input in counts of the encoder; reads the key um_per_count.
   SensedInput counts(const std::string& channel);
-  // All inputs as volts.
+  // All inputs, in V.
   std::vector<SensedInput> volts();
-  // The channel at the first input; the encoder if the plan lists no inputs.
+  // The channel at the first input, or "encoder" if the plan lists no inputs.
   std::string first_or_encoder() const;
 
   Senses senses(std::vector<SensedInput> inputs) const { return machine_(std::move(inputs)); }
@@ -63,7 +63,8 @@ class SimulatedWiring {
   double um_per_count_ = 0;
 };
 
-// Makes the simulated device of a driver from the device's keys. Errors name file, line and key.
+// Makes the simulated device of a driver from the keys of the device. Errors name file, line and
+// key.
 using MakeSimulated = Result<std::unique_ptr<SimulatedDevice>> (*)(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

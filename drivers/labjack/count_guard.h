@@ -1,5 +1,5 @@
-// The firmware of a LabJack counts each edge of an encoder. If edges come too fast, it loses some
-// without a report, and all later positions are wrong.
+// The firmware of a LabJack counts each edge of an encoder signal. If the edges follow each other
+// too fast, the firmware loses edges without a report, and all later positions are wrong.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 
 namespace mdof::drivers::labjack {
 
-// Checks that the counting rate stays below its limit. The rate is measured over 10 ms, because one
-// scan has too few counts. Thread-bound.
+// Checks that the counting rate stays below its limit. The rate is measured over 10 ms, because the
+// number of counts in one scan is too small. Thread-bound.
 class CountGuard {
  public:
-  // 0: no check.
+  // `most_counts_per_s` 0: the rate is not checked.
   explicit CountGuard(double most_counts_per_s = 0) : most_counts_per_s_(most_counts_per_s) {}
 
-  // `time_s`: time of the device. Returns false from the first interval with too high a rate on,
-  // because counts may be lost.
+  // `time_s`: time of the device's clock. Returns false from the first interval on in which the
+  // rate was too high, because counts may be lost.
   bool take(std::int64_t count, double time_s) {
     if (most_counts_per_s_ <= 0) return true;
     if (!begun_) mark(count, time_s);
@@ -30,12 +30,12 @@ class CountGuard {
     return sure_;
   }
   bool sure() const { return sure_; }
-  // Call after the position was set again: the count is valid again.
+  // Call this after the user has set the position of the axis: the count is then valid again.
   void restart() {
     begun_ = false;
     sure_ = true;
   }
-  // The next count belongs to another stream; the motion in between is unknown.
+  // The next count belongs to another stream. The motion between the two streams is unknown.
   void interrupt() { begun_ = false; }
 
  private:
@@ -54,10 +54,11 @@ class CountGuard {
   double mark_s_ = 0;
 };
 
-// Key `most_counts_per_s` of a channel; 0: not given. Rejects values that are not above 0.
+// Reads the key `most_counts_per_s` of a channel; returns 0 if it is not given. Rejects values that
+// are not above 0.
 double read_most_counts_per_s(TomlTable& channel);
-// Text for users: "counts up to 3.5 mm/s", the highest axis speed that the counter can follow; ""
-// for 0.
+// Text for users: "counts up to 3.5 mm/s". It states the highest speed of the axis that the counter
+// can follow. Returns "" for a limit of 0.
 std::string speed_text(double most_counts_per_s, double um_per_count);
 inline constexpr const char* kCountsLost =
     "the encoder moved faster than most_counts_per_s, so counts may have been lost; move the axis "

@@ -1,5 +1,5 @@
-// One quadrature counter of a LabJack stream: unwraps the count and checks that its zero is
-// unchanged.
+// A quadrature counter in a LabJack stream. The class extends the 32-bit count over its overflows
+// and detects whether the zero of the count was lost.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,30 @@
 
 namespace mdof::drivers::labjack {
 
-// Exists as long as the driver. Thread-bound.
+// The object exists as long as its driver. Thread-bound.
 class Counter {
  public:
-  // 0: no limit of the counting rate.
+  // `most_counts_per_s` 0: the counting rate has no limit.
   explicit Counter(double most_counts_per_s = 0) : guard_(most_counts_per_s) {}
 
-  // The device was opened. `kept_count`: the counter kept its count since the device was last open.
+  // The driver has opened the device. `kept_count`: whether the counter has kept its count since
+  // the device was last open.
   void resume_count(bool kept_count) {
     zero_lost_ = zero_lost_ || (used_ && !kept_count);
     used_ = true;
     if (!kept_count) count_.reset();
   }
   bool used() const { return used_; }
-  void interrupt() { guard_.interrupt(); }  // the device was closed
-  // `raw`: the 32-bit count of the device; `time_s`: time of the device.
+  void interrupt() { guard_.interrupt(); }  // the driver has closed the device
+  // `raw`: 32-bit count of the device; `time_s`: time of the device's clock.
   std::int64_t take(std::uint32_t raw, double time_s) {
     const std::int64_t count = count_(raw);
     (void)guard_.take(count, time_s);
     return count;
   }
   bool sure() const { return guard_.sure() && !zero_lost_; }
-  // "": the zero is valid. `without_power`: text for a count that has started again from 0.
+  // "": the zero of the count is valid. `without_power`: the text that is returned if the count has
+  // started again from 0.
   std::string invalid_reason(const char* without_power) const {
     return zero_lost_ ? without_power : guard_.sure() ? "" : kCountsLost;
   }
@@ -43,7 +45,7 @@ class Counter {
  private:
   Unwrap count_{32, true};
   CountGuard guard_;
-  bool used_ = false;  // since this object was created
+  bool used_ = false;  // whether resume_count() was called
   bool zero_lost_ = false;
 };
 

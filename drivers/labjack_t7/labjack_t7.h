@@ -1,12 +1,13 @@
-// LabJack T7 over Ethernet: amplifier outputs and the quadrature encoders of one or more axes in
-// one hardware-timed scan.
+// LabJack T7 over Ethernet. One hardware-timed scan contains the outputs of the amplifiers and the
+// quadrature encoders of one or more axes.
 //
-// Port 502 (Modbus TCP) configures and identifies the device, port 702 streams. The device times
-// its scans with CORE_TIMER, 40 MHz: scan k was taken at STREAM_START_TIME_STAMP + k / rate.
-// DeviceClock converts this time to the host's clock from the arrivals of packets; a few reads of
-// CORE_TIMER start it. The stamp is read with the first packet, because until the first scan begins
-// the register holds the stamp of the previous stream. Within a scan the inputs follow each other
-// by about 10 us; the scan has one time.
+// Port 502 (Modbus TCP) is for commands, port 702 for the stream. The device times its scans with
+// CORE_TIMER, 40 MHz: scan k was taken at STREAM_START_TIME_STAMP + k / rate. DeviceClock converts
+// this time to the host's clock. It uses the times at which packets arrive; before the first packet
+// it uses a few readings of CORE_TIMER. The driver reads the time stamp of the start together with
+// the first packet, because the register contains the stamp of the previous stream until the first
+// scan begins. In a scan, two successive inputs are sampled about 10 us apart; the whole scan has
+// one time.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +26,12 @@
 
 namespace mdof::drivers::labjack_t7 {
 
-// Thread-bound. Channels: Unit::volt of an AIN, Unit::um of a counter.
+// Thread-bound. Unit of the channels: Unit::volt for an AIN, Unit::um for a counter.
 //
-// A counter keeps running when the driver is opened again, so its zero is kept. If the counter had
-// stopped (the T7 lost power) or the count was faster than the limit, its zero is lost: its values
-// are Quality::suspect until trust_count() or trust_further_count().
+// A counter continues when the driver opens the device again, and keeps its zero. The zero is lost
+// if the counter has stopped (the power of the T7 failed) or if the counting rate was above the
+// limit. The values of the counter are then Quality::suspect until trust_count() or
+// trust_further_count() is called.
 class LabjackT7 final : public Driver {
  public:
   explicit LabjackT7(Settings settings);
@@ -70,18 +72,19 @@ class LabjackT7 final : public Driver {
   double rate_hz_, ticks_per_scan_ = 0;
 
   DeviceClock clock_;
-  Unwrap core_{32};                          // CORE_TIMER, since open()
-  std::int64_t enabled_ticks_ = 0;           // taken shortly before STREAM_ENABLE
-  std::optional<std::int64_t> start_ticks_;  // of scan 0; empty before the first packet
-  std::int64_t last_packet_ns_ = 0;          // host time; initially the time of the start
-  std::vector<Scan> scans_;                  // received
-  Status broken_;                            // the error that ended the stream
-  std::size_t returned_ = 0;                 // number of scans_ already returned
+  Unwrap core_{32};                          // CORE_TIMER with its overflows, since open()
+  std::int64_t enabled_ticks_ = 0;           // CORE_TIMER shortly before STREAM_ENABLE was written
+  std::optional<std::int64_t> start_ticks_;  // CORE_TIMER at scan 0; empty before the first packet
+  // Host time when it arrived; before the first packet, the time of the start.
+  std::int64_t last_packet_ns_ = 0;
+  std::vector<Scan> scans_;   // scans that were received
+  Status broken_;             // the error that ended the stream
+  std::size_t returned_ = 0;  // number of scans in scans_ that were returned
   std::vector<char> buffer_;
 
-  std::vector<labjack::Counter> counters_;  // one for each input; unused for an AIN
-  std::int64_t last_time_ns_ = 0;           // of the last returned scan
-  bool reopened_ = false;                   // since the last returned scan
+  std::vector<labjack::Counter> counters_;  // one for each input; not used for an AIN
+  std::int64_t last_time_ns_ = 0;           // time of the last returned scan
+  bool reopened_ = false;  // true: the device was opened again after the last returned scan
 };
 
 }  // namespace mdof::drivers::labjack_t7

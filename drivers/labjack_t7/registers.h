@@ -1,4 +1,4 @@
-// The registers of a T7 over Modbus TCP, 32 bits at a time. Refusals carry LabJack's error text.
+// Reads and writes the registers of a T7 over Modbus TCP, 32 bits at a time.
 #pragma once
 
 #include <chrono>
@@ -12,10 +12,11 @@
 
 namespace mdof::drivers::labjack_t7 {
 
-inline constexpr std::chrono::milliseconds kConnect{2000};  // longest wait for each port
+// Longest wait for a connection, for each port.
+inline constexpr std::chrono::milliseconds kConnect{2000};
 
-// Thread-bound. Errors name the register; a refusal contains the text of LAST_ERR_DETAIL. After an
-// error the connection may be unusable.
+// Thread-bound. Errors name the register. If the device rejects a request, the error contains
+// LabJack's text for the code in LAST_ERR_DETAIL. After an error the connection may be unusable.
 class Registers {
  public:
   static Result<Registers> connect(const Endpoint& to);
@@ -26,7 +27,7 @@ class Registers {
   Status write(Register at, std::uint32_t value);
   Status write_f32(Register at, float value);
   Status write_u16(Register at, std::uint16_t value);
-  // Address of the connected device; 0: the connection is not IPv4.
+  // IPv4 address of the connected device; 0: the connection does not use IPv4.
   std::uint32_t peer_ipv4() const { return peer_ipv4_; }
 
  private:

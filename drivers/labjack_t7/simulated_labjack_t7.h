@@ -1,4 +1,5 @@
-// A simulated T7: Modbus TCP on 502 and the stream on 702, with the registers that a stream needs.
+// A simulated T7. It has Modbus TCP on port 502, the stream on port 702, and the registers that a
+// stream needs.
 #pragma once
 
 #include <cstdint>
@@ -16,35 +17,39 @@
 namespace mdof::drivers::labjack_t7 {
 
 // Senses: inputs 0 ... 13 are AIN0 ... AIN13 in V; inputs 14, 15 and 16 are the counts of the pairs
-// that begin with DIO0, DIO2 and DIO6. Within a scan the entries of the list are taken 10 us apart.
+// of lines that begin with DIO0, DIO2 and DIO6. In a scan, successive entries of the scan list are
+// sampled 10 us apart.
 class SimulatedLabjackT7 final : public SimulatedDevice {
  public:
-  // Possible faults, given by the number of a stream packet; -1: never.
+  // Possible faults. A member `..._at` is the number of a stream packet; -1: never.
   struct Faults {
-    bool swapped_words = false;  // a gateway that swaps the words of 32-bit values
-    bool erased_flash = false;   // no calibration constants
-    bool stale_stamp = false;    // STREAM_START_TIME_STAMP keeps that of the previous stream
-    int refused = -1;            // a write to this register is refused ...
-    int refused_code = 0;        // ... with this LabJack error in LAST_ERR_DETAIL
-    int recovery_at = -1;  // three packets have status 2940, then 2941 reports `dropped` scans
+    bool swapped_words = false;  // as behind a gateway that swaps the words of 32-bit values
+    bool erased_flash = false;   // the flash memory contains no calibration constants
+    bool stale_stamp = false;    // STREAM_START_TIME_STAMP keeps the value of the previous stream
+    int refused = -1;            // address of a register to which a write is rejected
+    int refused_code = 0;        // LabJack error in LAST_ERR_DETAIL after this rejection
+    // Three packets have status 2940, then a packet with status 2941 reports `dropped` scans.
+    int recovery_at = -1;
     std::uint16_t dropped = 0;
-    bool unmarked = false;  // 2941 without a scan of 0xFFFF
-    int stop_at = -1;       // this packet has `stop_status` and is the last
+    bool unmarked = false;  // the packet with status 2941 contains no scan of 0xFFFF
+    int stop_at = -1;       // this packet has `stop_status` and is the last packet
     int stop_status = status::scan_overlap;
-    int skip_at = -1;         // this packet is not sent: a gap in the transaction ids
-    int silent_at = -1;       // from this packet on nothing is sent
-    int hang_up_at = -1;      // the connection breaks before this packet
-    bool no_capture = false;  // the upper word is read later than the lower (no T7 does that)
+    int skip_at = -1;     // this packet is not sent, so that a transaction number is missing
+    int silent_at = -1;   // from this packet on nothing is sent
+    int hang_up_at = -1;  // the connection is closed before this packet
+    // The upper word is sampled later than the lower word (a real T7 does not do this).
+    bool no_capture = false;
   };
   struct Options {
-    double clock_ppm = 0;  // > 0: its clock is fast
+    double clock_ppm = 0;  // > 0: the clock of the device is fast
     std::uint32_t core_start = 0;
     std::uint32_t serial = 470012345;
     float product = 7, firmware = 1.0304F;
     std::uint32_t hardware = 0, wifi_ip = 0;  // HARDWARE_INSTALLED, WIFI_IP
     Faults faults = {};
   };
-  static constexpr std::size_t kCounterInput = kAins;  // of the first pair
+  // Index of the first counter among the inputs.
+  static constexpr std::size_t kCounterInput = kAins;
   static constexpr std::size_t kInputs = kAins + kQuadratureLines.size();
 
   SimulatedLabjackT7(Senses senses, const Options& options);
@@ -56,14 +61,15 @@ class SimulatedLabjackT7 final : public SimulatedDevice {
                        std::int64_t now_ns) override;
   bool hangs_up(std::size_t port, int client) override;
 
-  // For tests: a power cycle; faults from now on; the constants of the device.
+  // For tests: restart() is a power cycle; set_faults() replaces the faults; calibration() returns
+  // the constants of the device.
   void restart();
   void set_faults(const Faults& faults) { options_.faults = faults; }
   static AinCalibration calibration(std::size_t range);
 
  private:
   struct Stream {               // a running stream
-    std::int64_t start_ns = 0;  // of scan 0
+    std::int64_t start_ns = 0;  // time of scan 0
     double period_ns = 0;
     std::vector<int> list;
     std::size_t scans_per_packet = 0;
@@ -96,14 +102,14 @@ class SimulatedLabjackT7 final : public SimulatedDevice {
   Senses senses_;
   Options options_;
   std::map<int, std::uint16_t> registers_;
-  std::map<int, std::string> requests_;  // incomplete requests, by client
-  std::optional<int> reader_;            // client of the stream's port
+  std::map<int, std::string> requests_;  // incomplete requests, by client number
+  std::optional<int> reader_;            // client number at the stream's port
   std::optional<Stream> stream_;
   std::uint32_t last_stamp_ = 0;  // STREAM_START_TIME_STAMP of the previous stream
 };
 
-// Makes the twin from a plan of mdof-simulate. Volts at AIN0 ..., counts of the encoder at the pair
-// that the key `counter` names (DIO0).
+// Makes the twin from a plan of mdof-simulate. The probes are at AIN0 ..., in V. The counts of the
+// encoder are at the pair of lines that the key `counter` names (DIO0).
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_labjack_t7(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::labjack_t7

@@ -1,9 +1,10 @@
-// LabJack U6 over USB: amplifier outputs and one quadrature encoder in one hardware-timed scan.
+// LabJack U6 over USB. One hardware-timed scan contains the outputs of the amplifiers and one
+// quadrature encoder.
 //
-// The device sends no time stamps: scan k was taken at the start + k / rate of the device's clock,
-// where k includes the dropped scans that the device reports. DeviceClock converts this time to the
-// host's clock from the arrivals of transfers. Within a scan the inputs follow each other by about
-// 10 us; the scan has one time.
+// The device sends no time stamps. Scan k was taken at the time start + k / rate of the device's
+// clock; k also counts the dropped scans that the device reports. DeviceClock converts this time to
+// the host's clock from the times at which transfers arrive. In a scan, two successive inputs are
+// sampled about 10 us apart; the whole scan has one time.
 #pragma once
 
 #include <array>
@@ -20,12 +21,12 @@
 
 namespace mdof::drivers::labjack_u6 {
 
-// Thread-bound. Channels: Unit::volt of an AIN, Unit::um of the counter.
+// Thread-bound. Unit of the channels: Unit::volt for an AIN, Unit::um for the counter.
 //
-// The counter is started from 0 when this object opens the device for the first time, and keeps
-// running when the device is opened again. If the counter had stopped (the U6 was unplugged) or the
-// count was faster than the limit, its zero is lost: its values are Quality::suspect until
-// trust_count().
+// The counter starts from 0 when this object opens the device for the first time. It continues when
+// the device is opened again. The zero is lost if the counter has stopped (the U6 was unplugged) or
+// if the counting rate was above the limit. The values of the counter are then Quality::suspect
+// until trust_count() is called.
 class LabjackU6 final : public Driver {
  public:
   explicit LabjackU6(Settings settings);
@@ -53,7 +54,7 @@ class LabjackU6 final : public Driver {
   Settings settings_;
   std::vector<Entry> list_;
   StreamClock scan_clock_;
-  std::size_t samples_;  // in a packet
+  std::size_t samples_;  // number of samples in a packet
   std::string description_;
   std::vector<Channel> channels_;
   std::optional<usb::Handle> handle_;
@@ -61,18 +62,19 @@ class LabjackU6 final : public Driver {
   PacketLine line_;
   std::array<AinCalibration, 4> calibrations_;  // by gain
 
-  DeviceClock clock_;               // a tick is a scan
-  std::int64_t last_chunk_ns_ = 0;  // host time; initially the time of the start
-  std::vector<Scan> scans_;         // received
-  std::size_t returned_ = 0;        // number of scans_ already returned
-  Status broken_;                   // the error that ended the stream
+  DeviceClock clock_;  // a tick is a scan
+  // Host time when it arrived; before the first transfer, the time of the start.
+  std::int64_t last_chunk_ns_ = 0;
+  std::vector<Scan> scans_;   // scans that were received
+  std::size_t returned_ = 0;  // number of scans in scans_ that were returned
+  Status broken_;             // the error that ended the stream
 
   Unwrap count_{32, true};
-  bool counted_ = false;           // the counter was started by this object
-  bool zero_lost_ = false;         // of the counter
-  labjack::CountGuard guard_;      // of the counter
-  std::int64_t last_time_ns_ = 0;  // of the last returned scan
-  bool reopened_ = false;          // since the last returned scan
+  bool counted_ = false;           // whether this object has started the counter
+  bool zero_lost_ = false;         // whether the zero of the counter is lost
+  labjack::CountGuard guard_;      // checks the rate of the counter
+  std::int64_t last_time_ns_ = 0;  // time of the last returned scan
+  bool reopened_ = false;          // true: the device was opened again after the last returned scan
 };
 
 }  // namespace mdof::drivers::labjack_u6

@@ -1,5 +1,6 @@
-// LabJack U6 and U6-Pro over USB: commands (bulk OUT 1, replies IN 2) and the stream (bulk IN 3),
-// bytes <-> values. Little-endian. Source: U6 Datasheet 5.1, 5.2, 5.4; LabJack's open exodriver.
+// LabJack U6 and U6-Pro over USB: conversion between bytes and values, for commands (bulk OUT 1,
+// replies IN 2) and for the stream (bulk IN 3). Little-endian. Source: U6 Datasheet 5.1, 5.2, 5.4;
+// LabJack's open exodriver.
 #pragma once
 
 #include <array>
@@ -21,11 +22,12 @@ inline constexpr std::uint16_t kVendor = 0x0CD5, kProduct = 6;
 inline constexpr std::uint8_t kCommandOut = 0x01, kReplyIn = 0x82, kStreamIn = 0x83;
 
 inline constexpr int kAins = 14;                  // AIN0 ... AIN13
-inline constexpr std::size_t kCommandBytes = 64;  // longest command or reply
+inline constexpr std::size_t kCommandBytes = 64;  // length of the longest command or reply
 
-// Scan list entries other than 0 ... 13.
-inline constexpr int kTimer0 = 200;   // lower word of timer 0; + 1 for timer 1 ...
-inline constexpr int kCapture = 224;  // upper word of the same count as the entry before
+// Entries of the scan list that are not an AIN 0 ... 13.
+inline constexpr int kTimer0 = 200;  // lower word of timer 0; kTimer0 + 1 is timer 1, and so on
+// Upper word of the count whose lower word is the previous entry.
+inline constexpr int kCapture = 224;
 
 enum Command : std::uint8_t {
   kFeedback = 0x00,
@@ -40,8 +42,8 @@ enum ErrorCode : std::uint8_t {
   kScanOverlap = 55,
   kRateInvalid = 58,
   kRecovering = 59,        // the buffer was full; scans are being dropped
-  kRecovered = 60,         // `dropped` scans are missing; a scan of 0xFFFF marks where
-  kRecoveryOverflow = 63,  // more scans were dropped than can be counted
+  kRecovered = 60,         // `dropped` scans are missing; a scan of 0xFFFF shows the position
+  kRecoveryOverflow = 63,  // more scans were dropped than the device can count
 };
 std::string error_text(int code);
 
@@ -52,13 +54,13 @@ inline std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
 }
 std::uint8_t checksum8(std::string_view bytes);
 std::uint16_t checksum16(std::string_view bytes);
-// `body`: the bytes from byte 6 on, an even number.
+// `body`: the bytes from byte 6 on. Their number must be even.
 std::string extended(std::uint8_t command, std::string_view body);
 std::string normal(std::uint8_t command);
-// Returns the bytes after byte 5. Errors: B8 B8 (the device detected a wrong checksum), a reply
-// that is too short, a wrong checksum, the reply to another command.
+// Returns the bytes after byte 5. Errors: the reply is B8 B8 (the device has detected a wrong
+// checksum); the reply is too short; its checksum is wrong; it belongs to another command.
 Result<std::string> extended_body(std::string_view reply, std::uint8_t command, std::size_t size);
-// Returns the error code of a four-byte reply to a normal command. Errors as above.
+// Returns the error code in a four-byte reply to a normal command. Errors as in extended_body().
 Result<int> normal_error(std::string_view reply, std::uint8_t command);
 
 // --- Commands ------------------------------------------------------------------------------------
@@ -75,28 +77,28 @@ inline constexpr int kCalibrationBlocks = 10;
 using CalibrationBlock = std::array<double, 4>;
 std::string read_calibration(int block);
 Result<CalibrationBlock> read_calibration_reply(std::string_view reply);
-// Constants of a gain 0 ... 3 from blocks 0 ... 3 (slope and offset of each gain, then negative
-// slope and centre). Error: impossible constants.
+// Calibration constants for the gain 0 ... 3. Blocks 0 and 1 contain slope and offset of each gain,
+// blocks 2 and 3 the negative slope and the centre. Error: impossible constants.
 Result<AinCalibration> calibration_of(const std::array<CalibrationBlock, 4>& blocks,
                                       std::size_t gain);
 
 inline constexpr std::size_t kConfigIoReply = 16;  // bytes
 
 struct Timers {
-  int count = 0, pin_offset = 0;  // the first timer is on FIO(pin_offset)
+  int count = 0, pin_offset = 0;  // number of timers; the first timer is on line FIO(pin_offset)
 };
 std::string config_io_read();
 Result<Timers> read_timers(std::string_view reply);
 std::string config_io(int timers, int pin_offset);
 Status read_config_io(std::string_view reply, int timers, int pin_offset);
-// Sets timers 0 and 1, on the first two lines from the offset on, to mode 8: a quadrature counter
-// that starts at 0.
+// Returns the command that sets timers 0 and 1 to mode 8, a quadrature counter that starts at 0.
+// The timers use the first two lines from the pin offset on.
 std::string start_quadrature();
 Status read_feedback(std::string_view reply);
 
-inline constexpr int kMostSamples = 25;  // in a packet
-// An entry of the scan list. Gain 0 ... 3: range 10 V / 10^gain. `differential`: an even AIN
-// against the next AIN.
+inline constexpr int kMostSamples = 25;  // most samples in a packet
+// An entry of the scan list. Gain 0 ... 3: range 10 V / 10^gain. `differential`: the input is an
+// even AIN, and its voltage is measured relative to the next AIN.
 struct Entry {
   int channel = 0;  // 0 ... 13, or kTimer0, kCapture
   int gain = 0;
@@ -111,9 +113,9 @@ struct StreamSetup {
 struct StreamClock {
   std::uint8_t config = 0;
   std::uint16_t interval = 0;
-  double rate_hz = 0;  // true rate
+  double rate_hz = 0;  // actual rate
 };
-// The nearest possible rate; nullopt: no divisor gives so low or so high a rate.
+// The nearest possible rate; nullopt: no divisor of the clock produces so low or so high a rate.
 std::optional<StreamClock> stream_clock(double rate_hz);
 std::string stream_config(const StreamSetup& setup, const StreamClock& clock);
 Status read_stream_config(std::string_view reply);
@@ -127,15 +129,15 @@ Status read_stream_stop(std::string_view reply);  // no error if no stream was r
 struct StreamData {
   std::uint8_t counter = 0;
   std::uint8_t error = 0;
-  std::uint8_t backlog = 0;   // 256ths of the device's buffer
-  std::uint16_t dropped = 0;  // number of scans, if error is kRecovered
+  std::uint8_t backlog = 0;   // level of the device's buffer, in 1/256
+  std::uint16_t dropped = 0;  // number of dropped scans, if error is kRecovered
   std::vector<std::uint16_t> samples;
 };
 inline constexpr std::size_t stream_bytes(std::size_t samples) {
   return 14 + 2 * samples;
 }
 std::string encode(const StreamData& packet);
-// `bytes`: one packet. Errors: a wrong length, type or checksum.
+// `bytes`: one packet with `samples` samples. Errors: a wrong length, type or checksum.
 Result<StreamData> decode(std::string_view bytes, std::size_t samples);
 
 // Numbers the scans of the packets.
@@ -143,12 +145,13 @@ class PacketLine {
  public:
   explicit PacketLine(std::size_t words_per_scan) : line_(words_per_scan) {}
   // Appends the scans that end in the packet to `scans`. Error: packets are missing, the device has
-  // stopped, or the position of dropped scans is unknown. The stream must then be started again.
+  // stopped, or the position of dropped scans is unknown. After an error the stream must be started
+  // again.
   Status take(const StreamData& packet, std::vector<Scan>& scans);
 
  private:
   labjack::ScanSplitter line_;
-  std::uint8_t counter_ = 0;  // next packet number
+  std::uint8_t counter_ = 0;  // number of the next packet
 };
 
 }  // namespace mdof::drivers::labjack_u6

@@ -1,4 +1,4 @@
-// Prepares a U6 for streaming, in the order of LabJack's exodriver.
+// Prepares a U6 for a stream, in the order of LabJack's exodriver.
 #pragma once
 
 #include <array>
@@ -9,19 +9,20 @@
 
 namespace mdof::drivers::labjack_u6 {
 
-// Sends a command and returns the next reply of the device, without checking to which command it
-// belongs.
+// Sends a command and returns the next reply of the device. Does not check that the reply belongs
+// to this command.
 Result<std::string> ask(usb::Handle& handle, const std::string& command);
 
-// Discards earlier replies that were not read, then reads the identity.
+// Discards unread replies to earlier commands, then reads the identity.
 Result<Identity> identify(usb::Handle& handle);
-// Ends a running stream, also that of another program, and discards its remaining data.
+// Ends a running stream, even if another program has started it, and discards its remaining data.
 Status stop_stream(usb::Handle& handle);
-// Constants of the gains 0 ... 3.
+// Returns the calibration constants for the gains 0 ... 3.
 Result<std::array<AinCalibration, 4>> read_ain_calibrations(usb::Handle& handle);
-// Whether two timers still run on `fio` and the next line, as start_counter() sets them.
+// Whether two timers still run on the line `fio` and the next line with the settings of
+// start_counter().
 Result<bool> counter_runs(usb::Handle& handle, int fio);
-// Starts the counter from 0.
+// Starts the counter from 0 on the line `fio` and the next line.
 Status start_counter(usb::Handle& handle, int fio);
 
 }  // namespace mdof::drivers::labjack_u6

@@ -1,4 +1,4 @@
-// A simulated U6: the USB side of the device.
+// A simulated U6. It implements the USB interface of the device.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,25 @@
 
 namespace mdof::drivers::labjack_u6 {
 
-// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in V, input 14 is the count of timers 0 and 1. Entries
-// of a scan are 10 us apart.
+// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in V; input 14 is the count of timers 0 and 1. In a
+// scan, successive entries of the scan list are sampled 10 us apart.
 class SimulatedLabjackU6 final : public usb::SimulatedUsb {
  public:
-  // Possible faults; stream packets are counted from 0; -1: never.
+  // Possible faults. A member `..._at` is the number of a stream packet, from 0; -1: never.
   struct Faults {
     bool deaf = false;            // every command gets the reply B8 B8
-    bool wrong_checksum = false;  // in every reply
-    int recovery_at = -1;         // three packets have error 59, then 60 reports `dropped` scans
+    bool wrong_checksum = false;  // every reply has a wrong checksum
+    // Three packets have error 59, then a packet with error 60 reports `dropped` scans.
+    int recovery_at = -1;
     std::uint16_t dropped = 0;
-    int stop_at = -1;  // this packet has `stop_error` and is the last
+    int stop_at = -1;  // this packet has `stop_error` and is the last packet
     int stop_error = kScanOverlap;
-    int skip_at = -1;        // this packet is not sent
-    int short_at = -1;       // only 20 bytes of this packet arrive
-    int unplug_at = -1;      // the device is unplugged before this packet
-    bool streaming = false;  // a stream already runs at the start (left by a host that crashed)
-    bool nameless = false;   // no serial number in its descriptor
+    int skip_at = -1;    // this packet is not sent
+    int short_at = -1;   // only 20 bytes of this packet arrive
+    int unplug_at = -1;  // the device is unplugged before this packet
+    // A stream is already running at the start, as after a crash of the host.
+    bool streaming = false;
+    bool nameless = false;  // the USB descriptor contains no serial number
   };
   static constexpr std::size_t kCounterInput = kAins;
   static constexpr std::uint32_t kSerial = 360012345;
@@ -49,13 +51,14 @@ class SimulatedLabjackU6 final : public usb::SimulatedUsb {
   bool gone() const override { return gone_; }
 
   void set_faults(const Faults& faults) { faults_ = faults; }
-  void restart();  // power is switched on again: default state
+  void restart();  // power is switched off and on: all settings have their defaults
   static AinCalibration calibration(std::size_t gain);
 
  private:
   struct Stream {
-    std::int64_t start_ns = 0;      // of scan 0
-    std::uint64_t next_sample = 0;  // number of samples taken, including dropped samples
+    std::int64_t start_ns = 0;  // time of scan 0
+    // Number of samples that were taken; dropped samples are counted too.
+    std::uint64_t next_sample = 0;
     int packet = 0;
   };
   std::string answer(std::string_view command, std::int64_t now_ns);
@@ -73,20 +76,20 @@ class SimulatedLabjackU6 final : public usb::SimulatedUsb {
   Faults faults_;
   std::uint32_t serial_;
   usb::Identity identity_;
-  std::deque<std::string> replies_, packets_;  // not read yet
+  std::deque<std::string> replies_, packets_;  // data that the host has not read yet
   double rate_hz_ = 0;
   std::size_t samples_per_packet_ = 25;
   std::vector<int> list_;
-  std::vector<std::uint8_t> options_;  // gain and differential bit of the entries
+  std::vector<std::uint8_t> options_;  // for each entry: gain and differential bit
   std::optional<Stream> stream_;
-  std::string timers_ = std::string(3, '\0');  // number of timers, counters, pin offset
-  double zero_ = 0;                            // of the counter
+  std::string timers_ = std::string(3, '\0');  // number of timers, counter flags, pin offset
+  double zero_ = 0;                            // zero of the counter
   std::uint32_t captured_ = 0;
   bool running_ = false, gone_ = false;
 };
 
-// Makes the twin from a plan of mdof-simulate. Volts at AIN0 ..., counts of the encoder at timers 0
-// and 1.
+// Makes the twin from a plan of mdof-simulate. The probes are at AIN0 ..., in V. The counts of the
+// encoder are at timers 0 and 1.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_labjack_u6(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::labjack_u6

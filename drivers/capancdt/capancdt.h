@@ -1,4 +1,4 @@
-// A capaNCDT 6200 controller. Its probes are channels of the rig, in µm.
+// Driver of a capaNCDT 6200 controller. Its channels are the probes of the rig, in µm.
 #pragma once
 
 #include <deque>
@@ -20,15 +20,17 @@ namespace mdof::drivers::capancdt {
 
 // State of the data port since open().
 struct Health {
-  std::uint64_t lost = 0;              // frames
-  std::uint64_t duplicates = 0;        // packets
-  std::uint64_t skipped = 0;           // bytes outside of packets
-  std::optional<CounterUnit> counter;  // what the counter counts; nullopt: not known yet
+  std::uint64_t lost = 0;        // number of lost frames
+  std::uint64_t duplicates = 0;  // number of packets that arrived twice
+  std::uint64_t skipped = 0;     // number of bytes that belong to no packet
+  // Unit that the counter in the packets counts; nullopt: not known yet.
+  std::optional<CounterUnit> counter;
   ClockState clock;
 };
 
-// Thread-bound. Errors of read(): silence, disconnection, a jump of the counter, a frame rate that
-// differs from the rate that the controller states, invalid data. Each is final until open().
+// Thread-bound. Errors of read(): silence; disconnection; a jump of the counter; a frame rate that
+// differs from the rate that the controller states; invalid data. After an error, read() returns
+// the same error until open() is called.
 class Capancdt final : public Driver {
  public:
   explicit Capancdt(Options options);
@@ -41,7 +43,7 @@ class Capancdt final : public Driver {
   Health health() const;
 
  private:
-  // State of one connection to the data port; open() begins a new one.
+  // State of one connection to the data port. open() begins a new session.
   struct Session {
     Setup setup;
     ByteStream data;
@@ -51,10 +53,12 @@ class Capancdt final : public Driver {
     RateWatch rate;
     std::deque<PlacedPacket> waiting;  // numbered, but not yet in a block
     std::chrono::steady_clock::time_point last_packet_time;
-    std::optional<std::int64_t> newest_frame;  // newest frame added to the clock
-    std::optional<std::int64_t> first_ns;      // when the first frame was added to the clock
-    bool warm = false;                         // Options::warm_up has elapsed
-    std::optional<Error> failed;               // read() returns it after the scans before it
+    std::optional<std::int64_t> newest_frame;  // newest frame whose time was added to the clock
+    // Host time at which the first frame was added to the clock.
+    std::optional<std::int64_t> first_ns;
+    bool warm = false;  // Options::warm_up has elapsed
+    // read() returns this error after the scans that precede the error.
+    std::optional<Error> failed;
   };
   Status receive(std::chrono::milliseconds timeout);
   Result<bool> receive_all(std::chrono::milliseconds timeout, bool& came);

@@ -1,4 +1,4 @@
-// Commands and replies on the command port of a controller.
+// Sends commands to the command port of a controller and reads the replies.
 #pragma once
 
 #include <chrono>
@@ -15,12 +15,13 @@ namespace mdof::drivers::capancdt {
 class CommandPort {
  public:
   CommandPort(ByteStream stream, std::chrono::milliseconds reply_timeout);
-  // The text that the controller sends when a client connects; empty: it sent none.
+  // Reads the text that the controller sends when a client connects. The result is empty if the
+  // controller sends none.
   Result<Welcome> welcome();
-  // Returns the result. Errors: refused (with the controller's text), no answer after a second try,
-  // disconnected.
+  // Returns the result of a command. Errors: the controller rejects the command (the error contains
+  // its text); no reply after a second attempt; the connection is closed.
   Result<std::string> ask(const std::string& command);
-  // nullopt: the controller does not know the command.
+  // As ask(); nullopt: the controller does not know the command.
   Result<std::optional<std::string>> ask_if_known(const std::string& command);
 
  private:

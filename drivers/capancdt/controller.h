@@ -11,30 +11,31 @@
 
 namespace mdof::drivers::capancdt {
 
-inline constexpr std::chrono::milliseconds kConnect{3000};  // longest wait for each port
+// Longest wait for a connection, for each port.
+inline constexpr std::chrono::milliseconds kConnect{3000};
 
-// State of the controller after set-up.
+// State of the controller after set_up_controller().
 struct Setup {
   std::string description;  // "DT6220, serial 1001, V1.2a"
   std::string serial;       // empty: not known
   int data_port = 0;
   double sample_time_us = 0;  // actual value
-  int averaged = 1;           // number of samples in a frame
-  int window = 1;             // number of samples in a value
+  int averaged = 1;           // number of samples in the mean that a frame contains
+  int window = 1;             // number of samples that contribute to a value
   struct Input {
     double range_um = 0;
-    bool maths = false;     // maths function: values may be outside of the range
-    int linearisation = 0;  // $LIN
+    bool maths = false;     // true: a maths function; its values may be outside of the range
+    int linearisation = 0;  // setting of $LIN
   };
   std::vector<Input> inputs;  // in the order of Options::channels
-  int low_pass = 0;           // $ALP, analogue
-  Notices notices;            // corrections by the controller itself
+  int low_pass = 0;           // setting of $ALP: analogue low-pass filter
+  Notices notices;            // corrections that the controller itself applies
 
   double frame_ns() const { return sample_time_us * 1e3 * averaged; }
 };
 
-// Connects, sets up and disconnects, so that other programs can use the port. Takes at most some
-// seconds. Errors name address and remedy.
+// Connects to the command port, sets up the controller and disconnects, so that other programs can
+// use the port. Takes at most some seconds. Errors name the address and the remedy.
 Result<Setup> set_up_controller(const Options& options);
 
 }  // namespace mdof::drivers::capancdt

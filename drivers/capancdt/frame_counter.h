@@ -1,9 +1,11 @@
-// Numbers the packets in the sequence of all frames, from the counter in their headers. Pure.
+// Numbers all frames, including lost frames, by means of the counter in the headers of the packets.
+// Pure.
 //
-// The manual calls the counter "measuring value counter (of 1st frame)" and does not state what it
-// counts. The unit is learned from the packets: the unit that agrees with most steps is used. It is
-// learned again if the set of channels changes or if packets overlap, which only a wrong unit can
-// cause. Packets are held back until the unit is known.
+// The manual calls the counter "measuring value counter (of 1st frame)" and does not state its
+// unit. The class derives the unit from the packets: it uses the unit that agrees with most of the
+// steps from packet to packet. It derives the unit again if the set of channels changes or if
+// packets overlap; packets overlap only if the unit is wrong. Packets are kept back until the unit
+// is known.
 #pragma once
 
 #include <array>
@@ -18,29 +20,29 @@
 namespace mdof::drivers::capancdt {
 
 enum class CounterUnit {
-  frame,   // + M from a packet of M frames to the next
-  value,   // + M x channels
-  sample,  // + M x n: arithmetic averaging sends the mean of n samples
-  packet,  // + 1
+  frame,   // increases by M after a packet of M frames
+  value,   // increases by M x number of channels
+  sample,  // increases by M x n; with arithmetic averaging a frame is the mean of n samples
+  packet,  // increases by 1
 };
 inline constexpr int kCounterUnits = 4;
 
 struct PlacedPacket {
   Packet packet;
-  std::int64_t first_frame = 0;  // number; 0: first frame of the first packet; lost frames count
+  std::int64_t first_frame = 0;  // 0: first frame of the first packet; lost frames are counted too
   std::uint64_t lost = 0;        // number of frames lost before this packet
 };
 
 // Thread-bound.
 class FrameCounter {
  public:
-  // `averaged`: number of samples in a frame (1: no averaging). If more than `most_lost` frames in
-  // a row are missing, the counter was reset.
+  // `averaged`: number of samples in a frame (1: no averaging). `most_lost`: if more successive
+  // frames are missing, the counter was reset.
   FrameCounter(int averaged, std::uint64_t most_lost);
 
-  // Appends the packets that can be numbered now to `placed`: none, this packet, or all packets
-  // that were held back. Drops duplicates. Error: the counter jumped, or its unit is unknown; the
-  // object is then unusable.
+  // Appends the packets that can be numbered now to `placed`: no packet, this packet, or all
+  // packets that were kept back. Discards packets that arrived twice. Error: the counter jumped, or
+  // its unit cannot be found. The object must not be used after an error.
   Status add(Packet packet, std::deque<PlacedPacket>& placed);
 
   std::optional<CounterUnit> unit() const { return unit_; }
@@ -52,7 +54,8 @@ class FrameCounter {
     Packet packet;
     std::int64_t first_frame;
   };
-  std::uint64_t step(const Packet& packet, CounterUnit unit) const;  // to the next packet
+  // Counts from this packet to the next packet.
+  std::uint64_t step(const Packet& packet, CounterUnit unit) const;
   double frames(std::uint64_t counted, const Packet& before) const;
   Status hold(Packet packet, std::deque<PlacedPacket>& placed);
   void vote(const Packet& before, const Packet& packet);

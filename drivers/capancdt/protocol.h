@@ -1,10 +1,10 @@
-// The data port of a capaNCDT 6200: bytes <-> packets of values. Pure.
+// The data port of a capaNCDT 6200: conversion between bytes and packets of values. Pure.
 //
-// Source: capaNCDT 6200 operating instructions, "Data format of measuring values": a header of 32
-// bytes and M frames, all little-endian. A frame contains one 32-bit value of each available
-// channel, lowest channel first. The manual does not state which of the two size words (frames,
-// bytes of a frame) comes first. A frame has 4 bytes for each channel, so the parser detects the
-// order.
+// Source: capaNCDT 6200 operating instructions, "Data format of measuring values". A packet has a
+// header of 32 bytes and M frames. All numbers are little-endian. A frame contains one 32-bit value
+// of each available channel, lowest channel first. The header contains two size words: number of
+// frames and bytes of a frame. The manual does not state which size word comes first. The parser
+// detects the order, because a frame has 4 bytes for each channel.
 #pragma once
 
 #include <cstddef>
@@ -16,43 +16,45 @@
 
 namespace mdof::drivers::capancdt {
 
-inline constexpr int kMostChannels = 32;  // 64 bits, two for each channel
-inline constexpr int kMostFrames = 1024;  // in a packet; a higher number is invalid
+inline constexpr int kMostChannels = 32;  // the header has 64 bits, two for each channel
+// Most frames in a packet; a packet with more frames is invalid.
+inline constexpr int kMostFrames = 1024;
 inline constexpr std::size_t kHeaderBytes = 32;
 inline constexpr std::int32_t kFullScale = 0xFFFFFF;
 
 struct Packet {
-  std::int32_t article = 0, serial = 0;  // "of the sensor", according to the manual
-  std::uint64_t channel_bits = 0;        // two for each channel, channel 1 lowest; 01: available
-  std::uint32_t status = 0;              // not used
-  std::uint32_t counter = 0;             // counter at the first frame
-  std::vector<std::int32_t> values;      // [frame][available channel]
-  bool after_garbage = false;            // invalid bytes came before this packet
+  std::int32_t article = 0, serial = 0;  // numbers "of the sensor", according to the manual
+  std::uint64_t channel_bits = 0;    // two bits for each channel, channel 1 lowest; 01: available
+  std::uint32_t status = 0;          // not used
+  std::uint32_t counter = 0;         // counter of the first frame
+  std::vector<std::int32_t> values;  // [frame][available channel]
+  bool after_garbage = false;        // true: invalid bytes came before this packet
 
-  int channels() const;                           // number in a frame
-  int frames() const;                             // values.size() is a multiple of channels()
-  std::optional<int> position(int number) const;  // index of channel 1 ... 32 in a frame
+  int channels() const;  // number of channels in a frame
+  int frames() const;    // number of frames; values.size() is a multiple of channels()
+  std::optional<int> position(int number) const;  // index in a frame of channel 1 ... 32
   std::int32_t value(int frame, int position) const {
     return values[static_cast<std::size_t>(frame) * static_cast<std::size_t>(channels()) +
                   static_cast<std::size_t>(position)];
   }
 };
 
-std::uint64_t channel_bit(int number);  // bit of an available channel 1 ... 32
+std::uint64_t channel_bit(int number);  // bit of the available channel 1 ... 32
 
-// The size word at byte 24.
+// Order of the two size words, which begin at byte 24.
 enum class SizeOrder { bytes_per_frame_first, frames_first };
 std::string encode(const Packet& packet, SizeOrder order);
 
-// Cuts the stream into packets. Thread-bound. Accepts any bytes. Skips invalid bytes up to the next
-// packet, which must have the same article and serial number as earlier packets.
+// Divides the stream into packets. Thread-bound. Accepts any bytes. Skips invalid bytes until the
+// next packet, which must have the article number and the serial number of the earlier packets.
 class PacketParser {
  public:
   void add(std::string_view bytes);
-  bool next(Packet& packet);  // false: more bytes are needed
+  bool next(Packet& packet);  // false: more bytes are needed for a packet
 
-  std::uint64_t skipped() const { return skipped_; }          // bytes, since reset()
-  std::uint64_t skipped_now() const { return skipped_now_; }  // since the last packet
+  std::uint64_t skipped() const { return skipped_; }  // number of skipped bytes since reset()
+  // Number of skipped bytes since the last packet.
+  std::uint64_t skipped_now() const { return skipped_now_; }
   void reset();
 
  private:
@@ -62,14 +64,15 @@ class PacketParser {
   void take(std::size_t bytes);
 
   std::string bytes_;
-  std::size_t begin_ = 0;  // first byte that is not yet processed
+  std::size_t begin_ = 0;  // first byte that was not processed yet
   std::uint64_t skipped_ = 0, skipped_now_ = 0;
   std::optional<std::int32_t> article_, serial_;
 };
 
-// Manual, "Scaling of measuring values": digital value / 0xFFFFFF x range.
+// Range x digital value / 0xFFFFFF (manual, "Scaling of measuring values").
 double to_um(std::int32_t raw, double range_um);
-// A reading within `guard` counts of an end of the range, or beyond: the controller has no flag.
+// Whether a reading is at most `guard` counts from an end of the range, or beyond it. The
+// controller sends no flag for such readings.
 bool at_end_of_range(std::int32_t raw, std::int32_t guard);
 
 }  // namespace mdof::drivers::capancdt

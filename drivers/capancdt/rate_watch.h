@@ -1,4 +1,4 @@
-// Checks that frames arrive at the rate of the sample time. Pure.
+// Checks that frames arrive at the rate that follows from the sample time. Pure.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,15 @@
 
 namespace mdof::drivers::capancdt {
 
-// Another program may change the sample time, which would make all time stamps wrong. Thread-bound.
+// Another program may change the sample time. All time stamps would then be wrong. Thread-bound.
 class RateWatch {
  public:
   explicit RateWatch(double frame_ns) : frame_ns_(frame_ns) {}
 
-  // `frames`: number of frames so far, including lost frames, when the newest was received. Returns
-  // the measured time of a frame after it has deviated by more than 10 % in two stretches in a row;
-  // a single stretch may be a delay of the network or of this computer.
+  // `frames`: number of frames when the newest frame was received, including lost frames. Returns
+  // the measured duration of a frame if it deviates by more than 10 % in two successive stretches
+  // of time. A deviation in one stretch alone may come from a delay of the network or of this
+  // computer.
   std::optional<double> add(std::int64_t frames, std::int64_t received_ns) {
     if (!begun_) begin(frames, received_ns);
     const auto passed_ns = static_cast<double>(received_ns - begun_ns_);
@@ -40,7 +41,7 @@ class RateWatch {
   double frame_ns_;
   bool begun_ = false;
   std::int64_t begun_frames_ = 0, begun_ns_ = 0;
-  int off_ = 0;  // previous stretch: 1: frames were too slow; -1: too fast
+  int off_ = 0;  // deviation in the previous stretch: 1: frames were too slow; -1: too fast
 };
 
 }  // namespace mdof::drivers::capancdt

@@ -17,13 +17,13 @@
 
 namespace mdof::drivers::capancdt {
 
-// Inputs sense µm, limited to the range. Its sample times are 256 µs times 1, 2, 4, 8 and so on,
-// and 960 µs; a requested time is changed to the next shorter one. Only one client gets data from
-// the data port.
+// Senses: µm, limited to the range. The sample times are 256 µs times 1, 2, 4, 8 and so on, and 960
+// µs; a requested sample time is changed to the next shorter one. Only one client receives data
+// from the data port.
 class SimulatedCapancdt final : public SimulatedDevice {
  public:
-  // How commands are echoed. According to the manual, every character is echoed immediately, and
-  // the reply repeats the command.
+  // How commands are echoed. According to the manual, the controller echoes every character
+  // immediately, and the reply contains the command again.
   enum class Echo {
     line,   // the command, then the reply, which contains the command
     reply,  // the command once: its echo is the beginning of the reply
@@ -31,22 +31,22 @@ class SimulatedCapancdt final : public SimulatedDevice {
     none,
   };
 
-  // A fault lasts as long as the device is used, unless its name states a time.
+  // A fault exists as long as the device is used, unless the name of the fault states a time.
   struct Faults {
     SizeOrder sizes = SizeOrder::bytes_per_frame_first;
     CounterUnit counter = CounterUnit::frame;
     Echo echo = Echo::line;
-    int lose_every = 0;                 // each n-th packet is not sent; 0: none
+    int lose_every = 0;                 // each n-th packet is not sent; 0: all packets are sent
     int repeat_every = 0;               // each n-th packet is sent twice
     int garbage_every = 0;              // invalid bytes before each n-th packet
-    bool has_invalid_preamble = false;  // no sent data form a packet
-    std::size_t most_bytes = 0;         // most data bytes in a reply of exchange(); 0: all
-    // Channel that is missing in `vanish_packets` packets from packet `vanish_from` on.
+    bool has_invalid_preamble = false;  // all sent data are invalid, so that they contain no packet
+    std::size_t most_bytes = 0;         // most data bytes that exchange() returns; 0: no limit
+    // This channel is missing in `vanish_packets` packets, from packet `vanish_from` on.
     int missing_channel = 0;
     int vanish_from = 0, vanish_packets = 0;
     int reset_counter_at = -1;     // packet at which the counter restarts
-    int reset_connection_at = -1;  // packet after which the data connection breaks
-    bool mute = false;             // commands are read, but not answered
+    int reset_connection_at = -1;  // packet after which the data connection is closed
+    bool mute = false;             // commands are read, but get no reply
     double rate = 1;               // factor by which the actual rate exceeds the stated rate
   };
 
@@ -58,12 +58,12 @@ class SimulatedCapancdt final : public SimulatedDevice {
     std::string name = "DT6220", version = "V1.2a", serial = "1001";
     std::int32_t article = 2303025;
     std::vector<Input> inputs = std::vector<Input>(4);
-    bool states_range = true;   // in the reply to $CHI
-    int data_port = kDataPort;  // in the reply to $GDP
+    bool states_range = true;   // the reply to $CHI contains the range
+    int data_port = kDataPort;  // port in the reply to $GDP
     int frames_per_packet = 1;
     std::uint32_t first_counter = 0;
     int sample_time_us = 960, trigger = 0, averaging = 0, averaged_values = 2;
-    std::vector<int> linearisation = std::vector<int>(4);  // of each input
+    std::vector<int> linearisation = std::vector<int>(4);  // setting of each input
     int low_pass = 0;
     bool supports_corrections = true;  // supports $LIN? and $ALP?
     Faults faults = {};
@@ -103,15 +103,16 @@ class SimulatedCapancdt final : public SimulatedDevice {
   Senses senses_;
   Options options_;
   std::map<int, CommandClient> command_clients_;
-  std::optional<int> reader_;  // client of the data port
+  std::optional<int> reader_;  // client number at the data port
   std::int64_t start_ns_ = 0, next_frame_ = 0;
   std::uint32_t counter_ = 0;
-  int packets_ = 0;  // number of packets made
+  int packets_ = 0;  // number of packets that were made
   std::string out_;
   bool broken_ = false;
 };
 
-// Makes the twin from a plan of mdof-simulate. Readings in µm; the controller states the ranges.
+// Makes the twin from a plan of mdof-simulate. The readings are in µm; the controller states the
+// ranges.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_capancdt(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::capancdt

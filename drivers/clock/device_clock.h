@@ -1,17 +1,20 @@
-// Converts the time of a device to the host's monotonic clock by a robust line fit.
+// Converts the time of a device to the host's monotonic clock by means of a line that is fitted
+// robustly.
 //
-// A packet is received after it was sent. The delay is small at best and only ever larger. In each
-// stretch of device time only the packet with the smallest delay is used. A line is fitted to these
-// packets with the median of all slopes (Theil 1950, Sen 1968), so neither late packets nor a
-// stretch without a quick packet change it much. Its slope relative to the nominal rate is the
-// drift between the two clocks. The returned times follow the line without steps and never
-// decrease. The smallest delay itself cannot be observed; it shifts all times of a device equally.
+// A packet is received some time after it was sent. This delay has a smallest value, and it is
+// often larger. The device time is divided into stretches, and only the packet with the smallest
+// delay of each stretch is used. A line is fitted to these packets; its slope is the median of the
+// slopes of all pairs (Theil 1950, Sen 1968). Therefore late packets change the line only a little,
+// and a stretch without a quick packet too. The slope of the line relative to the nominal rate is
+// the drift between the two clocks. The returned times follow the line without steps and never
+// decrease. The smallest delay itself cannot be observed; it shifts all times of a device by the
+// same amount.
 //
-// Packets that are late for a while cannot be distinguished from a device clock that stood still,
-// as long as the state lasts. The line is kept, so times are right if only the link is slow, and
-// the clock is flagged uncertain until packets are in time again. If packets are late for a minute,
-// this is treated as a step of the device clock. After a step, which shifts the times, the clock is
-// uncertain until a new line is fitted.
+// As long as packets are late, this state cannot be distinguished from a device clock that has
+// stopped for a while. The line is then not changed, so that the times are correct if only the
+// connection is slow. The clock is flagged as uncertain until packets arrive in time again. If
+// packets are late for one minute, the class treats this as a step of the device clock. A step
+// shifts the times. The clock is then uncertain until a new line is fitted.
 #pragma once
 
 #include <cstdint>
@@ -21,40 +24,42 @@
 namespace mdof::drivers {
 
 struct ClockState {
-  double drift_ppm = 0;        // > 0: the device's clock is faster than the host's
-  std::int64_t jitter_ns = 0;  // spread of the delays within a quarter of a second
-  bool settled = false;        // the drift is known; before that, the nominal rate is used
-  std::uint64_t steps = 0;     // how often the device's clock jumped: a restart or a lost count
-  // Returned times may be wrong by about late_ns: packets are late, or the clock has stepped and
-  // has not settled yet.
+  double drift_ppm = 0;  // > 0: the device's clock is faster than the host's clock
+  // Typical difference between the largest and the smallest delay within 0.25 s.
+  std::int64_t jitter_ns = 0;
+  bool settled = false;     // true: the drift is known; false: the nominal rate is used
+  std::uint64_t steps = 0;  // number of jumps of the device's clock: a restart or a lost count
+  // True: returned times may be wrong by about late_ns, because packets are late, or because the
+  // clock has jumped and no new line is fitted yet.
   bool doubtful = false;
   std::int64_t late_ns = 0;
 };
 
-// Pure: the caller gives all times, so the same calls give the same bits. Thread-bound.
+// Pure: the caller passes all times, so the same calls return the same bits. Thread-bound.
 class DeviceClock {
  public:
   // `nominal_tick_ns`: length of one tick of the device's time.
   explicit DeviceClock(double nominal_tick_ns);
 
-  // Reports that a packet was received whose newest sample has device time `ticks` (unwrapped,
-  // growing).
+  // Call this when a packet was received. `ticks`: device time of the newest sample in the packet,
+  // unwrapped; it increases from packet to packet.
   void add(std::int64_t ticks, std::int64_t received_ns);
-  // Host time of a sample. Call add() first. Strictly growing with `ticks` from the last call on.
+  // Host time of a sample. Call add() before. If `ticks` increases from call to call, the returned
+  // times increase strictly.
   std::int64_t host_ns(std::int64_t ticks);
-  // Forgets the fit, because the device was opened again. Returned times still never decrease, and
-  // the steps are kept.
+  // Discards the fitted line, because the device was opened again. The returned times still never
+  // decrease, and the number of steps is kept.
   void reset();
 
   ClockState state() const;
-  // The parts of state() that are read for each block.
+  // Single members of state(), for callers that read them for each block.
   bool doubtful() const;
   std::uint64_t steps() const { return steps_; }
 
  private:
-  struct Best {  // quickest packet of a stretch
+  struct Best {  // the packet of a stretch with the smallest delay
     std::int64_t stretch, ticks, received_ns;
-    double offset_ns;  // received - nominal time
+    double offset_ns;  // received_ns minus nominal time
     double latest_ns;  // largest offset in the stretch
   };
   double nominal_ns(std::int64_t ticks) const;
@@ -65,15 +70,16 @@ class DeviceClock {
 
   double tick_ns_;
   std::deque<Best> best_;
-  std::size_t unfitted_ = 0;  // stretches that the line does not contain yet
+  std::size_t unfitted_ = 0;  // number of stretches that were added after the last fit
   std::optional<std::int64_t> first_ticks_, first_ns_, last_ticks_;
-  double slope_ = 0, intercept_ns_ = 0;  // line of the offset against nominal time
+  double slope_ = 0, intercept_ns_ = 0;  // line: offset_ns against nominal time
   std::int64_t returned_ticks_ = 0;
   double returned_offset_ns_ = 0;
   std::int64_t returned_ns_ = INT64_MIN;
   bool fitted_ = false, has_returned_time_ = false;
-  std::size_t uncertain_stretches_ = 0;  // stretches after a step until the clock is certain
-  double late_ns_ = 0;                   // delay of the newest packet against the line, if late
+  // Number of stretches after a step until the clock is certain.
+  std::size_t uncertain_stretches_ = 0;
+  double late_ns_ = 0;  // distance of the newest packet from the line, if this packet is late
   std::optional<std::int64_t> late_since_ns_;
   std::uint64_t steps_ = 0;
 };

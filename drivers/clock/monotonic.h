@@ -1,4 +1,4 @@
-// The present time of the clock that all samples use.
+// The current time of the clock that all samples use.
 #pragma once
 
 #include <chrono>

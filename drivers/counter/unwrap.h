@@ -1,13 +1,13 @@
-// Extends the range of counters that wrap.
+// Extends the range of counters that overflow.
 #pragma once
 
 #include <cstdint>
 
 namespace mdof::drivers {
 
-// Unwraps a counter of `bits` bits (1 ... 63) that moves less than half its range between two
-// readings in either direction. The first reading is taken as it is (as a two's complement number
-// if `is_signed`).
+// Extends a counter of `bits` bits (1 ... 63) over its overflows. Between two readings the counter
+// must move by less than half of its range, in either direction. The first reading is returned
+// unchanged; if `is_signed`, it is read as a two's complement number.
 class Unwrap {
  public:
   explicit Unwrap(int bits, bool is_signed = false) : bits_(bits), is_signed_(is_signed) {}

@@ -1,6 +1,5 @@
-// The chunks of a CSV text, read once for two threads that both go through all of them: one parses,
-// one hashes. The thread that needs a chunk first reads it, so the two share the reading according
-// to their load.
+// The chunks of a CSV text for two threads: one thread parses all chunks, the other thread hashes
+// all chunks. Each chunk is read from the file only once, by the thread that needs the chunk first.
 #pragma once
 
 #include <array>
@@ -19,17 +18,19 @@ class ChunkRing {
  public:
   enum class Role { parser, companion };
 
-  // With `companion`, a chunk is kept until that role has finished with it too. `parser_reads` is
-  // false for a source that may block (a pipe); then only the companion reads.
+  // `companion`: true if the second thread exists; a chunk is then kept until both threads have
+  // finished with it. `parser_reads`: false for a source that may block (a pipe); then only the
+  // companion reads.
   ChunkRing(ByteSource& source, std::size_t chunk_bytes, bool companion, bool parser_reads);
 
-  // The role's next chunk, valid until done(). nullptr: no chunk within `timeout`, no more chunks,
-  // or stop() was called. Each role is one thread.
+  // Returns the next chunk for this role, valid until done(). nullptr: no chunk arrived within
+  // `timeout`, no chunks remain, or stop() was called. Each role belongs to one thread.
   const LineChunk* next(Role role, std::chrono::milliseconds timeout);
   void done(Role role);
-  bool ended() const;     // all was read or reading failed, and the parser has taken all chunks
-  Status status() const;  // why reading failed
-  void stop();            // ends all waiting
+  // True: the source has ended or failed, and the parser has finished all chunks.
+  bool ended() const;
+  Status status() const;  // error of the source
+  void stop();            // wakes all waiting threads
 
  private:
   static constexpr std::size_t kChunks = 6;
@@ -41,13 +42,13 @@ class ChunkRing {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  LineReader lines_;  // used only by the role that reads now
+  LineReader lines_;  // used only by the thread that reads now
   bool parser_reads_;
   bool reading_ = false, ended_ = false, stopped_ = false;
   Status status_;
   std::array<LineChunk, kChunks> chunks_;
-  std::size_t read_ = 0;               // number of chunks read
-  std::array<std::size_t, 2> done_{};  // number of chunks finished, by role
+  std::size_t read_ = 0;               // number of chunks that were read
+  std::array<std::size_t, 2> done_{};  // number of finished chunks, for each role
 };
 
 }  // namespace mdof::drivers

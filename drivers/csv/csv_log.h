@@ -13,22 +13,23 @@
 
 namespace mdof::drivers {
 
-// Thread-bound except bytes() and bytes_total(), which any thread may call after open(). While open
-// it uses one thread, "csv read" of CsvRows.
+// Thread-bound, except bytes() and bytes_total(), which any thread may call after open(). While the
+// file is open, CsvRows may use one more thread, "csv read".
 class CsvLog : public Driver {
  public:
   // `path` "-" is the standard input, which can be opened only once.
   explicit CsvLog(std::string path, CsvRowsOptions options = {});
 
-  DeviceInfo info() const override;  // channels after open(); simulated if a comment says so
-  Status open() override;            // a second call starts again at the beginning of the file
+  // Channels: after open(); simulated: if a comment in the file says so.
+  DeviceInfo info() const override;
+  Status open() override;  // a second call starts again at the beginning of the file
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 
-  std::vector<std::string> comments() const;  // of the header, without '#'; after open()
-  std::string sha256() const;                 // of the file as stored, after the end; else ""
-  Notices notices() const;                    // after the end or an error; see CsvRows
-  std::uint64_t bytes() const;                // stored bytes read so far
-  std::uint64_t bytes_total() const;          // 0: not known
+  std::vector<std::string> comments() const;  // comments of the header, without '#'; after open()
+  std::string sha256() const;         // SHA-256 of the file as stored, after its end; otherwise ""
+  Notices notices() const;            // complete after the end or an error; see CsvRows
+  std::uint64_t bytes() const;        // number of bytes read from the file so far
+  std::uint64_t bytes_total() const;  // size of the file; 0: not known
 
  private:
   std::string path_;

@@ -1,5 +1,4 @@
-// Reads a CSV file of the bench in blocks: first the header, then the rows in the order of the
-// file.
+// Reads a CSV file of mdof in blocks: first the header, then the rows in the order of the file.
 #pragma once
 
 #include <chrono>
@@ -20,37 +19,37 @@ namespace mdof::drivers {
 
 struct CsvRowsOptions {
   CsvKind kind = CsvKind::probe_log;
-  CsvLimits limits;                                // bad_lines = 0 if each line must give a row
-  bool sha256 = true;                              // takes as long as parsing, on another core
-  std::size_t chunk_bytes = std::size_t{1} << 18;  // does not change the result
-  int descriptor = -1;  // read from its beginning instead of opening the path; owned by the caller
+  CsvLimits limits;                                // bad_lines = 0: every line must be a valid row
+  bool sha256 = true;                              // needs as much time as parsing, on another core
+  std::size_t chunk_bytes = std::size_t{1} << 18;  // has no effect on the result
+  // Open file, which is read from its beginning instead of `path`; the caller owns it.
+  int descriptor = -1;
 };
 
-// Thread-bound except bytes(). If there is other work than parsing (hashing, unpacking, waiting for
-// a pipe), it has one thread, "csv read", from open() to the end of the file or to the destructor.
-// It needs a few MB of memory for a file of any length. Blocks depend neither on timing nor on
+// Thread-bound except bytes(). If it must also hash, unpack or wait for a pipe, it has one thread
+// for this, "csv read", from open() to the end of the file or to the destructor. It needs a few MB
+// of memory for a file of any size. The contents of the blocks do not depend on timing or on
 // chunk_bytes.
 class CsvRows {
  public:
-  // Opens `path` ("-": standard input) and parses its header. The first bytes show whether it is
-  // gzip.
+  // Opens `path` ("-": standard input) and parses its header. Detects gzip data by the first bytes.
   static Result<std::unique_ptr<CsvRows>> open(const std::string& path,
                                                const CsvRowsOptions& options);
   ~CsvRows();
 
   const CsvHeader& header() const;
-  // Replaces `block` (its memory is reused); empty if no row arrived within `timeout`. An error is
-  // final and follows all rows before it.
+  // Replaces the contents of `block` and reuses its memory. The block is empty if no row arrived
+  // within `timeout`. An error is final; it is returned after all rows that precede it.
   Result<ReadState> next(SampleBlock& block, std::chrono::milliseconds timeout);
   Result<ReadState> next(SampleBlock& block);  // waits without limit
 
-  // SHA-256 of the stored bytes after the end; before, and without options.sha256: "".
+  // SHA-256 of the stored file, after its end; "" before the end and without options.sha256.
   std::string sha256() const;
   // After the end or an error: one notice for each skipped line and for each column with missing
-  // values. Before: empty.
+  // values. Before that: empty.
   Notices notices() const;
-  std::uint64_t bytes() const;        // stored bytes read so far
-  std::uint64_t bytes_total() const;  // 0: not known
+  std::uint64_t bytes() const;        // number of bytes read from the file so far
+  std::uint64_t bytes_total() const;  // size of the file; 0: not known
 
  private:
   class Reading;

@@ -1,4 +1,5 @@
-// Unpacks gzip data (RFC 1952) member by member and checks each CRC and length.
+// Unpacks gzip data (RFC 1952). The data may consist of several members; the CRC and the length of
+// each member are checked.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +19,11 @@ class Gunzip {
 
   Gunzip();
   ~Gunzip();
-  // Unpacks from `input` and removes the used bytes from it. Returns the number of bytes written;
-  // 0: more input is needed. Errors state the position, not the file.
+  // Unpacks bytes from `input` and removes these bytes from `input`. Returns the number of bytes
+  // written to `to`; 0: more input is needed. Errors state the position in the data, but not the
+  // name of the file.
   Result<std::size_t> unpack(std::string_view& input, char* to, std::size_t capacity);
-  // Call at the end of the input. Error: the input ends within a member.
+  // Call this at the end of the input. Error: the input ends before the end of a member.
   Status check_end() const;
 
  private:
@@ -30,7 +32,7 @@ class Gunzip {
   std::unique_ptr<z_stream_s> stream_;
   std::uint64_t unpacked_ = 0;
   bool between_members_ = true;
-  bool padding_ = false;  // zeros after the last member, as on tapes
+  bool padding_ = false;  // only zeros follow the last member, as on tapes
 };
 
 }  // namespace mdof::drivers

@@ -1,4 +1,4 @@
-// Cuts a ByteSource into chunks of whole lines.
+// Divides a ByteSource into chunks of complete lines.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace mdof::drivers {
 
-// Whole lines, each ending in LF, with kCsvMargin readable bytes before and behind.
+// Complete lines; each line ends in LF. kCsvMargin bytes before and after the text can be read.
 class LineChunk {
  public:
   std::string_view text() const { return text_; }
-  // The bytes that were read from the source for this chunk. In contrast to text(), they lack the
-  // beginning of the first line, which was read with the previous chunk, and contain the incomplete
-  // last line.
+  // The bytes that were read from the source for this chunk. They differ from text(): they do not
+  // contain the beginning of the first line, which was read with the previous chunk; they contain
+  // the incomplete last line.
   std::string_view read() const { return read_; }
 
  private:
@@ -27,10 +27,10 @@ class LineChunk {
 
 class LineReader {
  public:
-  // A chunk has up to `chunk_bytes` bytes; a longer line is an error.
+  // A chunk has at most `chunk_bytes` bytes. A longer line is an error.
   LineReader(ByteSource& source, std::size_t chunk_bytes);
-  // Replaces `chunk`, reusing its memory; an empty text means the end. Adds LF to a last line
-  // without LF.
+  // Replaces the contents of `chunk` and reuses its memory. An empty text means the end of the
+  // source. Adds LF if the last line of the source has none.
   Status read(LineChunk& chunk);
 
  private:
@@ -38,7 +38,7 @@ class LineReader {
 
   ByteSource& source_;
   std::size_t chunk_bytes_;
-  std::vector<char> carry_;  // incomplete line with which the next chunk begins
+  std::vector<char> carry_;  // incomplete line; the next chunk begins with it
   bool ended_ = false;
 };
 

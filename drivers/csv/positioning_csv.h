@@ -1,5 +1,5 @@
-// Readings of a test according to ISO 230-2 as CSV: columns target_mm, direction (1 or -1), run,
-// deviation_um; one row for each reading, in any order.
+// Reads the CSV file of a test according to ISO 230-2. Columns: target_mm, direction (1 or -1),
+// run, deviation_um. There is one row for each reading; the rows may have any order.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace mdof::drivers {
 
 struct PositioningCsv {
   std::string source;      // file name, for messages
-  bool simulated = false;  // a comment says so
+  bool simulated = false;  // true: a comment in the file says so
   std::vector<PositioningReading> readings;
 };
 

@@ -5,8 +5,9 @@
 
 namespace mdof::drivers {
 
-// Keys: source ("tcp://HOST:PORT", "fifo:PATH" or "serial:/dev/...") or command (a list), header,
-// start_s, silence_s, bad_lines, absolute; for a serial line also baud, parity, stop_bits.
+// Keys: either source ("tcp://HOST:PORT", "fifo:PATH" or "serial:/dev/...") or command (a list);
+// header, start_s, silence_s, bad_lines, absolute. A serial line also has baud, parity and
+// stop_bits.
 Result<DriverSpec> configure_csv_stream(TomlTable& table, const DriverContext& context);
 
 }  // namespace mdof::drivers

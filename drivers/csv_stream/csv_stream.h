@@ -1,4 +1,5 @@
-// Live rows of a probe log from a command's standard output, a FIFO, a TCP server or a serial line.
+// Driver for rows of a probe log that arrive during the measurement: from the standard output of a
+// command, a FIFO, a TCP server or a serial line.
 #pragma once
 
 #include <chrono>
@@ -19,41 +20,42 @@
 namespace mdof::drivers {
 
 struct CsvStreamOptions {
-  std::vector<std::string> command;  // exactly one of these four is set
+  std::vector<std::string> command;  // exactly one of command, fifo, server and port is set
   std::string fifo;
   std::optional<Endpoint> server;
   std::string port;  // device file of a serial line
   SerialSettings line{.baud = 115'200};
-  std::string header;                     // of a source that sends no header line
+  std::string header;                     // header line for a source that does not send one
   std::string folder;                     // working directory of the command
   std::chrono::milliseconds start{5000};  // longest wait for the header
   std::chrono::milliseconds silence{2000};
-  std::size_t bad_lines = 100;        // of 10,000 lines
-  std::vector<std::string> expected;  // channel ids; at least one column must be one of them
-  bool absolute = false;              // positions keep their zero when the source is started again
-  // Checks whether the rig can convert the columns of the header to lengths. Empty: no check.
+  std::size_t bad_lines = 100;        // most bad lines of 10,000 lines
+  std::vector<std::string> expected;  // channel ids; at least one column must have one of these ids
+  // True: the zero of the positions does not change when the source is started again.
+  bool absolute = false;
+  // Checks whether the rig can convert the units of the columns to lengths. Empty: no check.
   std::function<Status(const std::vector<Channel>&)> check_units;
 };
 
-// Thread-bound. With a column time_s the times are those of the device, converted by DeviceClock.
-// Without it they are times of arrival. Rows that arrive together are then spread evenly over the
-// time since the previous arrival, at most 50 ms; after a longer pause all rows except the newest
-// are suspect, because their times are uncertain.
-// A script may count positions from the position at which it was started. Therefore a datum that
-// was set is lost when the source is opened or sends its header again.
+// Thread-bound. If the rows have a column time_s, its times are converted by DeviceClock. Otherwise
+// the times are the times of arrival. Rows that arrive together are then distributed evenly over
+// the time since the previous arrival, but over at most 50 ms. After a longer pause, all of these
+// rows except the newest are suspect, because their times are uncertain.
+// A script may count positions from the position at which the script was started. Therefore a datum
+// that the user has set is lost when the source is opened again or sends its header again.
 class CsvStream final : public Driver {
  public:
   CsvStream(std::string name, CsvStreamOptions options);
 
-  DeviceInfo info() const override;           // channels after open()
-  const DeviceClock* clock() const override;  // of rows with time_s; else nullptr
-  // Waits up to options.start for the header.
+  DeviceInfo info() const override;           // channels: after open()
+  const DeviceClock* clock() const override;  // nullptr if the rows have no time_s
+  // Waits for the header, at most options.start.
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 
   void trust_count() override;
 
-  // Number since open().
+  // Number of bad lines since open().
   std::uint64_t bad_lines() const { return protocol_ ? protocol_->bad_lines() : 0; }
   Notices notices() const;
 
@@ -62,7 +64,7 @@ class CsvStream final : public Driver {
     std::int64_t time_ns;  // time of the host
     std::vector<double> values;
     std::uint64_t lost;
-    bool suspect, unplaced;  // unplaced: only the encoder is suspect
+    bool suspect, unplaced;  // unplaced: only the position of the encoder is suspect
   };
   struct TimePair {
     std::int64_t device_ns, host_ns;
@@ -89,13 +91,13 @@ class CsvStream final : public Driver {
   CsvStreamOptions options_;
   std::unique_ptr<ChildProcess> child_;
   std::optional<ByteStream> stream_;
-  bool waits_for_writer_ = false;  // no program has written to the FIFO yet
+  bool waits_for_writer_ = false;  // true: no program has written to the FIFO yet
   std::optional<CsvStreamProtocol> protocol_;
   DeviceClock clock_{1.0};  // a tick of time_s is 1 ns
-  std::deque<Row> rows_;    // received, not yet returned
-  Status status_;           // reported after rows_ is empty
+  std::deque<Row> rows_;    // rows that were received and not returned yet
+  Status status_;           // error; read() returns it after all rows_
   bool datum_set_ = false, datum_lost_ = false;
-  bool in_first_line_ = false;  // of a serial line; reading may have begun in the middle of it
+  bool in_first_line_ = false;  // serial line only: the first line may be incomplete
   std::optional<TimePair> pace_from_;
   std::int64_t last_row_ns_ = 0, last_received_ns_ = 0, last_time_ns_ = 0;
 };

@@ -1,4 +1,4 @@
-// A simulated script that serves its readings as CSV rows.
+// A simulated script that sends its readings as CSV rows.
 #pragma once
 
 #include <map>
@@ -11,21 +11,22 @@
 
 namespace mdof::drivers {
 
-// Sends the header to each client, then a row each 1/rate_hz s. `senses` gives the value of each
-// column.
+// Sends the header to each client, then one row every 1/rate_hz s. `senses` returns the value of
+// each column.
 class SimulatedCsvStream final : public SimulatedDevice {
  public:
-  // Row numbers start at 0 for each client; -1: never.
+  // The rows of each client are numbered from 0; -1: never.
   struct Faults {
     bool no_header = false;
-    int bad_line_every = 0;  // each n-th row ends in a word; 0: none
-    int cut_row = -1;        // row that is sent half, then the connection breaks
+    int bad_line_every = 0;  // each n-th row ends in a word; 0: no row
+    int cut_row = -1;        // half of this row is sent, then the connection is closed
     int silent_from = -1;    // no rows from this row on
-    int restart_at = -1;     // before this row the header comes again, and time_s starts at 0
-    double time_scale = 1;   // 1000: milliseconds in time_s
+    int restart_at = -1;     // before this row the header is sent again, and time_s starts at 0
+    double time_scale = 1;   // factor; 1000: time_s contains milliseconds
   };
   struct Options {
-    std::vector<std::string> columns;  // without time_s, as in the header: "encoder_mm", "A_um"
+    // Names as in the header, without time_s: "encoder_mm", "A_um".
+    std::vector<std::string> columns;
     double rate_hz = 1000;
     bool with_time = true;
     Faults faults = {};
@@ -53,7 +54,8 @@ class SimulatedCsvStream final : public SimulatedDevice {
   std::map<int, Client> clients_;
 };
 
-// Makes the twin from a plan of mdof-simulate. Rows "time_s,encoder_mm,A_um,..." at rate_hz.
+// Makes the twin from a plan of mdof-simulate. It sends rows "time_s,encoder_mm,A_um,..." at
+// rate_hz.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_csv_stream(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

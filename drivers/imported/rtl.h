@@ -1,7 +1,8 @@
-// Renishaw's text format of a test (.rtl): sections HEADER::, TARGET DATA::, USER-TEXT::, RUNS::,
-// DEVIATIONS::. Targets are in mm, deviations in µm. There is no public description; the layout is
-// taken from independent programs that read and write the format. Odd runs go from the first target
-// to the last, even runs go back. The scale of angles (.rta) is not known.
+// Reads Renishaw's text format of a test (.rtl). Its sections are HEADER::, TARGET DATA::,
+// USER-TEXT::, RUNS:: and DEVIATIONS::. Targets are in mm, deviations in µm. There is no public
+// description; the layout is taken from independent programs that read and write the format. Odd
+// runs go from the first target to the last target, even runs go back. The scale of the angles in
+// .rta files is not known.
 #pragma once
 
 #include <string>

@@ -1,5 +1,4 @@
-// Starts a program to read its standard output; opens a FIFO for programs that are started
-// separately.
+// Starts a program and reads its standard output. Opens a FIFO to which a separate program writes.
 #pragma once
 
 #include <sys/types.h>
@@ -16,12 +15,12 @@
 
 namespace mdof::drivers {
 
-// Thread-bound. The destructor ends all processes in the program's process group: SIGTERM, half a
-// second later SIGKILL.
+// Thread-bound. The destructor ends all processes in the program's process group: it sends SIGTERM,
+// and SIGKILL 0.5 s later.
 class ChildProcess {
  public:
   // `command[0]` is searched in PATH unless it contains '/'; no shell is used. The program runs in
-  // `folder` with empty standard input. Error: it cannot be started.
+  // `folder`; its standard input is empty. Error: the program cannot be started.
   static Result<std::unique_ptr<ChildProcess>> start(const std::vector<std::string>& command,
                                                      const std::string& folder);
   ~ChildProcess();
@@ -29,11 +28,11 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   ByteStream& output() { return output_; }
-  // Reads the program's standard error and keeps its last line. Call it regularly: the program
+  // Reads the standard error of the program and keeps the last line. Call it regularly: the program
   // blocks when 64 KiB are unread.
   void take_errors();
-  // How the program ended, after its output has ended: "has exited with status 3; its last line of
-  // standard error: ...". Waits briefly for the exit.
+  // Text that states how the program has ended: "has exited with status 3; its last line of
+  // standard error: ...". Call it after the output has ended. Waits briefly for the exit.
   std::string exit_description();
 
  private:
@@ -46,7 +45,7 @@ class ChildProcess {
   std::string unfinished_, last_line_;
 };
 
-// Opens the FIFO for reading. Errors: it does not exist, or it is not a FIFO.
+// Opens the FIFO for reading. Errors: the path does not exist, or it is not a FIFO.
 Result<ByteStream> open_fifo(const std::string& path);
 // Returns true if bytes have arrived or the writer has closed the FIFO. Do not read a FIFO before a
 // writer has opened it: read() would report its end.

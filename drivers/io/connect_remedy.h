@@ -6,8 +6,8 @@
 
 namespace mdof::drivers {
 
-// `error`: errno of connect(2). `service`: systemd started this program and may block its network
-// access: packets are then refused or dropped silently.
+// `error`: errno of connect(2). `service`: true if systemd has started this program. systemd may
+// block the network access of a service; the kernel then rejects or drops its packets.
 Error connect_error(const Endpoint& to, int error, bool service);
 
 }  // namespace mdof::drivers

@@ -1,9 +1,9 @@
-// HID devices through hidapi with the hidraw back end. Only this file calls hidapi. libudev finds
-// the devices (hid_list.cpp gives the reason).
+// HID devices through hidapi with its hidraw back end. Only hid.cpp calls hidapi. libudev finds the
+// devices (hid_list.cpp states why).
 //
-// hidapi has global state (its last error) and is not thread-safe. Therefore a mutex of the process
-// serialises opening and closing, and the library is never shut down, because another driver may
-// use it. An open device is used by one thread without this mutex.
+// hidapi has global state (its last error) and is not thread-safe. Therefore a global mutex
+// serialises opening and closing. The library is never shut down, because another driver may use
+// it. After a device is open, one thread uses the device without this mutex.
 #pragma once
 
 #include <chrono>
@@ -21,22 +21,23 @@ namespace mdof::drivers {
 struct HidEntry {
   std::string path;  // "/dev/hidraw3"
   std::uint16_t product = 0;
-  std::string serial;  // string of the device; "": it has none
+  std::string serial;  // serial number string of the device; "": the device has none
   int interface = -1;  // -1: the bus has no interfaces (uhid)
 };
 
-// Every connected HID interface of this vendor. Any thread may call it.
+// Returns each connected HID interface of this vendor. Any thread may call it.
 std::vector<HidEntry> list_hid(std::uint16_t vendor);
 
 // Thread-bound.
 class HidDevice {
  public:
-  // Errors name the path and the remedy, also if another program uses the device (device_lock.h).
+  // Errors name the path and the remedy. One error is that another program uses the device
+  // (device_lock.h).
   static Result<HidDevice> open(const std::string& path);
-  // Sends an output report without report number. Error: the device is gone.
+  // Sends an output report without report number. Error: the device is disconnected.
   Status write(std::string_view report);
-  // The next input report, at most `most` bytes; "": none before the time-out. Error: the device is
-  // gone.
+  // Returns the next input report, at most `most` bytes; "": no report arrived before the time-out.
+  // Error: the device is disconnected.
   Result<std::string> read(std::size_t most, std::chrono::milliseconds timeout);
   const std::string& path() const { return path_; }
 

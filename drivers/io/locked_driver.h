@@ -1,12 +1,13 @@
-// A driver that holds the lock of its device.
+// A driver that locks its device.
 #pragma once
 
 #include "drivers/driver_spec.h"
 
 namespace mdof::drivers {
 
-// Returns `spec` with drivers that take the device's lock at the first open() and keep it for life,
-// even while the device is absent. open() fails while another program holds the lock.
+// Changes make() of `spec`: its drivers lock the device at their first open() and unlock it in the
+// destructor, even if the device was disconnected meanwhile. open() fails while another program has
+// the lock.
 DriverSpec locked(DriverSpec spec);
 
 }  // namespace mdof::drivers

@@ -1,4 +1,4 @@
-// Keys of a serial line in mdofd.toml: baud, parity and stop_bits of a device.
+// Reads the keys of a serial line in mdofd.toml: baud, parity and stop_bits.
 #pragma once
 
 #include "drivers/io/byte_stream.h"
@@ -6,7 +6,8 @@
 
 namespace mdof::drivers {
 
-// Missing keys leave `line` unchanged. Invalid values are rejected at their keys.
+// A missing key leaves the member of `line` unchanged. The error for an invalid value names the
+// key.
 void read_serial_settings(TomlTable& table, SerialSettings& line);
 
 }  // namespace mdof::drivers

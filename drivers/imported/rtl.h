@@ -13,14 +13,17 @@
 
 namespace mdof::drivers {
 
-// Returns the readings in the order of the file, and the file's statements on machine, date and
-// place (a legacy code page is read as Latin-1). Errors name file, line and the expected contents:
-// wrong counts; targets that neither increase nor decrease; a deviation or a count that is given
-// twice or missing; a run in the wrong direction or with zeros only; a file of angles (by its name,
-// its type or its Owner); unless `error_is_stated`, also a file of straightness, flatness or
-// squareness, because the import names the measured error. If all runs of one direction contain
-// zeros only, they are left out, with a notice. Decreasing targets also give a notice: odd runs
-// then go in the - direction.
+// Returns the readings in the order of the file, and what the file states about machine, date and
+// place. A text in a legacy code page is read as Latin-1. If all runs of one direction contain
+// zeros only, these runs are omitted and a notice is made. If the targets decrease, the odd runs
+// have the - direction and a notice is made. Errors name file, line and the expected contents:
+// - the number of targets, runs or deviations is wrong;
+// - the targets neither increase nor decrease;
+// - a deviation or a number is given twice or is missing;
+// - a run has the wrong direction or contains zeros only;
+// - the file contains angles (according to its name, its type or its Owner);
+// - `error_is_stated` is false and the type of the file is straightness, flatness or squareness;
+// the user must then name the error.
 Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& source,
                                  bool error_is_stated = false);
 

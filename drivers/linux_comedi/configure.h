@@ -1,4 +1,4 @@
-// The table [axis.device] with driver = "linux_comedi" (keys: drivers/README.md).
+// Reads the table [axis.device] with driver = "linux_comedi" (keys: drivers/README.md).
 #pragma once
 
 #include "drivers/driver_spec.h"
@@ -7,7 +7,7 @@
 
 namespace mdof::drivers {
 
-// Reads all keys and finishes the table. Errors name file, line and key.
+// Reads all keys and rejects unknown keys. Errors name file, line and key.
 Result<linux_comedi::Settings> read_linux_comedi(TomlTable& table, const DriverContext& context);
 Result<DriverSpec> configure_linux_comedi(TomlTable& table, const DriverContext& context);
 

@@ -1,11 +1,11 @@
-// Amplifier outputs at a board with a Linux Comedi driver, through comedilib: up to all its
-// analogue inputs in one hardware-timed scan.
+// Driver for a board with a Linux Comedi driver, through comedilib. One hardware-timed scan
+// contains the outputs of the amplifiers at the analogue inputs.
 //
-// Comedi neither stamps nor counts scans. The driver counts them from the start of the command:
-// scan k was taken at the start + k / rate of the board's clock. DeviceClock converts this time to
-// the host's clock from the arrivals. If a buffer overruns, the kernel ends the command; all
-// earlier data are valid. The error makes the caller open the driver again, which starts a new
-// command.
+// Comedi neither numbers the scans nor sends time stamps. The driver counts the scans from the
+// start of the command: scan k was taken at the time start + k / rate of the board's clock.
+// DeviceClock converts this time to the host's clock from the times at which data arrive. If a
+// buffer overflows, the kernel ends the command; all data before that are valid. read() then
+// returns an error, after which the caller calls open() again, and open() starts a new command.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace mdof::drivers::linux_comedi {
 
-// Thread-bound. Channels: Unit::volt.
+// Thread-bound. Unit of the channels: Unit::volt.
 class LinuxComedi final : public Driver {
  public:
   explicit LinuxComedi(Settings settings);
@@ -46,17 +46,18 @@ class LinuxComedi final : public Driver {
   std::vector<Channel> channels_;
   std::unique_ptr<Board> board_;
   Setup setup_;
-  double rate_hz_;     // true rate
+  double rate_hz_;     // actual rate
   DeviceClock clock_;  // a tick is a scan
   CodeSplitter line_;
   std::vector<char> buffer_;
-  std::vector<std::uint32_t> codes_;  // of scans received but not yet returned
-  std::uint64_t first_ = 0;           // number of the first scan in codes_ since the start
-  std::int64_t received_ns_ = 0;      // newest arrival; initially the time of the start
-  Status broken_;                     // the error that ended the stream
+  std::vector<std::uint32_t> codes_;  // codes of scans that were received and not returned yet
+  std::uint64_t first_ = 0;           // number of the first scan in codes_, counted from the start
+  // Newest time of arrival; before the first arrival, the time of the start.
+  std::int64_t received_ns_ = 0;
+  Status broken_;  // the error that ended the stream
 
-  std::int64_t last_time_ns_ = 0;  // of the last returned scan
-  bool reopened_ = false;          // since the last returned scan
+  std::int64_t last_time_ns_ = 0;  // time of the last returned scan
+  bool reopened_ = false;          // true: the board was opened again after the last returned scan
 };
 
 }  // namespace mdof::drivers::linux_comedi

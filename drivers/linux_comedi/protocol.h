@@ -1,6 +1,6 @@
-// Commands, codes and volts of Comedi. Pure. Sources: Linux-Comedi/comedilib demo/cmd.c
-// (prepare_cmd, main), lib/cmd.c (__generic_timed), lib/range.c (comedi_to_phys), lib/calib.c
-// (apply_polynomial).
+// Conversions of Comedi's commands, codes and volts. Pure. Sources: Linux-Comedi/comedilib
+// demo/cmd.c (prepare_cmd, main), lib/cmd.c (__generic_timed), lib/range.c (comedi_to_phys),
+// lib/calib.c (apply_polynomial).
 #pragma once
 
 #include <cstddef>
@@ -17,28 +17,30 @@ namespace mdof::drivers::linux_comedi {
 const char* name_of(Reference reference);
 std::optional<Reference> reference_of(const std::string& name);
 
-// Index of the range with these limits; nullopt: there is none.
+// Index of the range with these limits; nullopt: no range has these limits.
 std::optional<unsigned> range_index(const std::vector<Range>& ranges, double low_v, double high_v);
 std::string text_of(const Range& range);  // "-10 to 10 V"
 
 struct ScanTiming {
   double rate_hz = 0;
-  std::optional<double> convert_us;  // time between inputs; nullopt: simultaneous if possible
+  // Time between two inputs; nullopt: simultaneous if the board can do this.
+  std::optional<double> convert_us;
 };
-// A command that scans `inputs` until it is stopped. `sources`: the sources that the board
-// supports. Error: the board has no timer for scans.
+// Returns a command that scans `inputs` until the command is stopped. `sources`: the sources that
+// the board supports. Error: the board has no timer for scans.
 Result<Command> timed_command(const Command& sources, unsigned subdevice,
                               const std::vector<BoardInput>& inputs, const ScanTiming& timing);
-double rate_of(const Command& command);  // scans a second
-// Time from input to input; 0: simultaneous.
+double rate_of(const Command& command);  // scans per second
+// Time between two successive inputs of a scan; 0: simultaneous.
 double convert_us(const Command& command);
-const char* failed_step(int test);  // text of comedilib for a result of Board::test()
+const char* failed_step(int test);  // comedilib's text for a result of Board::test()
 
-// Cuts received bytes of any length into the codes of whole scans.
+// Divides received bytes into the codes of complete scans. The bytes may arrive in portions of any
+// size.
 class CodeSplitter {
  public:
   CodeSplitter(std::size_t inputs, bool long_samples);
-  // Appends the codes of the scans that end in `bytes`, scan by scan.
+  // Appends the codes of the scans that end in `bytes`, one scan after the other.
   void take(std::string_view bytes, std::vector<std::uint32_t>& codes);
 
  private:
@@ -46,7 +48,7 @@ class CodeSplitter {
   std::string begun_;
 };
 
-// Conversion for a board without a calibration file.
+// Conversion to volts for a board without a calibration file.
 Polynomial nominal(const Range& range, std::uint32_t greatest_code);
 double volts(std::uint32_t code, const Polynomial& to_volts);
 // Whether the code is at an end of the range, where comedi_to_phys returns NaN.

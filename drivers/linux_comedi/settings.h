@@ -1,4 +1,4 @@
-// Settings of a Comedi board: the checked keys of its table.
+// Settings of a Comedi board, checked, from the keys of its table.
 #pragma once
 
 #include <optional>
@@ -13,20 +13,21 @@ namespace mdof::drivers::linux_comedi {
 
 struct InputSetting {
   Channel channel;
-  unsigned number = 0;              // CHn
-  double low_v = -10, high_v = 10;  // of its range
+  unsigned number = 0;              // n of the input CHn
+  double low_v = -10, high_v = 10;  // limits of the range
   Reference reference = Reference::ground;
 };
 
 struct Settings {
-  std::string name;  // of the device
+  std::string name;  // name of the device
   std::string device = "/dev/comedi0";
-  std::string board;                  // required name of the board; "": any
-  std::optional<unsigned> subdevice;  // nullopt: the first that streams analogue inputs
+  std::string board;  // required name of the board; "": any board
+  // Nullopt: the first subdevice that can stream analogue inputs.
+  std::optional<unsigned> subdevice;
   double rate_hz = 1000;
-  std::optional<double> convert_us;  // time from input to input of a scan
+  std::optional<double> convert_us;  // time between two successive inputs of a scan
   std::vector<InputSetting> inputs;
-  EncoderOrigin encoder = {};  // if an input is the encoder, in volts
+  EncoderOrigin encoder = {};  // valid if an input is the encoder, in volts
   BoardOpener open = open_board;
 };
 

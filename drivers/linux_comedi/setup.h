@@ -1,4 +1,5 @@
-// Makes a command for the board from the settings, and the conversion of its codes to volts.
+// Makes, from the settings, a command for the board and the conversion of the board's codes to
+// volts.
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace mdof::drivers::linux_comedi {
 
-struct Conversion {  // of an input
+struct Conversion {  // for one input
   Polynomial to_volts;
   std::uint32_t greatest_code = 0;
 };
@@ -19,14 +20,14 @@ struct Conversion {  // of an input
 struct Setup {
   Command command;
   bool long_samples = false;
-  std::vector<Conversion> conversions;  // [input]
-  double buffer_s = 0;                  // duration that the kernel's buffer holds
+  std::vector<Conversion> conversions;  // one for each input
+  double buffer_s = 0;                  // duration of the data that fit into the kernel's buffer
   std::string description;
   Notices notices;
 };
 
-// Errors: another board, or a board without something that the settings need; the message lists
-// what the board has.
+// Errors: the board is not the required one, or the board lacks something that the settings need.
+// The message lists what the board supports.
 Result<Setup> set_up(Board& board, const Settings& settings);
 
 }  // namespace mdof::drivers::linux_comedi

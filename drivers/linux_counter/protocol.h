@@ -10,14 +10,14 @@
 
 namespace mdof::drivers {
 
-// Unwraps a count from 0 to `ceiling` that moves by less than half of this range between two
-// readings. The first reading is taken as a signed number: just below the ceiling means just below
-// 0. Pure.
+// Extends a count from 0 to `ceiling` over its overflows. Between two readings the count must move
+// by less than half of this range. The first reading is read as a signed number: a count just below
+// the ceiling is a position just below 0. Pure.
 class CountUnwrap {
  public:
-  // `ceiling` is at least 1; 2^64 - 1 is allowed.
+  // `ceiling`: at least 1; 2^64 - 1 is allowed.
   explicit CountUnwrap(std::uint64_t ceiling) : ceiling_(ceiling) {}
-  // nullopt: `raw` is above the ceiling, so it is not a count.
+  // nullopt: `raw` is larger than the ceiling, so it cannot be a count.
   std::optional<std::int64_t> operator()(std::uint64_t raw);
 
  private:
@@ -26,17 +26,18 @@ class CountUnwrap {
   std::int64_t total_ = 0;
 };
 
-// Error: a file of the device must be set to `value`.
+// Returns the error that a file of the device must contain `value`.
 tl::unexpected<Error> needs_setting(const std::string& file, const std::string& why,
                                     const std::string& value);
 
-// Contents of the files beside `count`; nullopt: the file does not exist.
+// Contents of the files in the folder of the count; nullopt: the file does not exist.
 struct CountFiles {
   std::optional<std::string> function, count_mode, enable, ceiling, floor;
 };
-// Returns the ceiling of a count that can give positions. Errors state which file needs which text:
-// the count is paused, it stops at its limits, `function` is not the required one (empty: any), its
-// ceiling is unknown. `ceiling`: from the configuration; 0: not given. `path`: folder of the count.
+// Checks that a count can be used for positions, and returns its ceiling. `function`: required
+// function (empty: any). `ceiling`: from the configuration; 0: not given. `path`: folder of the
+// count. Errors state which text must be in which file: the count is paused; it stops at its
+// limits; it has another function; its ceiling is unknown.
 Result<std::uint64_t> check_count(const CountFiles& files, const std::string& path,
                                   const std::string& function, std::uint64_t ceiling);
 

@@ -1,4 +1,4 @@
-// A simulated counter of the Linux counter subsystem: its sysfs files.
+// A simulated counter of the Linux counter subsystem, as files of sysfs.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,12 @@
 
 namespace mdof::drivers {
 
-// Makes sysfs_root/bus/counter/devices/counter0 with count0: value 0, quadrature x4, `ceiling`.
+// Makes the folder sysfs_root/bus/counter/devices/counter0 with count0: count 0, function
+// quadrature x4, `ceiling`.
 Result<SimulatedTree> make_counter_tree(const std::filesystem::path& sysfs_root,
                                         std::uint64_t ceiling);
 
-// Senses: input 0, counts. turn() writes them to the files.
+// Senses: input 0, counts. turn() writes the count to its file.
 class SimulatedLinuxCounter final : public SimulatedDevice {
  public:
   struct Options {
@@ -33,7 +34,7 @@ class SimulatedLinuxCounter final : public SimulatedDevice {
   SimulatedTree tree_;
 };
 
-// Makes the twin from a plan of mdof-simulate. Counts of the given channel; default: the encoder.
+// Makes the twin from a plan of mdof-simulate. It counts the given channel; default: the encoder.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_linux_counter(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

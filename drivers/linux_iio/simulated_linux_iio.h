@@ -1,4 +1,4 @@
-// A simulated AD7746 of Linux industrial I/O: its sysfs files.
+// A simulated AD7746 of the Linux IIO subsystem, as files of sysfs.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,17 @@
 
 namespace mdof::drivers {
 
-// Makes sysfs_root/bus/iio/devices/iio:device0: an AD7746 without probes, 9 Hz.
+// Makes the folder sysfs_root/bus/iio/devices/iio:device0: an AD7746 without probes, sampling rate
+// 9 Hz.
 Result<SimulatedTree> make_ad7746_tree(const std::filesystem::path& sysfs_root);
 
-// Senses: inputs 0 and 1, gaps in µm in front of guarded electrodes. turn() writes the capacitances
-// to the files.
+// Senses: inputs 0 and 1 are gaps in µm in front of guarded electrodes. turn() writes the
+// capacitances to the files.
 class SimulatedLinuxIio final : public SimulatedDevice {
  public:
   struct Options {
     std::filesystem::path sysfs_root;
-    double area_mm2 = 0;     // of the electrodes
+    double area_mm2 = 0;     // area of each electrode
     std::size_t inputs = 0;  // number of inputs with a probe
   };
   // Error: the folder cannot be written.
@@ -36,7 +37,8 @@ class SimulatedLinuxIio final : public SimulatedDevice {
   Options options_;
 };
 
-// Makes the twin from a plan of mdof-simulate. Gaps in µm in front of electrodes of area_mm2.
+// Makes the twin from a plan of mdof-simulate. The probes have gaps in µm and electrodes of
+// area_mm2.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_linux_iio(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

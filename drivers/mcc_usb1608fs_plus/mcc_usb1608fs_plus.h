@@ -1,12 +1,13 @@
-// Measurement Computing USB-1608FS-Plus over USB: up to eight amplifier outputs, sampled at the
-// same instant.
+// Driver of a Measurement Computing USB-1608FS-Plus over USB: the outputs of up to eight
+// amplifiers, all sampled at the same instant.
 //
-// The device neither stamps nor counts its scans. The driver counts them: scan k was taken at the
-// start + k / rate of the device's clock. DeviceClock converts this time to the host's clock from
-// the arrivals of transfers. The count is right only while no scan is missing. If the FIFO of the
-// device overruns, only its status reports this, without the position. Therefore scans are returned
-// only after a status that was requested after their arrival reports no overrun. After an overrun
-// the remaining scans are discarded and the stream is started again.
+// The device neither numbers its scans nor sends time stamps. The driver counts the scans: scan k
+// was taken at the time start + k / rate of the device's clock. DeviceClock converts this time to
+// the host's clock from the times at which transfers arrive. The count is correct only while no
+// scan is missing. If the FIFO of the device overflows, only the status of the device reports this,
+// without the position of the missing scans. Therefore the driver requests a status after the
+// arrival of scans, and returns these scans only if the status reports no overrun. After an overrun
+// the driver discards the remaining scans and starts the stream again.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@
 
 namespace mdof::drivers::mcc_usb1608fs_plus {
 
-// Thread-bound. Channels: Unit::volt.
+// Thread-bound. Unit of the channels: Unit::volt.
 class MccUsb1608fsPlus final : public Driver {
  public:
   explicit MccUsb1608fsPlus(Settings settings);
@@ -46,8 +47,8 @@ class MccUsb1608fsPlus final : public Driver {
 
   Settings settings_;
   ScanSetup setup_;
-  double rate_hz_;                 // true rate
-  std::vector<std::size_t> word_;  // index in a scan, for each channel
+  double rate_hz_;                 // actual rate
+  std::vector<std::size_t> word_;  // position of each channel in a scan
   std::string description_;
   std::vector<Channel> channels_;
   std::optional<usb::Handle> handle_;
@@ -56,14 +57,15 @@ class MccUsb1608fsPlus final : public Driver {
 
   DeviceClock clock_;  // a tick is a scan
   ScanSplitter line_;
-  std::vector<std::uint16_t> words_;  // of scans received but not yet returned
-  std::uint64_t first_ = 0;           // number of the first scan in words_ since the start
-  std::size_t confirmed_ = 0;         // number of scans in words_ that a status has confirmed
+  std::vector<std::uint16_t> words_;  // words of scans that were received and not returned yet
+  std::uint64_t first_ = 0;           // number of the first scan in words_, counted from the start
+  std::size_t confirmed_ = 0;  // number of scans in words_ after which a status reported no overrun
   Time next_status_;
-  std::int64_t last_chunk_ns_ = 0;  // host time; initially the time of the start
+  // Host time when it arrived; before the first transfer, the time of the start.
+  std::int64_t last_chunk_ns_ = 0;
 
-  std::int64_t last_time_ns_ = 0;  // of the last returned scan
-  bool reopened_ = false;          // since the last returned scan
+  std::int64_t last_time_ns_ = 0;  // time of the last returned scan
+  bool reopened_ = false;          // true: the device was opened again after the last returned scan
 };
 
 }  // namespace mdof::drivers::mcc_usb1608fs_plus

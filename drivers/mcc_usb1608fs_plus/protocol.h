@@ -1,6 +1,7 @@
 // Measurement Computing USB-1608FS-Plus: eight 16-bit converters that sample at the same instant.
-// Vendor control requests, and samples on bulk IN 0x81; bytes <-> values, little-endian. Sources:
-// Measurement Computing's uldaq (Usb1608fsPlus, AiUsb1608fsPlus), W. Jasper's mcc-libusb.
+// Conversion between bytes (little-endian) and values, for the vendor control requests and the
+// samples on bulk IN 0x81. Sources: Measurement Computing's uldaq (Usb1608fsPlus, AiUsb1608fsPlus),
+// W. Jasper's mcc-libusb.
 #pragma once
 
 #include <array>
@@ -46,22 +47,22 @@ std::optional<Range> range_of(double volts);
 
 inline constexpr double kClock_Hz = 40e6;
 struct ScanSetup {
-  std::uint32_t scans = 0;  // 0: until stopped
+  std::uint32_t scans = 0;  // number of scans; 0: until stopped
   std::uint32_t period = 0;
-  std::uint8_t channels = 0;  // bit n: input n; lowest first in a scan
+  std::uint8_t channels = 0;  // bit n is set: input n is scanned; lowest input first
   std::uint8_t options = 0;
 };
 enum Option : std::uint8_t {
-  kImmediate = 0x01,  // each scan is sent without waiting for a full packet
+  kImmediate = 0x01,  // the device sends each scan without waiting for a full packet
   kTestPattern = 0x20,
   kNoStall = 0x80,  // an overrun does not stall the endpoint
 };
-// Period of the nearest rate.
+// Period for the nearest possible rate.
 std::uint32_t pacer_period(double rate_hz);
 double rate_of(std::uint32_t period);
 std::string scan_start(const ScanSetup& setup);
 std::optional<ScanSetup> read_scan_start(std::string_view bytes);
-// The same range code for each input.
+// Bytes that set the same range code for each input.
 std::string config(std::uint8_t code);
 
 struct DeviceStatus {
@@ -70,11 +71,11 @@ struct DeviceStatus {
 Result<DeviceStatus> read_status(std::string_view reply);
 std::string status_reply(const DeviceStatus& status);
 
-// Cuts the samples of transfers of any length into scans.
+// Divides the samples of transfers into scans. A transfer may have any length.
 class ScanSplitter {
  public:
   explicit ScanSplitter(std::size_t words) : words_(words) {}
-  // Appends the words of the scans that end in `bytes`, scan by scan.
+  // Appends the words of the scans that end in `bytes`, one scan after the other.
   void take(std::string_view bytes, std::vector<std::uint16_t>& words);
 
  private:
@@ -86,17 +87,17 @@ class ScanSplitter {
 
 inline constexpr std::size_t kPairBytes = 8;
 struct Calibration {
-  float slope = 1, offset = 0;  // in codes
+  float slope = 1, offset = 0;  // offset in codes
 };
 using Calibrations = std::array<Calibration, kInputs>;
-// Address of the constants of a range and input in the calibration memory.
+// Address, in the calibration memory, of the constants for a range and an input.
 std::uint16_t calibration_address(std::uint8_t range_code, std::size_t input);
-// Error: impossible constants, because the memory was erased or is damaged.
+// Error: the constants are impossible, because the memory was erased or is damaged.
 Result<Calibration> read_calibration(std::string_view pair);
-// A calibration memory with these constants for every range.
+// Makes a calibration memory with the same constants for every range.
 std::string calibration_memory(const Calibrations& calibrations);
 
-// Neither rounded to a code nor clipped at the ends of the range. The vendor's library does the
+// The result is neither rounded to a code nor limited to the range. The vendor's library does the
 // same; rounding would add quantisation noise.
 double volts(std::uint16_t raw, const Calibration& calibration, double range_v);
 // Whether the uncalibrated code is at an end of the converter's range.

@@ -1,4 +1,4 @@
-// Settings of a USB-1608FS-Plus: the checked keys of its table.
+// Settings of a USB-1608FS-Plus, checked, from the keys of its table.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,21 @@ namespace mdof::drivers::mcc_usb1608fs_plus {
 
 struct Input {
   Channel channel;
-  std::size_t input = 0;  // CHn
+  std::size_t input = 0;  // n of the input CHn
 };
 
 struct Settings {
-  std::string name;    // of the device
-  std::string serial;  // "": the only connected device
+  std::string name;    // name of the device
+  std::string serial;  // "": exactly one device must be connected
   double rate_hz = 1000;
   Range range = kRanges.front();
-  std::vector<Input> inputs;   // in the order of the configuration; the device sends them by number
-  EncoderOrigin encoder = {};  // if an input is the encoder, in volts
+  // In the order of the configuration; the device sends them in the order of their numbers.
+  std::vector<Input> inputs;
+  EncoderOrigin encoder = {};  // valid if an input is the encoder, in volts
 };
 
 std::uint8_t mask_of(const std::vector<Input>& inputs);
-// A transfer contains the data of 5 ms; transfers for a quarter of a second are pending.
+// A transfer contains the data of 5 ms. Transfers for 0.25 s are pending at any time.
 usb::InStream::Options transfers_for(double samples_hz);
 ScanSetup scan_setup(const Settings& settings);
 

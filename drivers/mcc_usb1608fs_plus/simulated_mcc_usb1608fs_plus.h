@@ -1,4 +1,4 @@
-// A simulated USB-1608FS-Plus: the USB side of the device.
+// A simulated USB-1608FS-Plus. It implements the USB interface of the device.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,18 @@ namespace mdof::drivers::mcc_usb1608fs_plus {
 // Senses: inputs 0 ... 7 are CH0 ... CH7 in V, all sampled at the time of the scan.
 class SimulatedMccUsb1608fsPlus final : public usb::SimulatedUsb {
  public:
-  // Possible faults. Each occurs at the first scan taken with this number or a higher one; counted
-  // from 0 in each run; -1: never.
+  // Possible faults. The scans of each run are numbered from 0. A fault `..._at` occurs at the
+  // first scan whose number is equal to or greater than this value; -1: never.
   struct Faults {
-    std::int64_t overrun_at = -1;  // the FIFO overruns: `overrun` scans are missing
+    std::int64_t overrun_at = -1;  // the FIFO overflows: `overrun` scans are missing
     std::uint64_t overrun = 1000;
-    bool stalls = false;            // stall at an overrun although kNoStall is set
-    std::int64_t drop_at = -1;      // one scan is missing without a report (no device does this)
-    std::size_t short_packets = 0;  // bytes after which each transfer ends
-    std::int64_t silent_at = -1;    // no more scans arrive, although the status is running
+    bool stalls = false;  // the endpoint stalls at an overrun even if kNoStall is set
+    // One scan is missing without a report (a real device does not do this).
+    std::int64_t drop_at = -1;
+    std::size_t short_packets = 0;  // number of bytes after which each transfer ends
+    std::int64_t silent_at = -1;    // no more scans arrive, although the status is "running"
     std::int64_t unplug_at = -1;    // the device is unplugged before this scan
-    bool running = false;  // a scan already runs at the start (left by a host that crashed)
+    bool running = false;  // a stream is already running at the start, as after a crash of the host
   };
   struct Options {
     std::string serial = "01A2B3C4";
@@ -42,16 +43,16 @@ class SimulatedMccUsb1608fsPlus final : public usb::SimulatedUsb {
   bool gone() const override { return gone_; }
 
   void set_faults(const Faults& faults) { faults_ = faults; }
-  void restart();  // power is switched on again: default state
+  void restart();  // power is switched off and on: all settings have their defaults
   // Replaces the calibration memory.
   void set_memory(const std::string& memory) { memory_ = memory; }
-  std::uint64_t runs() const { return runs_; }  // scans started
+  std::uint64_t runs() const { return runs_; }  // number of runs that were started
 
  private:
   struct Run {
     ScanSetup setup;
     std::int64_t start_ns = 0;
-    std::uint64_t next = 0;  // number of the next scan, including lost scans
+    std::uint64_t next = 0;  // number of the next scan; lost scans are counted too
   };
   usb::Reply read_request(const usb::Setup& setup) const;
   usb::Reply start(std::string_view out, std::int64_t now_ns);
@@ -65,12 +66,12 @@ class SimulatedMccUsb1608fsPlus final : public usb::SimulatedUsb {
   Calibrations calibrations_;
   std::string memory_, ranges_ = std::string(kInputs, '\0');
   std::optional<Run> run_;
-  std::string fifo_;  // not read yet
+  std::string fifo_;  // data that the host has not read yet
   std::uint64_t runs_ = 0;
   bool overrun_ = false, halted_ = false, gone_ = false;
 };
 
-// Makes the twin from a plan of mdof-simulate. Volts at CH0 ... CH7.
+// Makes the twin from a plan of mdof-simulate. The inputs CH0 ... CH7 are in V.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_mcc_usb1608fs_plus(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::mcc_usb1608fs_plus

@@ -1,4 +1,4 @@
-// The keys of a Modbus device; drivers/README.md lists them.
+// Reads the keys of a Modbus device; drivers/README.md lists the keys.
 #pragma once
 
 #include "drivers/driver_spec.h"

@@ -1,4 +1,4 @@
-// Polls any Modbus device that a profile describes; each poll gives one scan.
+// Driver that polls any Modbus device for which a profile exists. Each poll is one scan.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,19 @@
 namespace mdof::drivers {
 
 struct ModbusSettings {
-  modbus::Profile profile;  // includes the values that the device's keys override
-  std::string address;      // TCP; empty: use `port`
-  std::string port;         // a serial line
+  modbus::Profile profile;  // the profile, with the values that the keys of the device replace
+  std::string address;      // of a TCP connection; empty: use `port`
+  std::string port;         // device file of a serial line
   std::vector<Channel> channels;
-  std::vector<modbus::Readings::Use> uses;  // the profile's value for each channel
+  std::vector<modbus::Readings::Use> uses;  // for each channel, its value in the profile
   EncoderOrigin encoder;
 };
 
-// Thread-bound. The time of a scan is the middle between the first request and the last reply.
-// Without a reply, read() takes one response time-out longer than `timeout`, or two and a half
-// during the test of an RTU line. A failed poll is counted as lost. Errors: the TCP connection
-// breaks; no scan for two seconds, twenty polls or twenty response time-outs, whichever is longest.
+// Thread-bound. The time of a scan is the middle between the first request and the last reply. If a
+// reply is missing, read() exceeds `timeout` by up to one response time-out, or by up to 2.5
+// response time-outs while an RTU line is tested. A failed poll counts as a lost scan. Errors: the
+// TCP connection is closed; no scan was read for 2 s, 20 polls or 20 response time-outs, whichever
+// is longest.
 class ModbusDriver final : public Driver {
  public:
   ModbusDriver(std::string name, ModbusSettings settings);
@@ -56,7 +57,8 @@ class ModbusDriver final : public Driver {
   std::optional<ModbusClient> client_;
   Time next_, last_;  // time of the next poll; time of the last scan
   bool failing_ = false;
-  // For incremental encoders: it is unknown whether the device kept its power while it was away.
+  // For incremental encoders: after the device was disconnected, it is unknown whether the power of
+  // the device has failed.
   bool opened_before_ = false, datum_lost_ = false;
 };
 

@@ -1,5 +1,6 @@
-// Profile of a Modbus device from a TOML file: its connection, its values and its status bits.
-// drivers/README.md describes the format; the files in drivers/modbus/profiles are built in.
+// Profile of a Modbus device, from a TOML file: its connection, its values and its status bits.
+// drivers/README.md describes the format. The files in drivers/modbus/profiles are built into the
+// program.
 #pragma once
 
 #include <cstdint>
@@ -23,37 +24,38 @@ inline int registers_of(Type type) {
 
 struct Register {
   Function function = kReadHolding;  // kReadHolding, kReadInput
-  int address = 0;                   // address on the wire: 0 is 40001 or 30001 of manuals
+  int address = 0;  // address in the request: 0 is the register that manuals call 40001 or 30001
   bool operator==(const Register&) const = default;
 };
 
-// A register that must have this value; otherwise the device is not the intended one.
+// A register that must contain this value. Otherwise the device is not the intended device.
 struct Check {
   Register at;
   std::uint16_t mask = 0xFFFF, equals = 0;
-  std::string says;  // message if the value differs
+  std::string says;  // error message if the register contains another value
 };
 
 struct Value {
-  std::string name;  // the `input` of a channel
+  std::string name;  // name of the value = `input` of a channel
   Register at;
   Type type = Type::u16;
   bool low_word_first = false;
-  double scale = 1, offset = 0;    // value = raw * scale + offset
-  Unit unit = Unit::other;         // of the value; `other`: a count that is converted to µm
-  double um_per_count = 0;         // if the channel does not give it; 0: the channel must
-  bool incremental = false;        // counts from the position at which it was switched on
-  int ring_bits = 0;               // the counter wraps at 2^bits; 0: it does not
-  std::vector<double> over_range;  // raw numbers at the ends of the range
-  std::optional<Check> check;      // checked if the value is used
+  double scale = 1, offset = 0;  // value = raw * scale + offset
+  Unit unit = Unit::other;       // unit of the value; `other`: counts, which are converted to µm
+  double um_per_count = 0;   // used if the channel does not state it; 0: the channel must state it
+  bool incremental = false;  // true: counts from the position at which the encoder was switched on
+  int ring_bits = 0;         // the counter overflows at 2^ring_bits; 0: it does not overflow
+  std::vector<double> over_range;  // raw numbers that mean an end of the range
+  std::optional<Check> check;      // checked only if a channel uses this value
 };
 
-// If any of these status bits is set, the quality of the values is `makes` or worse.
+// If any of these status bits is set, the quality of the values is set to `makes`, unless it is
+// already worse.
 struct StatusBits {
   Register at;
   std::uint16_t mask = 0;
   Quality makes = Quality::suspect;  // suspect, over_range, missing
-  std::vector<std::string> values;   // by name; empty: all
+  std::vector<std::string> values;   // names of the values that the bits affect; empty: all values
 };
 
 struct Profile {
@@ -62,16 +64,16 @@ struct Profile {
   int port = 502, unit = 1;
   SerialSettings serial;
   double poll_ms = 100, response_timeout_ms = 100;
-  int join_gap = 0;  // highest number of unused registers that are read between two values
+  int join_gap = 0;  // most unused registers that may be read between two used registers
   std::vector<Value> values;
   std::vector<StatusBits> statuses;
   std::vector<Check> checks;
 };
 
 Result<Profile> parse_profile(std::string_view text, const std::string& source_name);
-// Loads a built-in profile by its name, or a file if the name contains a slash or ends in ".toml"
-// (relative to `base_path`). Errors: no such profile (the message names the nearest and all
-// others), no such file, invalid contents.
+// Loads a built-in profile by its name. If the name contains a slash or ends in ".toml", loads a
+// file; its path is relative to `base_path`. Errors: no such profile (the message names the most
+// similar profile and all others); no such file; invalid contents.
 Result<Profile> load_profile(const std::string& name_or_path, const std::string& base_path);
 
 struct BuiltInProfile {

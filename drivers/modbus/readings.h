@@ -1,4 +1,4 @@
-// Plans the register reads of a poll and converts registers to readings. Pure.
+// Plans which registers a poll reads, and converts the registers to readings. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,16 @@
 
 namespace mdof::drivers::modbus {
 
-// One read: at most 125 registers.
+// One read request, for at most 125 registers.
 struct Block {
   Register from;
   int count = 0;
   bool operator==(const Block&) const = default;
 };
 
-// The fewest reads that cover these registers, in the order of addresses. Up to `join_gap` unused
-// registers between two of them are read too. Span::count: number of registers.
+// Plans the smallest number of read requests for these registers, sorted by address. A request may
+// include up to `join_gap` unused registers between two used registers. Span::count: number of
+// registers.
 struct Span {
   Register from;
   int count = 1;
@@ -31,26 +32,27 @@ struct Reading {
   Quality quality = Quality::missing;
 };
 
-// The values of a profile that are used, with the status bits that apply to them. Unwraps counters,
-// also while the device is away, if they move by less than half a ring meanwhile. Thread-bound.
+// The values of a profile that the channels use, with the status bits that affect them. Extends
+// counters over their overflows. This also works after a pause in the connection if a counter has
+// moved by less than half of its range. Thread-bound.
 class Readings {
  public:
   struct Use {
-    Value value;              // of the profile
-    double um_per_count = 0;  // length of a count; unused for other units
+    Value value;              // the value in the profile
+    double um_per_count = 0;  // length of one count; not used for values in other units
   };
   Readings(const Profile& profile, const std::vector<Use>& uses);
 
   const std::vector<Block>& blocks() const { return blocks_; }
-  // The caller fills it with a read of blocks()[i].
+  // The caller must fill it with the registers of blocks()[i], i = `block`.
   std::span<std::uint16_t> registers(std::size_t block) { return registers_[block]; }
-  // Readings of each use from the present registers. Call it once for each poll.
+  // Converts the present registers to one reading for each Use. Call it once for each poll.
   const std::vector<Reading>& read();
 
  private:
   struct Counter {
     Value value;
-    double factor;  // to the unit of the channel
+    double factor;  // factor to the unit of the channel
     Unwrap unwrap;
     std::vector<StatusBits> statuses;
   };
@@ -64,7 +66,8 @@ class Readings {
   std::vector<Reading> readings_;
 };
 
-// The registers that hold `raw` (it must fit the type), in the order on the wire.
+// Converts `raw` to the contents of the registers of `value`, in the order of transmission. `raw`
+// must be in the range of the type.
 std::vector<std::uint16_t> encode(const Value& value, double raw);
 
 }  // namespace mdof::drivers::modbus

@@ -1,10 +1,11 @@
-// Requests that test an RTU line after an error. Pure.
+// Test requests ("sentinels") for an RTU line after an error. Pure.
 //
-// An RTU reply does not state to which request or register it belongs; only its function and length
-// are known. A slave on one wire answers in order. Therefore the reply to a sentinel, a read of a
-// length that no value uses, shows that no reply to an earlier request can follow. A sentinel whose
-// reply is still pending must not be confused with a later one: after the next error another length
-// is used, as in the alternating bit protocol (Bartlett, Scantlebury and Wilkinson 1969).
+// An RTU reply does not state to which request or register it belongs. It shows only its function
+// and its length. A slave on one line answers the requests in order. A sentinel is a read request
+// of a length that no request for values has. After its reply has arrived, no reply to an earlier
+// request can follow. The pending reply to one sentinel must not be confused with the reply to a
+// later sentinel. Therefore the next sentinel has another length, as in the alternating bit
+// protocol (Bartlett, Scantlebury and Wilkinson 1969).
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 
 namespace mdof::drivers::modbus {
 
-// The properties of a read that an RTU reply shows.
+// The properties of a read request that its RTU reply shows.
 struct Shape {
   int function = 0, count = 0;
   auto operator<=>(const Shape&) const = default;
@@ -23,15 +24,16 @@ struct Shape {
 
 class Sentinels {
  public:
-  // Adds the shape of a request for values. False: a reply to a sentinel of this shape is pending,
-  // so the line must first be tested with another shape.
+  // Call this before a request for values. Returns false if a reply to a sentinel of the same shape
+  // is pending; the line must then first be tested with another shape.
   bool add_regular(Shape shape) {
     if (!contains(regular_, shape)) regular_.push_back(shape);
     if (shape == now_) now_ = {};
     return !contains(pending_shapes_, shape);
   }
-  // The sentinel for a read of these registers, the same until proved(). Prefers fewer registers,
-  // which are known to exist, to more. Count 0: requests for values use all lengths.
+  // Returns the shape of the sentinel; it is the same until proved() is called. `regular`: the
+  // request for values. The sentinel preferably has fewer registers than this request, because
+  // these registers certainly exist. Count 0: no length is free.
   Shape pick(Shape regular) {
     for (int i = 1; now_ == Shape{} && i < kMostRegisters; ++i) {
       const Shape shape{regular.function, i < regular.count ? regular.count - i : i + 1};
@@ -39,12 +41,12 @@ class Sentinels {
     }
     return now_;
   }
-  // The received data were not the reply to the sentinel.
+  // Call this if the received data were not the reply to the sentinel.
   void failed() {
     if (!contains(pending_shapes_, now_)) pending_shapes_.push_back(now_);
   }
-  // The sentinel's reply has arrived. Only a reply to an earlier sentinel of the same shape may be
-  // pending.
+  // Call this after the reply to the sentinel has arrived. If an earlier sentinel had the same
+  // shape, one more reply of this shape may still arrive.
   void proved() {
     const bool repeated = contains(pending_shapes_, now_);
     pending_shapes_.clear();
@@ -57,7 +59,7 @@ class Sentinels {
     return std::find(shapes.begin(), shapes.end(), shape) != shapes.end();
   }
   std::vector<Shape> regular_, pending_shapes_;
-  Shape now_;  // {}: no sentinel
+  Shape now_;  // shape of the present sentinel; {}: no sentinel
 };
 
 }  // namespace mdof::drivers::modbus

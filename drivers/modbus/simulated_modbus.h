@@ -1,4 +1,4 @@
-// A simulated Modbus slave with the registers of a profile, over TCP or over RTU on a serial line.
+// A simulated Modbus slave with the registers of a profile, over TCP, or over RTU on a serial line.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@
 
 namespace mdof::drivers {
 
-// `senses(i, t)`: the i-th value of the profile in its unit (counts for a counter). Reads of
-// registers that are not in the profile give exception 2, writes give exception 1.
+// `senses(i, t)` returns value i of the profile in its unit (counts for a counter). A read of a
+// register that is not in the profile is answered with exception 2, a write with exception 1.
 class SimulatedModbus final : public SimulatedDevice {
  public:
   struct Faults {
     enum class Kind { none, bad_crc, silence, exception, foreign_traffic, hang_up };
     Kind kind = Kind::none;
-    int every = 1;      // affects each n-th request
-    int exception = 2;  // of Kind::exception
-    int delay_ms = 0;   // for every reply
-    // Registers with fixed contents, for alarms, ends of the range and range codes.
+    int every = 1;      // each n-th request has the fault
+    int exception = 2;  // exception code for Kind::exception
+    int delay_ms = 0;   // delay of every reply
+    // Registers with fixed contents: for alarms, ends of the range and range codes.
     std::map<std::pair<modbus::Function, int>, std::uint16_t> words = {};
   };
   struct Options {
@@ -58,8 +58,8 @@ class SimulatedModbus final : public SimulatedDevice {
   int requests_ = 0;
 };
 
-// Makes the twin from a plan of mdof-simulate. The values of a profile in its order, each in its
-// unit.
+// Makes the twin from a plan of mdof-simulate. The inputs are the values of a profile, in the order
+// of the profile; each input has the unit of its value.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_modbus(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

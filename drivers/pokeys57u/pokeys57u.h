@@ -1,5 +1,5 @@
-// PoLabs PoKeys57U and 56U: incremental encoders (and analogue inputs) by request and reply over
-// HID; each poll gives one scan.
+// Driver of PoLabs PoKeys57U and 56U: incremental encoders and analogue inputs, by requests and
+// replies over HID. Each poll is one scan.
 #pragma once
 
 #include <array>
@@ -19,16 +19,17 @@ namespace mdof::drivers::pokeys57u {
 struct Input {
   Channel channel;
   std::string name;       // "encoder1" ... "encoder25", "ultrafast", "analogue1" ... "analogue7"
-  std::size_t index = 0;  // of a counter; an analogue input has kCounters + its index
+  std::size_t index = 0;  // index of the counter; for an analogue input, kCounters + its index
   double um_per_count = 0;
-  std::optional<std::uint8_t> options;  // EncoderOption bits to set; nullopt: unchanged
-  double most_counts_per_s = 0;         // a faster step cannot be a motion
+  // Bits of EncoderOption that the driver sets; nullopt: the driver changes no option.
+  std::optional<std::uint8_t> options;
+  double most_counts_per_s = 0;  // if the count changes faster, the change is not a motion
   bool counts() const { return index < kCounters; }
 };
 
 struct Settings {
   std::string name;
-  std::uint32_t serial = 0;  // 0: the only connected device
+  std::uint32_t serial = 0;  // 0: exactly one device must be connected
   double poll_ms = 2;
   std::chrono::milliseconds response_timeout{50};
   std::chrono::milliseconds slow{20};       // a scan that takes longer is suspect
@@ -36,10 +37,10 @@ struct Settings {
   std::vector<Input> inputs;
 };
 
-// Thread-bound. A request without a complete reply is sent again twice, each time with another
-// number; if all fail, the scan is counted as lost. Errors: no valid reply for 2 s; the device was
-// unplugged. The time of a scan is the middle between request and reply; a slow scan is suspect,
-// because its time is uncertain.
+// Thread-bound. If the reply to a request is missing or incomplete, the driver sends the request
+// two more times, each time with another request number. If these attempts fail too, the scan
+// counts as lost. The time of a scan is the middle between request and reply. A slow scan is
+// suspect, because its time is uncertain. Errors: no valid reply for 2 s; the device was unplugged.
 class PoKeys57u final : public Driver {
  public:
   static constexpr int kSends = 3;
@@ -48,12 +49,13 @@ class PoKeys57u final : public Driver {
 
   DeviceInfo info() const override;
   Status open() override;
-  // If no reply arrives, read() takes up to three response time-outs a request longer than
-  // `timeout`.
+  // If replies are missing, read() exceeds `timeout` by up to three response time-outs for each
+  // request.
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override;
 
-  // Number of reports that were not the expected reply: late, damaged, or for another program.
+  // Number of reports that were not the expected reply: they were late or damaged, or for another
+  // program.
   std::uint64_t rejected() const { return rejected_; }
 
  private:
@@ -61,10 +63,10 @@ class PoKeys57u final : public Driver {
   struct Counter {
     Unwrap unwrap{32, true};
     std::optional<std::int64_t> last;
-    Time at;           // of `last`
-    bool sure = true;  // false: its zero may be lost
+    Time at;           // time of `last`
+    bool sure = true;  // false: the zero of the counter may be lost
   };
-  struct Span {  // from the request to the reply
+  struct Span {  // times of the request and of the reply
     Time from, to;
     Time middle() const { return from + (to - from) / 2; }
   };
@@ -81,7 +83,7 @@ class PoKeys57u final : public Driver {
   Status try_candidate(const HidEntry& entry, std::vector<std::string>& others);
   Status set_up_encoders();
   Status check_enabled(const Frame& options) const;
-  // The next three return nullopt if no valid reply has arrived.
+  // The next three functions return nullopt if no valid reply has arrived.
   Result<std::optional<Span>> watch_for_restart();
   Result<std::optional<Span>> fetch();
   Result<std::optional<Reply>> exchange(Frame asked);
@@ -100,10 +102,11 @@ class PoKeys57u final : public Driver {
   RequestIds ids_;
   std::vector<Counter> counters_;  // one for each input
   std::optional<Tick> tick_;
-  std::array<Counts, 2> counts_{};  // of the last poll
+  std::array<Counts, 2> counts_{};  // counts of the last poll
   Codes analogue_{};
-  Time next_, last_, tick_due_;  // next poll; last scan; next check of the tick
-  std::string zero_problem_;     // why a zero may be lost
+  // Time of the next poll, of the last scan, and of the next tick check.
+  Time next_, last_, tick_due_;
+  std::string zero_problem_;  // reason why the zero of a counter may be lost
   bool failing_ = false;
   std::uint64_t rejected_ = 0;
 };

@@ -1,5 +1,6 @@
-// Frames of PoLabs PoKeys57U and 56U: 64 bytes in each direction, one pending request (PoKeys
-// protocol specification, 3.1.2018; bytes are numbered from 0 here). Pure; accepts any bytes.
+// Frames of PoLabs PoKeys57U and 56U. A request and a reply have 64 bytes each; at most one request
+// is pending. Source: PoKeys protocol specification, 3.1.2018; bytes are numbered from 0 here.
+// Pure; accepts any bytes.
 #pragma once
 
 #include <array>
@@ -11,20 +12,21 @@
 namespace mdof::drivers::pokeys57u {
 
 inline constexpr std::uint16_t kVendor = 0x1DC3, kProduct = 0x1001;
-inline constexpr int kInterface = 1;  // of three: 0 is a keyboard, 2 a joystick
+// The device has three interfaces: 0 is a keyboard, 2 a joystick.
+inline constexpr int kInterface = 1;
 inline constexpr std::size_t kFrameBytes = 64;
 inline constexpr std::size_t kDataBytes = 56;
 
 enum Command : std::uint8_t {
   kDeviceData = 0x00,
   kAnalogue = 0x3A,
-  kEncoderOptions = 0xC4,  // parameter 0: 0 read, 1 write
-  kEncoderValues = 0xCD,   // parameter 0: block
-  kTick = 0xCF,            // ms since power-on
+  kEncoderOptions = 0xC4,  // parameter 0: 0 reads, 1 writes
+  kEncoderValues = 0xCD,   // parameter 0: number of the block
+  kTick = 0xCF,            // milliseconds since the device was switched on
 };
 enum EncoderOption : std::uint8_t { kEnabled = 1, kCounts_x4 = 2, kCounts_x2 = 4 };
 
-inline constexpr std::size_t kEncoders = 25;  // the ultra-fast encoder follows
+inline constexpr std::size_t kEncoders = 25;  // without the ultra-fast encoder
 inline constexpr std::size_t kUltraFast = 25;
 inline constexpr std::size_t kCounters = 26, kCountersPerBlock = 13;
 inline constexpr std::size_t kAnalogues = 7;
@@ -40,37 +42,40 @@ struct Frame {
 enum class Way : std::uint8_t { request = 0xBB, reply = 0xAA };
 
 std::string wrap(Way way, const Frame& frame);
-// nullopt: wrong length, first byte or checksum.
+// nullopt: the length, the first byte or the checksum is wrong.
 std::optional<Frame> unwrap(Way way, std::string_view bytes);
 
 Frame request(Command command, std::uint8_t parameter = 0);
 
 struct Identity {
   std::uint32_t serial = 0;
-  int hardware = 0;      // 28 PoKeys57U, 10 PoKeys56U, ...; 0: not stated by older boards
+  // 28: PoKeys57U, 10: PoKeys56U, ...; 0: an older board, which does not state it.
+  int hardware = 0;
   std::string firmware;  // "4.2.19"
   std::string model() const;
 };
 Identity identity_of(const Frame& reply);
-// USB serial strings have the form "2.12345" or "12345.2", so each part may be the number.
+// Whether `text` can be the USB serial string of the device `serial`. The string has the form
+// "2.12345" or "12345.2"; either part may be the serial number.
 bool may_be_serial(std::string_view text, std::uint32_t serial);
 
 using Counts = std::array<std::int32_t, kCountersPerBlock>;
-// Block 0: encoders 1 to 13; block 1: encoders 14 to 25 and the ultra-fast encoder.
+// Block 0 contains encoders 1 to 13; block 1 contains encoders 14 to 25 and the ultra-fast encoder.
 Counts counts_of(const Frame& reply);
 void set_counts(Frame& reply, const Counts& counts);
 using Codes = std::array<std::uint16_t, kAnalogues>;
-Codes analogue_of(const Frame& reply);  // 0 ... kAnalogueTop
+Codes analogue_of(const Frame& reply);  // each code is 0 ... kAnalogueTop
 void set_analogue(Frame& reply, const Codes& raw);
 std::uint32_t tick_of(const Frame& reply);
 void set_tick(Frame& reply, std::uint32_t tick_ms);
 
-// Gives the numbers of requests. A number is not used again until its reply has arrived or can no
-// longer arrive, so that a late reply is never assigned to another request.
+// Chooses the numbers of requests. A number is not used again until the reply to its request has
+// arrived or can no longer arrive. Therefore a late reply is never assigned to another request.
 class RequestIds {
  public:
   static constexpr std::int64_t kLatest_ns = 10'000'000'000;
-  // Allows any number of pending requests; if all 256 are pending, the oldest number is used again.
+  // Any number of requests may be pending; if all 256 numbers are pending, the oldest number is
+  // used again.
   std::uint8_t next(std::int64_t now_ns);
   void answered(std::uint8_t id) { pending_since_[id] = kNotPending; }
 

@@ -1,5 +1,5 @@
-// A simulated PoKeys57U: the USB side of the device, with a keyboard, the HID interface of the
-// encoders and a joystick.
+// A simulated PoKeys57U. It implements the USB interface of the device: a keyboard, the HID
+// interface of the encoders, and a joystick.
 #pragma once
 
 #include <cstdint>
@@ -13,33 +13,35 @@
 
 namespace mdof::drivers::pokeys57u {
 
-// Senses: inputs 0 ... 24 are encoders 1 ... 25 and input 25 is the ultra-fast encoder, in counts;
-// inputs 26 ... 32 are the analogue inputs in V. A request is answered after 1 ms.
+// Senses: inputs 0 ... 24 are encoders 1 ... 25 in counts; input 25 is the ultra-fast encoder in
+// counts; inputs 26 ... 32 are the analogue inputs in V. The device replies to a request after 1
+// ms.
 class SimulatedPokeys57u final : public usb::SimulatedUsb {
  public:
   static constexpr std::uint8_t kIn = 0x82, kOut = 0x02;
 
-  // Possible faults; replies are counted from 0; -1: never.
+  // Possible faults. A member `..._at` is the number of a reply, from 0; -1: never.
   struct Faults {
-    int wrong_id_at = -1;  // the previous reply, with its number, is sent again before this reply
-    int bad_checksum_at = -1;  // first of `bad_checksums` replies
+    // Before this reply, the previous reply with its old number is sent again.
+    int wrong_id_at = -1;
+    int bad_checksum_at = -1;  // first of `bad_checksums` replies with a wrong checksum
     int bad_checksums = 1;
-    int late_at = -1;  // this reply is late by late_ns
+    int late_at = -1;  // this reply is sent late_ns later
     std::int64_t late_ns = 50'000'000;
-    int first_unanswered = -1;  // first of `unanswered_requests` requests without a reply
+    int first_unanswered = -1;  // first of `unanswered_requests` requests that get no reply
     int unanswered_requests = 1;
-    int index_at = -1;    // before this reply the index sets all counts to 0
-    int restart_at = -1;  // before this reply the device loses power
+    int index_at = -1;    // before this reply the index signal sets all counts to 0
+    int restart_at = -1;  // before this reply the power of the device fails
     int short_at = -1;    // only 20 bytes of this reply arrive
-    int unplug_at = -1;   // the device is unplugged instead
+    int unplug_at = -1;   // the device is unplugged instead of sending this reply
     bool ignores_options = false;
   };
   struct Options {
     std::uint32_t serial = 12345;
-    std::string usb_serial = {};      // empty: "2." and the serial number
-    std::int64_t uptime_ms = 60'000;  // at the first request
+    std::string usb_serial = {};      // empty: the string is "2." and the serial number
+    std::int64_t uptime_ms = 60'000;  // uptime at the first request
     std::int64_t count_offset = 0;    // added to all counts
-    bool old_board = false;           // states its number as boards before the PoKeys58
+    bool old_board = false;  // the device states its number as boards before the PoKeys58 do
     Faults faults = {};
   };
   SimulatedPokeys57u(Senses senses, Options options);
@@ -51,12 +53,12 @@ class SimulatedPokeys57u final : public usb::SimulatedUsb {
   void clear_halt(std::uint8_t) override {}
   bool gone() const override { return gone_; }
 
-  // Also restarts the counting of replies at 0.
+  // Replaces the faults. The replies are then counted from 0 again.
   void set_faults(const Faults& faults) {
     options_.faults = faults;
     replies_ = 0;
   }
-  int requests() const { return requests_; }  // with a valid checksum
+  int requests() const { return requests_; }  // number of requests with a valid checksum
 
  private:
   struct Sent {
@@ -82,8 +84,8 @@ class SimulatedPokeys57u final : public usb::SimulatedUsb {
   bool gone_ = false;
 };
 
-// Makes the twin from a plan of mdof-simulate. Counts of the listed encoders; default: the encoder
-// of the machine at the first input.
+// Makes the twin from a plan of mdof-simulate. It counts the listed encoders; default: the encoder
+// of the machine, at the first input.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_pokeys57u(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::pokeys57u

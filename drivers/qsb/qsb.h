@@ -1,5 +1,5 @@
-// US Digital QSB-D/QSB-S: one incremental encoder, streamed with the device's time stamps over a
-// serial port, directly or through a TCP bridge.
+// Driver of a US Digital QSB-D/QSB-S. The device sends the count of one incremental encoder with
+// time stamps, over a serial port or through a TCP bridge.
 #pragma once
 
 #include <chrono>
@@ -21,42 +21,44 @@
 namespace mdof::drivers {
 
 struct QsbOptions {
-  std::string port;                 // or `address`
-  std::optional<Endpoint> address;  // of a TCP bridge
+  std::string port;                 // device file of the serial port; empty: use `address`
+  std::optional<Endpoint> address;  // address of a TCP bridge
   SerialSettings line{.baud = 230'400};
   std::uint32_t counting = 3;   // 1, 2, 3: x1, x2, x4
-  std::uint32_t interval = 1;   // ticks between lines
-  std::string serial;           // of the device; empty: any
-  ChannelInput channel;         // input "count"
+  std::uint32_t interval = 1;   // number of ticks between two lines
+  std::string serial;           // serial number of the device; empty: any device
+  ChannelInput channel;         // its input is "count"
   bool index_inverted = false;  // polarity of the index signal
-  // Time at the mark after which the driver reports that the count does not move on.
+  // If the count stays at the mark for this time, the driver reports it.
   std::chrono::milliseconds long_at_mark{5000};
   std::chrono::milliseconds silence{2000};  // longest time without a line
 };
 
-// Thread-bound. A device that answers is not reset, so its count continues when it is opened again.
-// If it was reset meanwhile, its datum is lost: its values are Quality::suspect until
-// trust_count(), or until the axis passes the reference mark, if there is one.
+// Thread-bound. The driver does not reset a device that replies. Therefore the count continues when
+// the device is opened again. If the device was reset meanwhile, the datum of the encoder is lost:
+// its values are Quality::suspect until trust_count() is called, or until the axis passes the
+// reference mark, if there is one.
 //
-// During the stream, the index loads the count with a number that the driver sets
-// (counter/index_mark.h). This is switched off after the mark was passed: a later loss of counts
-// must be visible and must not be corrected silently during a run.
+// If there is a reference mark, the index signal sets the count to a number that the driver has
+// chosen (counter/index_mark.h). The driver disables this after the axis has passed the mark: a
+// later loss of counts must be visible and must not be corrected silently during a run.
 class Qsb final : public Driver {
  public:
-  static constexpr int kMalformedAllowed = 10;  // in a row
+  static constexpr int kMalformedAllowed = 10;  // most malformed lines in succession
 
   Qsb(std::string name, QsbOptions options);
 
   DeviceInfo info() const override;
   const DeviceClock* clock() const override { return &clock_; }
   Status open() override;
-  // A step of the stamps means lost lines. Errors: a reset during the stream, impossible stamps,
-  // more than 10 malformed lines in a row, silence.
+  // A gap in the stamps means that lines were lost. Errors: the device was reset during the stream;
+  // impossible stamps; more than 10 malformed lines in succession; silence.
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override { datum_lost_ = false; }
   int marks_passed() const override { return marks_passed_; }
 
-  std::uint64_t malformed_lines() const { return malformed_; }  // since the start
+  // Number of malformed lines since the start.
+  std::uint64_t malformed_lines() const { return malformed_; }
   double tick_ns() const { return tick_.ns(); }
 
  private:
@@ -90,16 +92,16 @@ class Qsb final : public Driver {
   std::optional<ByteStream> stream_;
   QsbIdentity identity_;
   bool power_was_lost_ = false;
-  bool counted_ = false;     // the device was open since this object was created
-  bool datum_lost_ = false;  // its count has since restarted at 0
-  std::string received_;     // not cut into lines yet
+  bool counted_ = false;     // true: this object has opened the device before
+  bool datum_lost_ = false;  // true: the count has restarted at 0 since then
+  std::string received_;     // bytes that are not yet divided into lines
   TickLength tick_{qsb::kTick_ns};
   DeviceClock clock_{1.0};  // a tick is 1 ns of device time
   Unwrap count_{32, true}, stamp_{32};
   std::optional<std::int64_t> last_stamp_;
   double device_ns_ = 0;
-  std::deque<Sample> samples_;  // not returned yet
-  Status status_;               // reported after samples_ is empty
+  std::deque<Sample> samples_;  // samples that were not returned yet
+  Status status_;               // error; read() returns it after all samples_
   std::int64_t last_sample_ns_ = 0;
   IndexMark mark_{32};
   bool awaits_new_mark_ = true;  // the count has a new zero, so the mark must be awaited

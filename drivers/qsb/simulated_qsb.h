@@ -16,23 +16,25 @@ namespace mdof::drivers {
 // `senses`: input 0, counts. One client at a time.
 class SimulatedQsb final : public SimulatedDevice {
  public:
-  // Lines of the stream are counted from 0 at each S command; -1: never.
+  // Possible faults. The lines of a stream are numbered from 0 at each S command; -1: never.
   struct Faults {
     double tick_ns = qsb::kTick_ns;
-    int reset_at = -1;              // a banner replaces this line; the count restarts
-    int cut_at = -1;                // half of this line, without a line end
-    int jump_at = -1;               // the stamp jumps
+    int reset_at = -1;              // a banner is sent instead of this line, and the count restarts
+    int cut_at = -1;                // only half of this line is sent, without a line end
+    int jump_at = -1;               // from this line on the stamp is higher by jump_ticks
     std::uint32_t jump_ticks = 10;  // ticks of the jump
     int silent_from = -1;
-    bool rubbish = false;  // no line of the stream has a valid digit
-    int refuse = -1;       // register with reply e
-    int unsupported = -1;  // register with reply x
-    bool mute = false;     // never replies
+    bool rubbish = false;  // no line of the stream contains a valid digit
+    int refuse = -1;       // register whose reply is e
+    int unsupported = -1;  // register whose reply is x
+    bool mute = false;     // the device never replies
     bool streams_at_start = false;
-    int first_far_line = -1, far_line_count = 1;  // first and number of lines with a count far away
+    // Number of the first line whose count is far away, number of such lines.
+    int first_far_line = -1, far_line_count = 1;
   };
-  // The reference mark: its position in counts of `senses`; `inverted`: its signal is low at the
-  // mark and high elsewhere. A rotary encoder has another mark one turn further (`next_at`).
+  // The reference mark. `at`: its position in counts of `senses`. `inverted`: the index signal is
+  // low at the mark and high elsewhere. `next_at`: position of the next mark of a rotary encoder,
+  // one turn further.
   struct Mark {
     double at = 0;
     bool inverted = false;
@@ -68,13 +70,13 @@ class SimulatedQsb final : public SimulatedDevice {
   std::int64_t stamp_from_ns_ = 0;
   double count_from_ = 0;
   std::optional<Mark> mark_;
-  double last_position_ = 0;  // counts, when the position was last read
+  double last_position_ = 0;  // position in counts when it was last read
   bool streaming_ = false;
   std::int64_t next_tick_ = 0;
   int line_ = 0;
 };
 
-// Makes the twin from a plan of mdof-simulate. Counts of the given channel; default: the encoder.
+// Makes the twin from a plan of mdof-simulate. It counts the given channel; default: the encoder.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_qsb(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

@@ -1,4 +1,5 @@
-// Measures the length of a tick of a device that does not state it exactly.
+// Measures the length of a tick of the device's clock, because the manual does not state it
+// consistently.
 #pragma once
 
 #include <cstdint>
@@ -6,16 +7,18 @@
 namespace mdof::drivers {
 
 // The manual states a tick of 1/512 s, 1/256 s or 1.90 ms on different pages. These values differ
-// too much for DeviceClock, which assumes that a clock deviates by at most 0.1 %. The length is
-// measured between the quickest packet at the beginning of the stream and the quickest packet just
-// before 0.5, 1, 2 ... 64 s. A new value is used if it differs by more than a delay of 10 ms
-// explains. Pure.
+// too much for DeviceClock, which assumes that the rate of a clock is wrong by at most 0.1 %.
+// Therefore the length is measured between two packets: the packet with the smallest delay at the
+// beginning of the stream, and the packet with the smallest delay shortly before 0.5, 1, 2 ... 64
+// s. The measured length replaces the old length if the difference is larger than a delay of 10 ms
+// can cause. Pure.
 class TickLength {
  public:
   explicit TickLength(double nominal_ns) : ns_(nominal_ns) {}
-  // A packet was received whose newest line has the stamp `ticks` (growing).
+  // Call this when a packet was received. `ticks`: stamp of its newest line; it increases from
+  // packet to packet.
   void add(std::int64_t ticks, std::int64_t received_ns);
-  // A new stream begins; the measured length is kept.
+  // A new stream begins. The measured length is kept.
   void restart();
   double ns() const { return ns_; }
 

@@ -5,7 +5,8 @@
 
 namespace mdof::drivers {
 
-// Key: file. A recording (detected by its magic), otherwise a probe log: CSV, plain or gzip.
+// Key: file. A file with the magic number of a recording is read as a recording; any other file is
+// read as a probe log (CSV, plain text or gzip).
 Result<DriverSpec> configure_replay(TomlTable& table, const DriverContext& context);
 
 }  // namespace mdof::drivers

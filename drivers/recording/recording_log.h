@@ -1,5 +1,5 @@
-// Driver that replays a recording (schema/recording/recording.h) chunk by chunk, bit for bit. It
-// writes neither to the file nor beside it.
+// Driver that replays a recording (schema/recording/recording.h), chunk by chunk and bit for bit.
+// It writes neither to the file nor to other files in its folder.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@
 
 namespace mdof::drivers {
 
-// Thread-bound. Errors of open(): not_found; bad_input for a file that is not a recording, has a
-// newer format or has a damaged header. Error of read(): bad_input for a damaged chunk; the message
-// names the chunk, its time span and the undamaged chunks. A file without a seal (its writer was
-// interrupted or is still writing) is read up to the last chunk that was committed when it was
-// opened, with a warning.
+// Thread-bound. Errors of open(): not_found; bad_input if the file is not a recording, has a newer
+// format or has a damaged header. Error of read(): bad_input for a damaged chunk; the message names
+// the chunk, its time span and the undamaged chunks. A file without a seal was not finished: its
+// writer was interrupted or is still writing. Such a file is read up to the last chunk that was
+// committed when the file was opened, with a warning.
 class RecordingLog : public Driver {
  public:
   RecordingLog(std::string name, std::filesystem::path file);
-  // Open descriptors of the file and of the -wal file beside it (-1: none). The caller owns them;
-  // they must outlive this object.
+  // Open descriptors of the file and of its -wal file (-1: no such file). The caller owns the
+  // descriptors; they must exist longer than this object.
   struct Descriptors {
     int file = -1, wal = -1;
   };
@@ -35,14 +35,14 @@ class RecordingLog : public Driver {
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 
-  // The following functions are valid after open() has succeeded.
+  // Call the following functions only after open() has succeeded.
   const RecordingHeader& header() const { return header_; }
   const std::string& rig_text() const { return header_.rig_text; }
   bool simulated() const { return header_.simulated; }
-  // Hash of the chain of chunks; verified after read() has returned `end`.
+  // Hash of the chain of chunks. It is verified when read() returns `end`.
   const std::string& sha256() const { return sha256_; }
   const Notices& notices() const { return notices_; }
-  Progress progress() const;  // in chunks
+  Progress progress() const;  // number of chunks
 
  private:
   Result<sqlite::Connection> connect() const;
@@ -51,7 +51,7 @@ class RecordingLog : public Driver {
   Status read_seal();
   Status read_extent();
   Status find_channels();
-  // Reads and checks one chunk. An error states only the problem, not the chunk.
+  // Reads and checks one chunk. An error states the problem, but not the number of the chunk.
   Status load(std::int64_t seq, RecordingChunk& chunk, SampleBlock& block);
   Result<std::string> hash_before(std::int64_t seq);
   Status check_end();
@@ -71,7 +71,8 @@ class RecordingLog : public Driver {
   std::int64_t chunks_ = 0, next_ = 1, start_ns_ = 0;
 };
 
-// Whether the file begins with SQLite's magic, as recordings do; false for an unreadable file.
+// Whether the file begins with the magic number of SQLite, as recordings do. Returns false if the
+// file is unreadable.
 bool is_recording(const std::string& path);
 bool is_recording(int descriptor);
 

@@ -9,8 +9,8 @@
 namespace mdof::drivers {
 
 struct Clock {
-  std::function<std::int64_t()> now_ns;            // monotonic
-  std::function<void(std::int64_t ns)> sleep_for;  // at least this duration
+  std::function<std::int64_t()> now_ns;            // time of a monotonic clock
+  std::function<void(std::int64_t ns)> sleep_for;  // sleeps at least this duration
 };
 
 inline Clock steady_clock() {

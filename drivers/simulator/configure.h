@@ -5,7 +5,7 @@
 
 namespace mdof::drivers {
 
-// Keys: see options.h.
+// Reads the keys in options.h.
 Result<DriverSpec> configure_simulator(TomlTable& table, const DriverContext& context);
 
 }  // namespace mdof::drivers

@@ -1,5 +1,5 @@
-// The simulated machine and its sensors: the readings of each scan are a pure function of its
-// number.
+// The simulated machine and its sensors. The readings of a scan depend only on the options and on
+// the number of the scan.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +15,26 @@
 
 namespace mdof::drivers {
 
-// Displacement of the target along each probe of the rig, in the rig's order, for this travel and
-// these errors. The caller supplies it, because drivers do not include algo/.
+// Calculates the displacement of the target along each probe, in the order of the rig, for a travel
+// and the five errors. The caller supplies this function, because drivers do not include algo/.
 using ForwardModel =
     std::function<void(double travel_m, const Errors5& local, std::span<double> probe_m)>;
 
 class Machine {
  public:
-  // `options`: completed by fit_to_rig().
+  // `options`: fit_to_rig() has completed them.
   Machine(Rig rig, SimulatorOptions options, ForwardModel model);
 
-  // The probes in the order of the rig, raw µm before the rig's calibration; then the encoder, mm.
+  // The channels: the probes in the order of the rig, as raw readings in µm before the calibration;
+  // then the encoder, in mm.
   std::vector<Channel> channels() const;
-  // Appends one value and quality to each channel; the caller has prepared the columns and adds the
-  // time. `t_ns`: time of the scan since the start.
+  // Appends one value and one quality to each channel. The caller has prepared the columns before
+  // and adds the time. `t_ns`: time of the scan since the start.
   void append_scan(SampleBlock& block, std::uint64_t scan, std::int64_t t_ns);
-  bool in_gap(std::int64_t t_ns) const;  // whether the scan is never sent
+  bool in_gap(std::int64_t t_ns) const;  // whether a scan at t_ns is never sent
 
-  // Errors of the target at the carriage, local frame; the options give the errors of the moving
-  // body.
+  // True errors of the target at the carriage, in the local frame. The options contain the errors
+  // of the moving body.
   Errors5 truth_at(double travel_m, int direction) const;
   const Motion& motion() const { return motion_; }
 
@@ -51,7 +52,7 @@ class Machine {
   SimulatorOptions options_;
   ForwardModel model_;
   Motion motion_;
-  std::vector<double> probe_m_;  // scratch of append_scan
+  std::vector<double> probe_m_;  // working memory of append_scan()
 };
 
 }  // namespace mdof::drivers

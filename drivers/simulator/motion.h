@@ -1,9 +1,11 @@
-// Position of the axis at any time: forward through all targets, past the end, and back, repeated
-// endlessly.
+// Position of the axis as a function of time. The axis moves forward through all targets, beyond
+// the last target, and back. It repeats this without end.
 //
-// A move over D is the minimum-jerk polynomial s(τ) = D (10 τ³ - 15 τ⁴ + 6 τ⁵). Its highest speed
-// is 1.875 D/T and its highest acceleration 10/√3 D/T²; they determine the time T. The axis rests
-// at targets only; at the overruns it turns without a pause.
+// A move over the distance D in the time T is the minimum-jerk polynomial
+// s(τ) = D (10 τ³ - 15 τ⁴ + 6 τ⁵), τ = t/T.
+// Its highest speed is 1.875 D/T, its highest acceleration 10/√3 D/T². The time T follows from the
+// limits of speed and acceleration. The axis rests only at targets; beyond the last target it turns
+// without a pause.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +17,21 @@ namespace mdof::drivers {
 
 struct AxisState {
   double travel_m = 0;
-  int direction = 1;     // +1, -1: direction of this move or, at rest, of the last move
-  bool resting = false;  // at a target
+  int direction = 1;     // +1, -1: direction of this move; at rest, direction of the last move
+  bool resting = false;  // true: the axis is at rest at a target
 };
 
 class Motion {
  public:
-  // Targets ascend and are not empty.
+  // The targets must ascend; there is at least one.
   explicit Motion(const SimulatorOptions& options);
 
   AxisState at(std::int64_t time_ns) const;  // time_ns >= 0
-  // One cycle is forward and back; cycles repeat exactly.
+  // Duration of one cycle, forward and back. All cycles are equal.
   std::int64_t cycle_ns() const { return leg_.back().begin_ns + leg_.back().length_ns; }
 
  private:
-  struct Leg {  // a move, or a rest if from == to
+  struct Leg {  // a move; a rest if from_m == to_m
     std::int64_t begin_ns, length_ns;
     double from_m, to_m;
     int direction;
@@ -41,7 +43,7 @@ class Motion {
 
   double speed_m_s_, acceleration_m_s2_;
   double settle_m_, settle_hz_, settle_s_;
-  double position_m_;  // end of the last leg
+  double position_m_;  // position at the end of the last leg
   std::vector<Leg> leg_;
 };
 

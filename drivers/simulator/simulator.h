@@ -1,8 +1,9 @@
-// Driver of a simulated axis that moves, with errors, noise and faults.
+// Driver of a simulated axis. The axis moves and has errors, noise and faults.
 //
 // All random numbers are hashes of seed, channel and scan number, and no transcendental function of
-// the C library is used. Therefore the same seed and options give the same bits with every
-// compiler, in values and in times since the first open(), independent of the size of the reads.
+// the C library is used. Therefore the same seed and options produce the same bits with every
+// compiler, both in the values and in the times since the first open(). The number of scans per
+// read has no effect.
 #pragma once
 
 #include <memory>
@@ -17,14 +18,15 @@
 
 namespace mdof::drivers {
 
-// Thread-bound. Channels: see Machine. Good samples have Quality::simulated.
+// Thread-bound. Channels: see Machine::channels(). Good samples have Quality::simulated.
 //
-// pace = "real-time": a scan is returned when the clock has reached its time, in packets. During a
-// disconnect open() fails; scans due in this time are lost.
-// pace = "fast": each read() returns scans at once, and open() continues after the disconnect.
+// pace = "real-time": scans are returned in packets, when the clock has reached their times. During
+// a disconnect open() fails, and the scans of this time are lost.
+// pace = "fast": each read() returns scans immediately, and open() continues after the end of the
+// disconnect.
 class Simulator final : public Driver {
  public:
-  // Errors: options that do not fit the rig (see fit_to_rig).
+  // Error: the options do not fit the rig (fit_to_rig()).
   static Result<std::unique_ptr<Simulator>> make(std::string name, const Rig& rig,
                                                  SimulatorOptions options, ForwardModel model,
                                                  Clock clock = steady_clock());
@@ -33,7 +35,7 @@ class Simulator final : public Driver {
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 
-  // For tests: the machine with its true errors and motion, and the targets.
+  // For tests: the machine with its true errors and its motion; the targets.
   const Machine& machine() const { return machine_; }
   const std::vector<double>& targets_mm() const { return options_.targets_mm; }
 
@@ -54,10 +56,10 @@ class Simulator final : public Driver {
   Machine machine_;
   Clock clock_;
   std::vector<Channel> channels_;
-  std::optional<std::int64_t> start_ns_;  // clock at the first open()
-  const Interval* gone_ = nullptr;        // disconnect that read() has reached; cleared by open()
+  std::optional<std::int64_t> start_ns_;  // time of the clock at the first open()
+  const Interval* gone_ = nullptr;        // disconnect that read() has reached; open() clears it
   std::uint64_t next_ = 0;                // number of the next scan
-  std::uint64_t lost_ = 0;                // since the last returned scan
+  std::uint64_t lost_ = 0;                // number of lost scans since the last returned scan
 };
 
 }  // namespace mdof::drivers

@@ -1,5 +1,5 @@
-// Driver of devices that are polled at an even rate through sysfs files: the common part of Linux
-// counters and Linux IIO converters.
+// Driver of devices that are read periodically through sysfs files. Linux counters and Linux IIO
+// converters use it.
 #pragma once
 
 #include <chrono>
@@ -13,11 +13,11 @@
 
 namespace mdof::drivers {
 
-// A channel of an open device. `read` requests the raw value, in the unit of the channel.
+// A reading of a channel, in the unit of the channel.
 struct SysfsReading {
   double value = 0;
   Quality quality = Quality::good;
-  bool passed_mark = false;  // from the next reading on, positions are counted from the mark
+  bool passed_mark = false;  // true: from the next reading on, positions are counted from the mark
 };
 struct SysfsInput {
   Channel channel;
@@ -25,28 +25,29 @@ struct SysfsInput {
 };
 struct SysfsDevice {
   std::string description;
-  // Of an incremental encoder: why its datum is lost after the device was opened again; its values
-  // are then suspect. "": no datum to lose.
+  // For an incremental encoder: reason why the datum is lost after the device was opened again; the
+  // positions are then suspect. "": the encoder has no datum that can be lost.
   std::string datum_lost = {};
   Remedy datum_remedy = Remedy::set_encoder;
   std::vector<SysfsInput> inputs;
 };
 
 // Thread-bound. The time of a scan is the middle between the beginning of its first reading and the
-// end of its last. Polls that failed or were not made in time are lost; the scan after a failed
-// poll is suspect; five failed polls in a row are an error.
+// end of its last reading. A poll that failed or was not made in time is a lost scan. The scan
+// after a failed poll is suspect. Five failed polls in succession are an error.
 class SysfsPoller final : public Driver {
  public:
-  static constexpr int kFailuresAllowed = 4;  // in a row
+  static constexpr int kFailuresAllowed = 4;  // most failed polls in succession
 
-  // `open` finds and checks the device; each open() calls it. `slow_ns`: a scan that takes longer
-  // is suspect, because its time is uncertain; 0: no limit.
+  // `open`: finds and checks the device; each open() calls it. `slow_ns`: a scan that needs more
+  // time is suspect, because its time is uncertain; 0: no limit.
   SysfsPoller(std::string name, std::string driver, double rate_hz, std::int64_t slow_ns,
               std::function<Result<SysfsDevice>()> open);
 
   DeviceInfo info() const override;
   Status open() override;
-  // Returns the scans of 10 ms, at least one. Exceeds `timeout` by at most one scan.
+  // Returns the scans of 10 ms, but at least one scan. Exceeds `timeout` by the duration of one
+  // scan at most.
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override { datum_lost_ = false; }
   int marks_passed() const override { return marks_passed_; }
@@ -65,9 +66,9 @@ class SysfsPoller final : public Driver {
   bool is_open_ = false, opened_before_ = false, datum_lost_ = false;
   std::int64_t next_ns_ = 0;
   std::uint64_t lost_ = 0;
-  int failures_ = 0;  // in a row
+  int failures_ = 0;  // number of failed polls in succession
   int marks_passed_ = 0;
-  bool passed_mark_ = false;  // counted in marks_passed_ with the next block
+  bool passed_mark_ = false;  // true: marks_passed_ increases with the next block
   std::int64_t last_time_ns_ = 0;
 };
 

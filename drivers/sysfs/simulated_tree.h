@@ -1,5 +1,5 @@
-// A folder that simulates a device in sysfs: files are rewritten in place while a driver reads
-// them, and reads fail with the errors of the kernel.
+// A folder that simulates a device in sysfs. Its files can be changed while a driver reads them,
+// and reads can fail with the errors of the kernel.
 #pragma once
 
 #include <atomic>
@@ -24,12 +24,13 @@ class SimulatedTree {
   static Result<SimulatedTree> make(const std::filesystem::path& folder,
                                     std::initializer_list<File> files);
 
-  // Makes the file or replaces its text in one write, so that a reader sees either text.
+  // Makes the file or replaces its text in one write. A reader therefore reads either the old or
+  // the new text.
   Status set(const std::string& file, const std::string& text) const;
   void remove(const std::string& file) const;
 
-  // Reads for a driver. fail_reads() lets the next `count` of them (-1: all) fail with `error`. Any
-  // thread.
+  // reads() returns the read function for a driver. fail_reads() causes the next `count` reads (-1:
+  // all) to fail with `error`. Any thread may call them.
   SysfsRead reads() const;
   void fail_reads(int error, int count = -1);
 

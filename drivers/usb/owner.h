@@ -1,4 +1,4 @@
-// The owner of a USB interface that is in use, for messages.
+// Finds the program or kernel driver that uses a USB interface, for messages.
 #pragma once
 
 #include <string>
@@ -7,12 +7,13 @@ namespace mdof::drivers::usb {
 
 struct Place {
   int bus = 0, address = 0;
-  std::string port;  // as in /sys/bus/usb/devices: "1-4.2"; "": not known
+  std::string port;  // name of the port as in /sys/bus/usb/devices: "1-4.2"; "": not known
 };
 
-// "the kernel's driver cdc_acm", "the program mdofd (4711)", or "another program".
+// Returns "the kernel's driver cdc_acm", "the program mdofd (4711)", or "another program".
 std::string interface_owner(const Place& place, int interface);
-// "mdofd (4711)": another program that has `path` open; "": this user can see none.
+// Returns another program that has `path` open: "mdofd (4711)"; "": no such program is visible to
+// this user.
 std::string find_program_with_file(const std::string& path);
 
 }  // namespace mdof::drivers::usb

@@ -1,5 +1,6 @@
-// The host's view of a simulated USB device. Tests connect it to the bus of umockdev, mdof-simulate
-// to that of the kernel (vhci_hcd), so libusb, hidapi and the kernel are real.
+// Interface of a simulated USB device to the host. Tests connect the device to the simulated bus of
+// umockdev; mdof-simulate connects it to a bus of the kernel (vhci_hcd). In both cases libusb and
+// hidapi are the real libraries.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +14,16 @@
 namespace mdof::drivers::usb {
 
 enum class Speed { full, high };
-inline constexpr std::size_t kFullSpeedPacket = 64;  // bytes, bulk
+inline constexpr std::size_t kFullSpeedPacket = 64;  // bytes in a bulk packet
 
 struct Identity {
   std::uint16_t vendor = 0, product = 0, version_bcd = 0x0100;
   Speed speed = Speed::full;
   std::string manufacturer, product_name, serial;  // ASCII; string descriptors 1, 2, 3
-  // The configuration descriptor with its interface and endpoint descriptors, as on the wire.
+  // The configuration descriptor with its interface and endpoint descriptors, as bytes on the bus.
   std::string configuration;
-  // HID report descriptor of each interface; "" for an interface without HID. May be shorter.
+  // HID report descriptor of each interface; "": the interface has no HID. The list may be shorter
+  // than the list of interfaces.
   std::vector<std::string> hid_reports;
 };
 
@@ -33,9 +35,9 @@ struct Setup {
 };
 
 enum class Answer {
-  done,     // bytes were accepted, or `bytes` is the data
-  not_yet,  // NAK: the host asks again about every millisecond, until it cancels
-  stall,    // control transfer: once; other endpoints: until clear_halt()
+  done,     // the bytes were accepted, or `bytes` contains the data
+  not_yet,  // NAK: the host asks again about every millisecond until it cancels the transfer
+  stall,    // control transfer: stalls once; other endpoints: until clear_halt()
 };
 struct Reply {
   Answer answer = Answer::done;
@@ -47,10 +49,11 @@ class SimulatedUsb : public SimulatedDevice {
  public:
   SimulatedUsb* on_usb() final { return this; }
   virtual const Identity& identity() const = 0;
-  // Class and vendor requests; standard_reply() answers standard requests.
+  // Answers class and vendor requests; standard_reply() answers standard requests.
   virtual Reply control(const Setup& setup, std::string_view out, std::int64_t now_ns) = 0;
-  // One bulk or interrupt transfer from the device (bit 7 of the endpoint is set) or to it. Returns
-  // at most `max_bytes`; a packet that is not full ends a transfer, as on the bus.
+  // One bulk or interrupt transfer: in() from the device (bit 7 of the endpoint is set), out() to
+  // the device. in() returns at most `max_bytes`; a packet that is not full ends the transfer, as
+  // on a real bus.
   virtual Reply in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t now_ns) = 0;
   virtual Reply out(std::uint8_t endpoint, std::string_view bytes, std::int64_t now_ns) = 0;
   virtual void clear_halt(std::uint8_t endpoint) = 0;
@@ -59,9 +62,9 @@ class SimulatedUsb : public SimulatedDevice {
 };
 
 // Reply to a standard request (USB 2.0 specification 9.4, HID 1.11 section 7.1.1); nullopt: the
-// device must answer. Clears halts of `device` if requested.
+// device itself must answer. Clears halts of `device` if the request says so.
 std::optional<Reply> standard_reply(SimulatedUsb& device, const Setup& setup);
-// The device descriptor.
+// The device descriptor, as bytes on the bus.
 std::string device_descriptor(const Identity& identity);
 
 }  // namespace mdof::drivers::usb

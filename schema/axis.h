@@ -7,8 +7,8 @@
 //   Y: EXY = -δy  EZY = δz   EAY = -εy  EBY = εx   ECY = εz
 //   Z: EXZ = δy   EYZ = δz   EAZ = εy   EBZ = εz   ECZ = εx
 // Error = actual - nominal. The local errors are errors of the target in the metrology frame. The
-// ISO names are errors of the moving body: equal to those of the target where the target moves,
-// their negative where the fixture moves (schema/rig/sides.h).
+// ISO names are errors of the moving body. If the target moves, both errors are equal; if the
+// fixture moves, the ISO error is the negative of the target's error (schema/rig/sides.h).
 #pragma once
 
 #include <array>
@@ -26,28 +26,28 @@ enum class Axis { x, y, z };
 char letter(Axis axis);                                  // 'X'
 std::optional<Axis> axis_from(std::string_view letter);  // "X", "Y", "Z"
 
-// Indices of the local errors, used everywhere; m, m, rad, rad, rad.
+// Indices of the local errors; units m, m, rad, rad, rad. The same indices are used everywhere.
 enum LocalError { kDy = 0, kDz = 1, kEx = 2, kEy = 3, kEz = 4 };
 inline constexpr int kErrorCount = 5;
 using Errors5 = std::array<double, 5>;
 using Covariance5 = std::array<double, 25>;  // row-major, symmetric
 
-// One named error of an axis. Results list the errors in this order: the two straightness errors,
-// then the rotations about A, B and C.
+// An error of an axis with its ISO name. Results list the errors in this order: the two
+// straightness errors, then the rotations about A, B and C.
 struct ErrorName {
   const char* name;  // "EYX"
   const char* key;   // "EYX_um" or "EAX_urad": the name with its unit
   LocalError local;
-  double sign;  // named = sign * local
+  double sign;  // error with the ISO name = sign * local error
   bool angle;
 };
 const std::array<ErrorName, 5>& error_names(Axis axis);
 
-// Columns: the local axes in machine coordinates; p_machine = axes * p_local.
+// The columns are the local axes in machine coordinates: p_machine = axes * p_local.
 std::array<std::array<double, 3>, 3> local_axes(Axis axis);
 std::array<double, 3> to_local(Axis axis, const std::array<double, 3>& v_machine);
 
-// Named errors of the target.
+// Conversion to and from the errors with ISO names, for errors of the target.
 Errors5 named_from_local(Axis axis, const Errors5& local);
 Errors5 local_from_named(Axis axis, const Errors5& named);
 Covariance5 named_from_local(Axis axis, const Covariance5& local);
@@ -57,11 +57,12 @@ struct MovingAxis {
   Axis axis = Axis::x;
   Sides sides;
 };
-// Named errors of the moving body. The covariance does not depend on the sign.
+// Conversion to and from the errors with ISO names, for errors of the moving body. The covariance
+// has no third function, because it does not depend on the sign.
 Errors5 named_from_local(const MovingAxis& moving, const Errors5& local);
 Errors5 local_from_named(const MovingAxis& moving, const Errors5& named);
 
-// Converts SI to the unit of the key, µm or µrad; both have the factor 1e6.
+// Converts an SI value to the unit of the key, µm or µrad. The factor of both units is 1e6.
 inline double to_key_unit(double si) {
   return si * 1e6;
 }

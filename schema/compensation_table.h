@@ -1,4 +1,4 @@
-// Compensation table of one axis: measured errors against position, forward and reverse separately.
+// Compensation table of one axis: measured errors as functions of the position, for each approach.
 #pragma once
 
 #include <array>
@@ -15,47 +15,50 @@
 
 namespace mdof {
 
-// Positioning errors of an axis (EXX, EYY, EZZ) by position, m. The five probes do not measure
-// them. Error = actual minus commanded position in the coordinates of the controller, so the
-// correction is -E, whichever body moves. NaN: no value.
+// Positioning errors of an axis (EXX, EYY, EZZ) at the positions of the table, m. The five probes
+// do not measure them. Error = actual minus commanded position in the coordinates of the
+// controller. Therefore the correction is -E, independent of which body moves. NaN: no value.
 struct PositioningErrors {
   std::vector<double> forward, reverse, u_forward, u_reverse;
-  std::vector<double> u_declared;  // empty: not declared
+  std::vector<double> u_declared;  // empty: no uncertainty is declared
 };
 
-// The table holds errors (actual - nominal) of the moving body. The correction that a controller
-// adds to the command of an axis follows from the machine's chain (schema/rig/correction.h);
-// without a chain it is unknown. Every reply and export states whether it shows errors or
-// corrections.
+// The table contains errors (actual - nominal) of the moving body. A controller adds a correction
+// to the command of an axis. The sign of this correction follows from the kinematic chain of the
+// machine (schema/rig/correction.h); without a chain the sign is unknown. Every reply and export
+// states whether it contains errors or corrections.
 struct CompensationTable {
-  std::int64_t id = 0;  // 0 until stored
+  std::int64_t id = 0;  // 0: not stored yet
   Axis axis = Axis::x;
-  bool simulated = false;          // built wholly or partly from simulated data
-  bool slope_removed = true;       // straightness refers to its least-squares line
-  Sides sides;                     // of the rig that measured the runs
-  StatedAt stated;                 // reference point of straightness
+  bool simulated = false;          // true: all or some of the data are simulated
+  bool slope_removed = true;       // true: straightness is relative to its least-squares line
+  Sides sides;                     // sides of the rig that measured the runs
+  StatedAt stated;                 // reference point of the straightness errors
   Chain machine;                   // may be unknown
-  std::vector<std::int64_t> runs;  // ids of the runs that it was built from
+  std::vector<std::int64_t> runs;  // ids of the runs from which the table was built
   std::vector<double> position_m;  // strictly increasing
-  // [named error in the order of error_names()][position]; NaN: no value
+  // [error in the order of error_names()][position]; NaN: no value
   std::array<std::vector<double>, 5> forward, reverse;
   // Standard uncertainty from noise and repeatability.
   std::array<std::vector<double>, 5> u_forward, u_reverse;
-  // Standard uncertainty from the declarations of the rigs: common to both approaches, the larger
-  // of the two. Empty: the rigs declare nothing, or the table was built before u_declared existed.
+  // Standard uncertainty from the declarations of the rigs. It is common to both approaches: the
+  // larger of the two values. Empty: the rigs declare nothing, or the table is older than this
+  // member.
   std::array<std::vector<double>, 5> u_declared;
-  // Curvature of each interval, for u between targets (algo/compensation/between_targets.h). Not
-  // stored: calculated from the values; empty until then.
+  // Curvature of the error in each interval, for u between targets
+  // (algo/compensation/between_targets.h). It is calculated from the values and not stored; empty
+  // before the calculation.
   std::array<std::vector<double>, 5> curvature_forward, curvature_reverse;
-  PositioningErrors positioning;  // empty: not measured; from imported runs only
-  // Built by a version that stated no reference point (it was the carriage) and no direction of the
-  // correction. Such a table must not be served.
+  PositioningErrors positioning;  // from imported runs only; empty: not measured
+  // True: the table was built by an old version that stated neither the reference point (which was
+  // the carriage) nor the direction of the correction. Such a table must not be sent to a client or
+  // controller.
   bool without_stated_point = false;
-  // Keys that the rigs of the runs do not declare; u does not include their contributions. Not
-  // stored: taken from the rigs of the runs.
+  // Keys that the rigs of the runs do not declare; u does not include the contributions of these
+  // keys. They are read from the rigs and not stored.
   std::vector<std::string> not_declared;
-  // No target was visited twice from the same side, so u contains no repeatability. Not stored:
-  // found from the points of the runs.
+  // True: no target was visited twice from the same side, so that u contains no repeatability. It
+  // is found from the points of the runs and not stored.
   bool visited_once = false;
   std::string created_utc;
   std::string sha256;  // table_sha256() or a value of an earlier version; checked by the ledger of
@@ -63,16 +66,17 @@ struct CompensationTable {
 
   bool has_declared() const { return !u_declared.front().empty(); }
   bool has_positioning() const { return !positioning.forward.empty(); }
-  // Applies is_noise_only() of schema/uncertainty/budget.h to all values.
+  // Whether u contains noise only: is_noise_only() of schema/uncertainty/budget.h for all values.
   bool noise_only() const;
-  // Combined standard uncertainty of a named error at a position, for one approach.
+  // Combined standard uncertainty of an error at a position, for one approach. `u_random`:
+  // u_forward or u_reverse.
   double u_of(const std::array<std::vector<double>, 5>& u_random, std::size_t named,
               std::size_t row) const {
     return has_declared() ? std::hypot(u_random[named][row], u_declared[named][row])
                           : u_random[named][row];
   }
-  // Combined standard uncertainty of positioning. With one reading per target, repeatability is
-  // unknown and u is the declared uncertainty.
+  // Combined standard uncertainty of the positioning error. If a target has only one reading, the
+  // repeatability is unknown, and u is the declared uncertainty.
   double positioning_u_at(bool of_forward, std::size_t row) const {
     const double value = (of_forward ? positioning.forward : positioning.reverse)[row];
     const double u_random = (of_forward ? positioning.u_forward : positioning.u_reverse)[row];
@@ -91,9 +95,10 @@ struct CompensationTable {
 // Tables of earlier versions have the hash of the JSON that was written at that time.
 std::string table_sha256(const CompensationTable& table);
 
-// Uncertainty contributions that u includes.
+// The contributions that u of the table includes.
 Covers covers(const CompensationTable& table);
-// Adds the keys that the rig of one run does not declare, each once.
+// Appends the keys that the rig of a run does not declare; a key that the table already has is not
+// repeated.
 void add_not_declared(CompensationTable& table, const std::vector<std::string>& keys);
 
 }  // namespace mdof

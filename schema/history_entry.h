@@ -1,5 +1,5 @@
-// An entry of the history (an audit trail): a change of stored data, and who requested it. The
-// table of the database and the member of the RPC keep their first name, "deed".
+// An entry of the history (audit trail): a change of stored data and the client that requested it.
+// The table in the database and the member in the RPC have the older name "deed".
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace mdof {
 
-// A client process as reported by the kernel; `user` is the name of the user at that time.
+// A client process, as the kernel reports it. `user`: name of the user at that time.
 struct Actor {
   std::int64_t uid = 0, gid = 0, pid = 0;
   std::string user;
@@ -21,12 +21,12 @@ struct HistoryEntry {
                      // ".deactivate", "encoder.set"
   Actor by;
   std::string utc;
-  // Set when it is stored.
+  // Both are set when the entry is stored.
   std::int64_t id = 0, row = 0;
-  std::string subject = {};  // the table with this row: run, squareness, compensation_table,
-                             // activation, deactivation, encoder_datum, volumetric_table,
-                             // volumetric_activation
-  std::string detail = {};   // text for people, where there are details: setting_text()
+  // Name of the database table that contains this row: run, squareness, compensation_table,
+  // activation, deactivation, encoder_datum, volumetric_table, volumetric_activation.
+  std::string subject = {};
+  std::string detail = {};  // text for people, if there are details: setting_text()
 };
 
 }  // namespace mdof

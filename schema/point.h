@@ -1,4 +1,5 @@
-// A Point holds the averages of one dwell; a MeasuredPoint adds the five errors solved from it.
+// A Point contains the averages of one dwell. A MeasuredPoint also contains the five errors that
+// were calculated from the averages.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +15,19 @@ namespace mdof {
 
 // Robust averages of a dwell.
 struct Point {
-  std::int64_t begin_ns = 0, end_ns = 0;  // first and last of the averaged samples
-  double position_m = 0;                  // encoder mean
+  std::int64_t begin_ns = 0, end_ns = 0;  // times of the first and the last averaged sample
+  double position_m = 0;                  // mean position of the encoder
   int direction = 0;              // +1, -1: direction of the travel to this point; 0: unknown
-  std::vector<double> probe_m;    // mean displacement; NaN: lost
+  std::vector<double> probe_m;    // mean displacement of each probe; NaN: no value
   std::vector<double> probe_u_m;  // standard uncertainty of the mean (type A)
-  std::uint64_t samples = 0;      // scans in the dwell
+  std::uint64_t samples = 0;      // number of scans in the dwell
   std::vector<PointFlag> flags;   // each at most once
 
-  // For checks of a whole run; neither stored nor part of the result.
-  std::vector<double> probe_sd_m;      // standard deviation of single readings
-  std::uint64_t scan_fingerprint = 0;  // algo/points/scan_fingerprint.h; 0: none
-  // Smallest and largest position between the previous point and this one; NaN if not observed.
+  // The following members are for checks of a whole run. They are not stored and are not part of
+  // the result.
+  std::vector<double> probe_sd_m;      // standard deviation of single readings, for each probe
+  std::uint64_t scan_fingerprint = 0;  // algo/points/scan_fingerprint.h; 0: no fingerprint
+  // Smallest and largest position between the previous point and this point; NaN if not observed.
   double travel_min_m = std::numeric_limits<double>::quiet_NaN();
   double travel_max_m = std::numeric_limits<double>::quiet_NaN();
 };
@@ -38,16 +40,16 @@ bool model_from(std::string_view name, Model& model);
 // The initial state is "not solved".
 struct AxisErrors {
   bool valid = false;
-  std::string reason = "not solved";  // if !valid: why
+  std::string reason = "not solved";  // reason if !valid
   Errors5 local{};                    // δy, δz, εx, εy, εz in the axis' local frame; m, rad
   Covariance5 covariance{};           // of `local`
   double residual_m = 0;  // rms residual of the readings against the model (0 for five probes)
 };
 
-// One row of a run: a point, its place in the sequence and its errors.
+// One row of a run: a point, its target and run, and its errors.
 struct MeasuredPoint {
   int target = 0;  // 1 ... m, ascending in position (ISO 230-2 index i)
-  // Nominal position; without nominal targets, the position of the first stop at this target.
+  // Nominal position. If there are no nominal targets: position of the first stop at this target.
   double target_m = 0;
   int run = 0;  // 1 ... n (ISO 230-2 index j)
   Point point;

@@ -1,5 +1,5 @@
-// A stored run: what was measured, from which recording, by which software, with which result. Rows
-// are never changed; a correction is a new run that supersedes an old one.
+// A stored run: the measurement, its recording, the software that evaluated it, and the result. A
+// stored run is never changed; a correction is a new run that supersedes the old run.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@
 
 namespace mdof {
 
-// Everything that is needed to reproduce the result bit by bit.
+// All data that are needed to reproduce the result bit by bit.
 struct Provenance {
   std::string recording_kind;  // "csv", "recording", "live"
-  std::string recording_path;  // absolute
-  // Hash of the bytes of the file (csv) or of the chain of chunks (recording).
+  std::string recording_path;  // absolute path
+  // SHA-256 of the bytes of the file (csv), or hash of the chain of chunks (recording).
   std::string recording_sha256;
   std::string rig_text;  // rig and calibration as TOML
   std::string model;
@@ -29,25 +29,28 @@ struct Provenance {
 };
 
 // partial: the run ended before all requested targets were measured, or most points could not be
-// solved; its notices say what is missing. ended: the measurement has ended, but the end is not
-// stored yet. The database still has the state open; only mdofd knows the state ended.
+// solved; the notices of the run state what is missing. ended: the measurement has ended, but this
+// is not stored yet; the database still contains the state "open", and only mdofd uses the state
+// "ended".
 enum class RunState { open, complete, partial, aborted, failed, ended };
 const char* to_string(RunState state);
 
-// A reference line through a straightness series and the residuals. Slopes refer to the travel of
-// the moving body in M: they do not depend on the counting direction of its encoder.
+// A reference line through a straightness series, and the residuals from the line. Slopes are
+// relative to the travel of the moving body in M. Therefore they do not depend on the counting
+// direction of the encoder.
 struct StraightnessFigure {
   std::string error_key;  // "EYX_um"
   std::string approach;   // "forward", "reverse", "mean"
   double slope_least_squares_rad = 0, slope_end_point_rad = 0;
-  // Uncertainty of the fitted slope from the residuals: it says how well a line describes the axis,
-  // not how well the slope is known.
+  // Standard uncertainty of the fitted slope, calculated from the residuals. It states how well a
+  // line describes the axis; it does not state how well the slope is known.
   double form_rad = 0;
   double straightness_least_squares_m = 0, straightness_end_point_m = 0;  // peak to valley
-  double peak_position_m = 0, valley_position_m = 0;  // of the least-squares residuals
+  // Positions of the largest and smallest residual from the least-squares line.
+  double peak_position_m = 0, valley_position_m = 0;
 };
 
-// Range of an angle over the travel, referred to its value at the first target.
+// Range of an angle error over the travel. The value at the first target is subtracted.
 struct AngleFigure {
   std::string error_key;  // "EAX_urad"
   std::string approach;
@@ -55,14 +58,14 @@ struct AngleFigure {
   double min_rad = 0, max_rad = 0;
 };
 
-// Values of the column temperature_C from the first scan of a run to the last.
+// Values of the column temperature_C between the first and the last scan of a run.
 struct Temperature {
   double mean_C = 0, min_C = 0, max_C = 0;
   bool operator==(const Temperature&) const = default;
 };
 
 struct RunHeader {
-  std::int64_t id = 0;  // 0 until stored
+  std::int64_t id = 0;  // 0: not stored yet
   Axis axis = Axis::x;
   Sides sides;
   StatedAt stated;  // reference point of the errors and the figures
@@ -74,7 +77,7 @@ struct RunHeader {
   Provenance provenance;
   std::uint64_t scans = 0, scans_lost = 0;
   Notices notices;
-  std::optional<Temperature> temperature;  // none: not measured
+  std::optional<Temperature> temperature;  // nullopt: not measured
 
   MovingAxis moving() const { return {axis, sides}; }
 };
@@ -84,7 +87,7 @@ struct Run {
   std::vector<MeasuredPoint> points;
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
-  // None: the run has no points or is older than this member.
+  // nullopt: the run has no points, or it is older than this member.
   std::optional<Plausibility> plausibility;
 };
 

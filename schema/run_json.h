@@ -1,4 +1,4 @@
-// JSON of runs, squareness and compensation tables: the same for the command line and the RPC.
+// JSON of runs, squareness and compensation tables. The command line and the RPC use the same JSON.
 #pragma once
 
 #include "schema/base/json_writer.h"
@@ -27,46 +27,49 @@ void write_strings(JsonWriter& json, const char* key, const std::vector<std::str
 
 // Writes "reference" and "reference_mm" (null for the carriage) into an open object.
 void write_reference(JsonWriter& json, const StatedAt& at);
-// Writes null for positioning: its reference is the measuring line, which an imported file does not
-// state.
+// As for runs. For positioning, null is written, because its reference is the measuring line, which
+// an imported file does not state.
 void write_reference(JsonWriter& json, const CompensationTable& table);
 
-// Writes identity, state and provenance, without points, into an open object.
+// Writes identity, state and provenance of the run, but not the points, into an open object.
 void write_header_members(JsonWriter& json, const RunHeader& header, NoticeWords words);
 
-// A run with its uncertainties and stated figures.
+// A run with its uncertainties and the figures that are stated with it.
 struct RunMembers {
   const Run& run;
-  const RunHeader& header;  // the header of `run` or a shortened one
+  const RunHeader& header;  // the header of `run`, or a shortened header
   const RunUncertainty& uncertainty;
   const StatedFigures& figures;  // for write_stated()
   bool with_points = true;
   std::size_t visit_limit = kAllVisits;  // for write_plausibility()
 };
-// Writes the members into an open object.
+// Writes these members into an open object.
 void write_run_members(JsonWriter& json, const RunMembers& members, NoticeWords words);
 
-// {"EYX_um": {"forward": {...}, "reverse": {...}, "mean": {...}}, ...}. "form_urad": how well a
-// line describes the axis. The slope of "mean" has the u of its budget, if `budgets` holds it.
+// Writes {"EYX_um": {"forward": {...}, "reverse": {...}, "mean": {...}}, ...}. "form_urad" states
+// how well a line describes the axis. If `budgets` contains the budget of the slope, the slope in
+// "mean" has the u of this budget.
 void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures,
                         const std::vector<Budget>& budgets = {});
-// The budget of the least-squares slope of `figure`. nullptr if `budgets` does not hold it; budgets
-// exist for the mean of both approaches only.
+// The budget of the least-squares slope of `figure`. nullptr: `budgets` does not contain it.
+// Budgets exist only for the mean of both approaches.
 const Budget* slope_budget(const std::vector<Budget>& budgets, const StraightnessFigure& figure);
 void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
 
-// Writes the members into an open object. `budgets`: EC0Y first, then the slopes.
+// Writes the members of a squareness into an open object. `budgets`: first the budget of EC0Y, then
+// the budgets of the slopes.
 void write_squareness_members(JsonWriter& json, const Squareness& squareness,
                               const std::vector<Budget>& budgets);
 
 // Adds the member "notices" to a JSON object.
 std::string with_notices(std::string json, const Notices& notices, NoticeWords words);
 
-// One grid point: {"position_mm", "forward": {...}, "reverse": {...}}, errors with their "u".
+// Writes one position of the table: {"position_mm", "forward": {...}, "reverse": {...}}, each error
+// with its "u".
 void write_table_row(JsonWriter& json, const CompensationTable& table, std::size_t row);
-// Writes the members that hold for the whole table into an open object.
+// Writes the members that apply to the whole table into an open object.
 void write_table_members(JsonWriter& json, const CompensationTable& table);
-// The members of the table and its "points".
+// The members of the table, and its "points".
 std::string table_json(const CompensationTable& table);
 
 }  // namespace mdof

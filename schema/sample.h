@@ -1,4 +1,5 @@
-// Samples as drivers deliver them, and frames: all values of the rig at one instant.
+// Samples as drivers return them, and frames. A frame contains all values of the rig at one
+// instant.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +10,15 @@
 
 namespace mdof {
 
-// From best to worst. A value keeps its quality from the device to the compensation table.
+// From best to worst. A value keeps its quality in all steps from the device to the compensation
+// table.
 enum class Quality : std::uint8_t {
   good = 0,
-  simulated = 1,   // good, but simulated instead of measured on a machine
-  suspect = 2,     // read after an error that may have shifted or delayed it
-  over_range = 3,  // the probe is at the end of its range
-  stale = 4,       // older than the stated maximum age
-  missing = 5,     // not received; the value is NaN
+  simulated = 1,   // as good, but from a simulation and not from a machine
+  suspect = 2,     // was read after an error that may have shifted or delayed it
+  over_range = 3,  // the probe is at an end of its range
+  stale = 4,       // older than the maximum age
+  missing = 5,     // was not received; the value is NaN
 };
 inline constexpr int kQualityCount = 6;
 const char* to_string(Quality quality);
@@ -24,28 +26,29 @@ inline bool usable(Quality q) {
   return q <= Quality::simulated;
 }
 
-// Unit of the raw numbers of a channel; a column "A_um" is channel "A" in micrometres. Calibration
-// converts the first three units to `metre`.
+// Unit of the raw numbers of a channel; the column "A_um" is channel "A" in µm. Calibrator
+// (drivers/calibration.h) converts the first three units to `metre`.
 enum class Unit : std::uint8_t { um = 0, mm = 1, volt = 2, deg_c = 3, other = 4, metre = 5 };
 const char* suffix(Unit unit);  // "um", "mm", "V", "C", "", "m"
 
 struct Channel {
   std::string id;        // probe id of the rig ("A" ...), or "encoder" for the axis position
-  Unit unit = Unit::um;  // of the raw value
+  Unit unit = Unit::um;  // unit of the raw value
   bool operator==(const Channel&) const = default;
 };
 inline constexpr const char* kEncoderChannel = "encoder";
 
-// Samples as a device delivers them: n scans of the same channels, one time stamp a scan. The
-// values are raw: not calibrated, averaged, aligned or filtered. They are stored by column, so that
-// a recording compresses well and a loop over one channel reads memory in order.
+// Samples as a device sends them: n scans of the same channels, with one time stamp for each scan.
+// The values are raw: not calibrated, averaged, aligned or filtered. The values of one channel are
+// stored together, so that a recording compresses well and a loop over one channel reads the memory
+// in order.
 struct SampleBlock {
   std::string device;
   std::vector<Channel> channels;
-  std::vector<std::int64_t> time_ns;          // monotonic, strictly increasing; taken by the driver
+  std::vector<std::int64_t> time_ns;  // monotonic clock, strictly increasing; set by the driver
   std::vector<std::vector<double>> value;     // [channel][scan], in the channel's unit
-  std::vector<std::vector<Quality>> quality;  // [channel][scan]; empty: all good
-  std::uint64_t lost = 0;  // scans known to be lost immediately before this block
+  std::vector<std::vector<Quality>> quality;  // [channel][scan]; empty: all values are good
+  std::uint64_t lost = 0;  // number of scans that were lost directly before this block
 
   std::size_t scans() const { return time_ns.size(); }
   Quality quality_at(std::size_t channel, std::size_t scan) const {
@@ -53,20 +56,21 @@ struct SampleBlock {
   }
 };
 
-// Appends scans `begin` to `end` of `from` to `to`. Both have the same channels. The caller updates
-// `lost`.
+// Appends the scans `begin` to `end` - 1 of `from` to `to`. Both blocks must have the same
+// channels. `lost` is not changed.
 void append_scans(SampleBlock& to, const SampleBlock& from, std::size_t begin, std::size_t end);
 
-// Displacements of all probes and the axis position at n common instants (the time stamps of the
-// encoder); SI, calibrated. probe_m[k] is the displacement of the target in the direction
-// `measures` of probe k, probes in the order of the rig. A missing value is NaN and has a quality.
+// Displacements of all probes and position of the axis at n common instants; the instants are the
+// time stamps of the encoder. SI units, calibrated. probe_m[k] is the displacement of the target in
+// the direction `measures` of probe k; the probes are in the order of the rig. A missing value is
+// NaN and has a quality.
 struct FrameBlock {
   std::vector<std::int64_t> time_ns;
   std::vector<double> encoder_m;
   std::vector<std::vector<double>> probe_m;         // [probe][instant]
-  std::vector<std::vector<Quality>> probe_quality;  // [probe][instant]; empty: all good
-  // [probe][instant] 1 if a new sample of the probe arrived since the previous instant, 0 if the
-  // value is interpolated from the same samples; empty: 1 everywhere.
+  std::vector<std::vector<Quality>> probe_quality;  // [probe][instant]; empty: all values are good
+  // [probe][instant] 1: a new sample of the probe arrived after the previous instant; 0: the value
+  // is interpolated from the same samples as at the previous instant. Empty: 1 everywhere.
   std::vector<std::vector<std::uint8_t>> probe_is_new = {};
 
   std::size_t size() const { return time_ns.size(); }

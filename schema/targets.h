@@ -1,5 +1,6 @@
-// Target positions of a run (ISO 230-2:2014, 5.3.2): even intervals, each target shifted by a small
-// random amount, so that periodic errors of the scale and the screw are sampled and not hidden.
+// Target positions of a run (ISO 230-2:2014, 5.3.2). The intervals are equal, and each target is
+// then shifted by a small random amount. Without these shifts, a periodic error of the scale or the
+// screw could have the same value at every target and remain hidden.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +19,20 @@ struct TargetSpacing {
   std::int64_t seed = 1;
 };
 
-// Checks a spacing. Returns the first invalid key and why: an empty range, more than 10,000
-// targets, a jitter of half an interval or more. nullopt: the spacing is valid.
+// Checks a spacing. Returns the first invalid key and the reason: the range is empty; there are
+// more than 10,000 targets; the jitter is half an interval or more. nullopt: the spacing is valid.
 struct WrongKey {
   const char* key;
   std::string why;
 };
 std::optional<WrongKey> check_spacing(const TargetSpacing& spacing);
 
-// Ascending positions from from_mm to at most to_mm, each shifted by the jitter. The same seed
-// gives the same bits. Only for a spacing that check_spacing() accepts.
+// Ascending positions from from_mm to at most to_mm, each shifted by at most the jitter. The same
+// seed produces the same bits. Call it only for a spacing that check_spacing() accepts.
 std::vector<double> spaced_targets_mm(const TargetSpacing& spacing);
 
-// A notice if all intervals are whole periods of the scale (within 1 % of a period), because its
-// periodic error is then the same at every target. Period 0: unknown.
+// Returns a notice if all intervals are multiples of the period of the scale (within 1 % of a
+// period), because the periodic error of the scale is then equal at all targets. Period 0: unknown.
 std::optional<Notice> scale_period_notice(const std::vector<double>& targets_mm,
                                           double scale_period_um);
 

@@ -1,6 +1,6 @@
-// Conversions between units; powers of ten are written here only. Internal values are SI (m, rad,
-// s, V; time in integer ns). At interfaces the name of a scalar ends in its unit: _um _mm _urad _s
-// _hz _V.
+// Conversions between units. Only this file contains the powers of ten. Internal values are in SI
+// units (m, rad, s, V; time in integer ns). At interfaces the name of a scalar ends in its unit:
+// _um _mm _urad _s _hz _V.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace mdof {
 inline constexpr std::int64_t kNsPerS = 1'000'000'000;
 inline constexpr double kInch_m = 0.0254;
 
-// Division by an exact power of ten is rounded once, so 200 µm converted to m and back is 200 µm.
+// The functions divide by an exact power of ten, which is rounded only once. Therefore 200 µm
+// converted to m and back is exactly 200 µm.
 inline constexpr double from_um(double x_um) {
   return x_um / 1e6;
 }

@@ -1,4 +1,4 @@
-// Appends the items of `more` that `to` does not contain yet, in their order.
+// Appends those items of `more` that `to` does not contain yet, in the order of `more`.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A bounded queue between two threads. try_push() counts items that do not fit; push() and
-// push_for() wait for room.
+// A queue between two threads with a limited number of items. try_push() rejects and counts items
+// if the queue is full; push() and push_for() wait until the queue has room.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-  // False, and one drop counted, if the queue is full or closed.
+  // Returns false if the queue is full or closed; the item is then counted as dropped.
   bool try_push(T value) {
     const std::lock_guard lock(mutex_);
     if (closed_ || items_.size() >= capacity_) {
@@ -31,9 +31,9 @@ class BoundedQueue {
     return true;
   }
 
-  enum class Wake { yes, no };  // no: a waiting thread may sleep until its timeout
-  // Waits for room up to `timeout`. False, with `value` unchanged, if there is no room or the queue
-  // was closed.
+  enum class Wake { yes, no };  // no: a waiting thread may sleep until its time-out
+  // Waits for room, at most `timeout`. Returns false and leaves `value` unchanged if there is no
+  // room or the queue is closed.
   bool push_for(T& value, std::chrono::milliseconds timeout, Wake wake = Wake::yes) {
     std::unique_lock lock(mutex_);
     emptied_.wait_for(lock, timeout, [&] { return closed_ || items_.size() < capacity_; });
@@ -44,7 +44,7 @@ class BoundedQueue {
     return true;
   }
 
-  // Waits for room; false if the queue was closed.
+  // Waits for room. Returns false if the queue is closed.
   bool push(T value) {
     std::unique_lock lock(mutex_);
     emptied_.wait(lock, [&] { return closed_ || items_.size() < capacity_; });
@@ -54,7 +54,7 @@ class BoundedQueue {
     return true;
   }
 
-  // Ignores the bound; for the few commands that must not wait for room.
+  // Adds the item even if the queue is full; for the few commands that must not wait.
   void push_always(T value) {
     const std::lock_guard lock(mutex_);
     if (closed_) return;
@@ -62,16 +62,17 @@ class BoundedQueue {
     filled_.notify_one();
   }
 
-  // The oldest item; nullopt if none arrived in time or the queue is closed and empty.
+  // Returns the oldest item; nullopt: no item arrived before the time-out, or the queue is closed
+  // and empty.
   std::optional<T> pop(std::chrono::milliseconds timeout) {
     std::unique_lock lock(mutex_);
     filled_.wait_for(lock, timeout, [&] { return closed_ || !items_.empty(); });
     return take_front();
   }
 
-  // Moves all items into `taken`, the oldest first; none if none arrived in time or the queue is
-  // closed and empty. The previous contents of `taken` are deleted and their memory is reused. The
-  // queue has its full capacity again immediately: the bound does not include the items in `taken`.
+  // Moves all items into `taken`, the oldest first. `taken` is empty if no item arrived before the
+  // time-out, or if the queue is closed and empty. The previous contents of `taken` are deleted,
+  // and their memory is reused. The items in `taken` no longer count for the capacity of the queue.
   void pop_all(std::deque<T>& taken, std::chrono::milliseconds timeout) {
     taken.clear();
     std::unique_lock lock(mutex_);
@@ -80,14 +81,14 @@ class BoundedQueue {
     emptied_.notify_all();
   }
 
-  // Waits for an item; nullopt if the queue is closed and empty.
+  // Waits for an item. Returns nullopt if the queue is closed and empty.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
     filled_.wait(lock, [&] { return closed_ || !items_.empty(); });
     return take_front();
   }
 
-  // Rejects further pushes; the remaining items can still be popped.
+  // Rejects all later pushes. The remaining items can still be popped.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;

@@ -1,5 +1,5 @@
-// Numbers as bytes and back, for recordings, statistics and checkpoints. Little-endian; a varint is
-// LEB128, seven bits a byte, least significant first.
+// Converts numbers to bytes and back, for recordings, statistics and checkpoints. Little-endian. A
+// varint is LEB128: each byte contains seven bits, the least significant bits first.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ static_assert(
     std::endian::native == std::endian::little,
     "numbers are written in the byte order of the processor, which must be little-endian");
 
-// Appends an integer or a double in its memory representation.
+// Appends an integer or a double as it is stored in memory.
 template <class T>
 void put_number(std::string& to, const T& x) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -37,8 +37,8 @@ inline void put_string(std::string& to, std::string_view text) {
   to.append(text);
 }
 
-// Takes values from the front of some bytes. Beyond the end every value is zero or empty and ok()
-// is false, so a reader can call it repeatedly and check once.
+// Reads values from the beginning of the bytes. After the end, every value is zero or empty, and
+// ok() is false. Therefore the caller can read many values and check ok() once.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -74,8 +74,8 @@ class ByteReader {
     return 0;
   }
   std::string_view string() { return take(varint()); }
-  // Number of the following items, read as a varint. It fails if so many items of at least
-  // `bytes_each` bytes do not fit into the rest; this bounds allocations.
+  // Reads a varint: the number of the items that follow. Fails if the remaining bytes are too few
+  // for so many items of at least `bytes_each` bytes; this limits later allocations.
   std::size_t count(std::size_t bytes_each) {
     const std::uint64_t n = varint();
     if (n <= rest_.size() / bytes_each) return n;

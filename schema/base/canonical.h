@@ -1,5 +1,5 @@
-// Values as the bytes that are hashed: the same on every machine, and independent of how the values
-// are displayed.
+// Converts values to the bytes that are hashed. These bytes are the same on every machine and do
+// not depend on how the values are displayed.
 //   i  8-byte little-endian integer
 //   d  8-byte little-endian IEEE 754, every NaN as 0x7ff8000000000000
 //   s  i length, then the bytes
@@ -38,7 +38,7 @@ inline void put(std::string& to, std::string_view text) {
   to.append(text);
 }
 
-// i number of values, then each value.
+// i: number of values; then each value.
 inline void put_counted(std::string& to, std::span<const double> values) {
   put(to, std::uint64_t{values.size()});
   put(to, values);

@@ -1,7 +1,7 @@
-// Functions with a larger instruction set in files that are compiled for the x86-64 baseline. Each
-// such function has a target attribute and is called only if the processor supports it. (Do not
-// compile a whole file for a larger set: inline functions of its headers would be compiled for it
-// too, and the linker may use these copies everywhere.)
+// Functions that use a larger instruction set, in files that are compiled for the x86-64 baseline.
+// Each such function has a target attribute and is called only if the processor supports the set.
+// Do not compile a whole file for a larger set: the inline functions of its headers would be
+// compiled for that set too, and the linker may use these copies in the whole program.
 #pragma once
 
 #include "schema/base/instruction_set.h"

@@ -1,4 +1,4 @@
-// Reads whole files: small ones as text (rigs, configurations), large ones in pieces.
+// Reads whole files: small files as text (rigs, configurations), large files in pieces.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace mdof {
 
-// The bytes of the file. An error names the path and the reason. Only regular files are read,
-// because a pipe or a device could block the caller. Files over `limit_bytes` are rejected.
+// Returns the bytes of the file. An error names the path and the reason. Rejects files larger than
+// `limit_bytes`, and files that are not regular, because a pipe or a device could block the caller.
 Result<std::string> read_text_file(const std::filesystem::path& file,
                                    std::size_t limit_bytes = std::size_t{4} << 20);
 
-// Reads a file of any size in pieces of up to 1 MiB and passes each to `take`. An error of `take`
-// ends the reading.
+// Reads a file of any size in pieces of up to 1 MiB and passes each piece to `take`. If `take`
+// returns an error, the function stops and returns this error.
 Status read_in_pieces(const std::filesystem::path& file,
                       const std::function<Status(std::string_view)>& take);
 

@@ -1,5 +1,5 @@
-// Vector instructions of the compiled kernels. All sets give the same bits; a test or a benchmark
-// may select one.
+// Vector instructions that a calculation may use. The results have the same bits with every
+// instruction set. A test or a benchmark may select a set.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,15 @@ namespace mdof {
 enum class InstructionSet { baseline, avx2, avx512 };
 const char* to_string(InstructionSet set);
 
-// The best set of this processor, or the set that the environment variable MDOF_INSTRUCTION_SET
-// names as in to_string(). The variable is read once.
+// Returns the best set of this processor. If the environment variable MDOF_INSTRUCTION_SET contains
+// a name from to_string(), returns the set with this name. The variable is read once.
 InstructionSet best_instruction_set();
-// All sets of this processor, baseline first.
+// Returns all sets that this processor supports, baseline first.
 std::vector<InstructionSet> available_instruction_sets();
 
-// Error: MDOF_INSTRUCTION_SET names an unknown set, or one that this processor does not support;
-// best_instruction_set() is then the best of the processor. Programs check this when they start.
+// Error: MDOF_INSTRUCTION_SET contains an unknown name or a set that this processor does not
+// support; best_instruction_set() then returns the best set of the processor. Programs call this
+// function when they start.
 Status check_instruction_set();
 
 }  // namespace mdof

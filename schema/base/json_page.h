@@ -1,4 +1,4 @@
-// Lists sent in pages of limited size in bytes.
+// Divides long lists into pages with a limited number of bytes.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace mdof {
 
-// The line limit is 48 KiB; the rest is for the members around the list.
+// A message may have 48 KiB; the difference is for the members around the list.
 inline constexpr std::size_t kPageBytes = 44 * 1024;
 
-// Appends items to the open array of `json` until its text would be longer than `max_bytes`;
-// returns their number. The first item is always appended, so each item must be shorter than a
-// page. `to_json` converts an index, `begin` to `end` - 1, to JSON text.
+// Appends items to the open array in `json` until the text would be longer than `max_bytes`.
+// Returns the number of appended items. The first item is always appended; each item must therefore
+// be shorter than a page. `to_json` converts an index (`begin` ... `end` - 1) to JSON text.
 template <class ToJson>
 std::size_t append_page_by_index(JsonWriter& json, std::size_t begin, std::size_t end,
                                  ToJson to_json, std::size_t max_bytes = kPageBytes) {
@@ -26,7 +26,7 @@ std::size_t append_page_by_index(JsonWriter& json, std::size_t begin, std::size_
   return taken;
 }
 
-// The same for a vector or span; `to_json` converts an item to JSON text.
+// As append_page_by_index(), for a vector or span. `to_json` converts an item to JSON text.
 template <class Items, class ToJson>
 std::size_t append_page(JsonWriter& json, const Items& items, ToJson to_json,
                         std::size_t max_bytes = kPageBytes) {

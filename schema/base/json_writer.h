@@ -1,6 +1,7 @@
-// Writes JSON text directly into a string, without a tree or a locale. Doubles are written with the
-// fewest digits that read back to the same bits (std::to_chars), non-finite numbers as null. Bytes
-// that are not UTF-8 are written as U+FFFD, so the output is always valid.
+// Writes JSON text directly into a string; it uses neither a tree nor a locale. A double is written
+// with the fewest digits from which the same bits can be read back (std::to_chars). A number that
+// is not finite is written as null. Bytes that are not UTF-8 are written as U+FFFD, so that the
+// text is always valid.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@ namespace mdof {
 
 class JsonWriter {
  public:
-  // `reserve_bytes`: expected size of the text, to avoid reallocation.
+  // `reserve_bytes`: expected size of the text; avoids reallocation.
   explicit JsonWriter(std::size_t reserve_bytes = 0) { text_.reserve(reserve_bytes); }
   JsonWriter& begin_object();
   JsonWriter& end_object();
@@ -30,7 +31,7 @@ class JsonWriter {
   JsonWriter& null();
   JsonWriter& raw(std::string_view json);  // a value that is already JSON
 
-  // Writes key and value.
+  // Writes a key and its value.
   template <class T>
   JsonWriter& field(std::string_view name, const T& x) {
     key(name);

@@ -7,10 +7,11 @@ namespace mdof {
 
 struct Progress {
   double done = 0, total = 0;  // total 0: unknown
-  const char* unit = "";       // of both, for example "B" or "trials"
+  const char* unit = "";       // unit of done and total, for example "B" or "trials"
 };
 
-// Called repeatedly on the working thread; false: cancel the operation.
+// The working thread calls this function repeatedly. If it returns false, the operation is
+// cancelled.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
 }  // namespace mdof

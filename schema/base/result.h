@@ -1,5 +1,6 @@
-// Errors of input and environment are values: Result<T> with a message that a user can act on. Bugs
-// are assert()s; no input fails an assertion.
+// Errors of input and of the environment are values: Result<T> contains a message with which the
+// user can correct the error. Errors in the program are detected by assert(); no input can cause an
+// assertion to fail.
 #pragma once
 
 #include <cassert>
@@ -12,18 +13,19 @@
 namespace mdof {
 
 enum class ErrorCode {
-  usage,      // the call itself is wrong: unknown option, method or parameter
+  usage,      // the call itself is wrong: an unknown option, method or parameter
   bad_input,  // a file, a document or a value in it is invalid
-  not_found,  // the named run, table, device does not exist
-  check,      // a result exists and fails its check
+  not_found,  // a run, table or device with this name does not exist
+  check,      // there is a result, but it did not pass its check
   io,         // error of a device, the file system or the database
-  conflict,   // not possible now: a run is in progress, the axis moves, a table is active
-  changed,    // the data have changed since the caller read them: the generation differs
+  conflict,   // not possible at present: a run is in progress, the axis moves, a table is active
+  changed,    // the data have changed after the caller read them: their generation differs
 };
 
-// `message` names the place (file, line, key, device, register), the error there and, if the remedy
-// is not a command or option of mdof, the remedy. Otherwise `remedy` is its code and `remedy_for`
-// its object (a run, a kind, a value); daemon/words contains the text.
+// `message` states the place (file, line, key, device, register) and what is wrong there. If the
+// remedy is a command or option of mdof, `remedy` is the code of the remedy and `remedy_for` its
+// object (a run, a kind, a value); daemon/words contains the texts. Any other remedy is part of
+// `message`.
 struct Error {
   ErrorCode code = ErrorCode::bad_input;
   std::string message;
@@ -48,7 +50,7 @@ inline tl::unexpected<Error> io_error(std::string message, Remedy remedy = Remed
   return fail(ErrorCode::io, std::move(message), remedy, std::move(remedy_for));
 }
 
-// Passes an error on with the place in front: "rig.toml: probe \"A\": ...".
+// Returns the error with the place before its message: "rig.toml: probe \"A\": ...".
 inline tl::unexpected<Error> in_context(const std::string& place, Error error) {
   error.message = place + ": " + error.message;
   return tl::unexpected<Error>(std::move(error));
@@ -58,7 +60,8 @@ inline tl::unexpected<Error> in_context(const std::string& place, Error error) {
 
 // `lhs` may be a declaration, which must not be put in parentheses.
 // NOLINTBEGIN(bugprone-macro-parentheses)
-// Evaluates a Result expression; returns its error to the caller, or assigns its value.
+// Evaluate a Result expression. If it is an error, they return the error from the calling function.
+// MDOF_TRY assigns the value.
 #define MDOF_CONCAT_INNER(a, b) a##b
 #define MDOF_CONCAT(a, b) MDOF_CONCAT_INNER(a, b)
 #define MDOF_TRY_IMPL(tmp, lhs, expr)                      \

@@ -13,7 +13,7 @@ class Sha256 {
  public:
   Sha256();
   void update(std::string_view bytes);
-  // 64 lower-case hexadecimal digits for all bytes so far; more bytes may follow.
+  // 64 lower-case hexadecimal digits for all bytes that were added so far; more bytes may follow.
   std::string hex() const;
 
  private:

@@ -8,8 +8,9 @@
 
 namespace mdof {
 
-// Names the calling thread (Linux keeps 15 bytes) and blocks the signals that end a program, so
-// that the main thread receives them. A signal in this thread would interrupt a driver's call.
+// Sets the name of the calling thread (Linux stores 15 bytes). Blocks the signals that end a
+// program in this thread, so that only the main thread receives them: a signal in this thread would
+// interrupt a system call of a driver.
 inline void start_thread_as(const std::string& name) {
   ::pthread_setname_np(::pthread_self(), name.substr(0, 15).c_str());
   sigset_t ending;

@@ -1,6 +1,6 @@
-// A notice for the reader of a result, as data: a code, a severity, a subject and named numbers.
-// The texts are in daemon/words, so that a client branches on the code and a text may change
-// without a change of stored data.
+// A notice for the reader of a result. It is stored as data: a code, a severity, a subject and
+// named numbers. The texts are in daemon/words. Therefore a client can decide by the code, and a
+// text may change without a change of stored data.
 #pragma once
 
 #include <concepts>
@@ -15,9 +15,9 @@
 namespace mdof {
 
 enum class Severity {
-  information,  // information for the reader; the result can still be activated and exported
+  information,  // the result can be activated and exported
   doubtful,     // activation and export require confirmation
-  invalid       // results built from it are rejected
+  invalid       // results that are built from this result are rejected
 };
 const char* to_string(Severity severity);
 
@@ -30,7 +30,7 @@ enum class NoticeCode {
 const char* to_string(NoticeCode code);
 std::optional<NoticeCode> notice_code_from(std::string_view name);
 
-// A number in the unit at the end of its key, or a name.
+// A number in the unit at the end of its key, or a text.
 struct NoticeValue : std::variant<double, std::string> {
   NoticeValue() = default;
   template <class Number>
@@ -42,35 +42,37 @@ struct NoticeValue : std::variant<double, std::string> {
 
 struct Notice {
   NoticeCode code = NoticeCode::legacy;
-  // Severity of the code; `legacy`, `more_alike`, `not_shown` and the `datum_missing` of a table
-  // have their own.
+  // The severity of the code. The codes `legacy`, `more_alike` and `not_shown`, and `datum_missing`
+  // of a table, may have another severity.
   Severity severity = Severity::doubtful;
   std::string subject;  // name of a probe, a plane or a device; empty: the whole result
   std::vector<std::pair<std::string, NoticeValue>> values;
-  std::string source;  // result that the notice was inherited from, "run 3"; empty: this result
+  // The result from which the notice was taken over, "run 3"; empty: this result.
+  std::string source;
 
   bool operator==(const Notice&) const = default;
 };
 using Notices = std::vector<Notice>;
 
-// A notice with the severity of the code. The keys must be those of the code in their order
-// (asserted).
+// Makes a notice with the severity of the code. The keys of `values` must be the keys of the code,
+// in the same order (asserted).
 Notice notice(NoticeCode code, const std::string& subject = "",
               std::initializer_list<std::pair<std::string_view, NoticeValue>> values = {});
 
-// The same notice for another result; `source` is put before its own source.
+// Returns the notice for another result. `source` is put before the source that the notice already
+// has.
 Notice inherited(const std::string& source, Notice notice);
 
-// nullptr: the notice has no value of this key.
+// nullptr: the notice has no value with this key.
 const NoticeValue* value(const Notice& notice, std::string_view key);
 
-// Keys of a code, separated by one blank.
+// Keys of a code, separated by one space.
 std::string_view keys(NoticeCode code);
 Severity severity(NoticeCode code);
 
 void append(Notices& to, Notices more);
-// Appends notices of one code: at most ten, then `more_alike` with their code and the number
-// omitted.
+// Appends notices that all have the same code: at most ten, then the notice `more_alike` with this
+// code and the number of omitted notices.
 void append_first(Notices& to, Notices alike);
 
 }  // namespace mdof

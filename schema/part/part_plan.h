@@ -1,4 +1,5 @@
-// PART.toml: the inputs for the predicted errors of a part (layers: README.md of algo/part).
+// The file PART.toml: the inputs for the predicted errors of a part. README.md of algo/part
+// describes the layers.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +14,10 @@ namespace mdof {
 
 struct PartLayer {
   std::string name;               // "axes", "budget", "form", "milling"
-  std::vector<std::string> from;  // files or "table:N"; empty: description in the machine file
+  std::vector<std::string> from;  // files or "table:N"; empty: the description in the machine file
   bool on = true;
   bool compensated = false;   // the layer contains the errors that remain after compensation
-  std::optional<double> u_m;  // for the form layer: standard uncertainty of its map
+  std::optional<double> u_m;  // form layer only: standard uncertainty of its height map
 };
 
 struct PartPlan {
@@ -24,7 +25,7 @@ struct PartPlan {
   std::vector<PartLayer> layers;  // in the order above
 };
 
-// The number of "table:12".
+// Returns 12 for "table:12"; nullopt: another text.
 std::optional<std::int64_t> table_number(std::string_view from);
 
 // Errors name file, line, key and remedy.

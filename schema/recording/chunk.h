@@ -1,4 +1,4 @@
-// One chunk of a recording: the SampleBlock of one device as compressed bytes with checksum.
+// One chunk of a recording: the SampleBlock of one device as compressed bytes with a checksum.
 //
 //   4 bytes  "MDC1"
 //   4 bytes  size of the unpacked bytes, little-endian, at most kMaxChunkBytes
@@ -11,8 +11,9 @@
 //     for each channel: 8 planes of n bytes, plane k holding byte k of each double (little-endian)
 //     one byte 0 (all good), or 1 and for each channel: one byte 0 (all good), or 1 and n bytes
 //
-// A varint is LEB128: seven bits a byte, least significant first. Regular time stamps cost one byte
-// a scan before compression, and a plane of exponents compresses to almost nothing. Pure functions.
+// A varint is LEB128: each byte contains seven bits, the least significant bits first. Before
+// compression, regular time stamps need one byte for each scan. The planes with the exponents of
+// the doubles become very small by compression. Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -24,16 +25,16 @@
 
 namespace mdof {
 
-// Limits on the cost of any input, far above the needs of any device.
-inline constexpr std::size_t kMaxChunkBytes = 16u << 20;  // unpacked
+// Limits that bound memory and time for any input. They are much larger than any device needs.
+inline constexpr std::size_t kMaxChunkBytes = 16u << 20;  // before compression
 inline constexpr std::size_t kMaxChunkChannels = 1024;
 
-// Errors (bad_input): time stamps that do not increase, a limit above is exceeded.
+// Errors (bad_input): the time stamps do not increase, or a limit above is exceeded.
 Result<std::string> encode_chunk(const SampleBlock& block);
 
-// Restores the block bit for bit, including NaN payloads; replaces `block` and reuses its capacity.
-// Safe for any bytes: invalid bytes give bad_input with the reason, and `block` is then unspecified
-// but valid.
+// Restores the block bit for bit, including NaN payloads. Replaces the contents of `block` and
+// reuses its memory. Accepts any bytes. Invalid bytes cause the error bad_input with the reason;
+// the contents of `block` are then unspecified but valid.
 Status decode_chunk(std::string_view bytes, SampleBlock& block);
 
 }  // namespace mdof

@@ -1,5 +1,5 @@
-// Parses rows of a probe log or a frames file into the columns of SampleBlocks. Pure: text in,
-// blocks out. The blocks do not depend on how the text is divided into pieces.
+// Parses the rows of a probe log or a frames file into the columns of SampleBlocks. Pure: input and
+// output are in memory. The blocks do not depend on how the text is divided into pieces.
 #pragma once
 
 #include <cstddef>
@@ -17,40 +17,44 @@
 
 namespace mdof {
 
-inline constexpr int kCsvMargin = 64;  // bytes around a piece of text that must be readable
+// Number of readable bytes that must exist before and after a piece of text.
+inline constexpr int kCsvMargin = 64;
 
 struct CsvLimits {
-  // Number of lines that are skipped and reported; one more is an error. 0: none is skipped.
+  // Most lines that are skipped and reported; one more bad line is an error. 0: no line is skipped.
   std::size_t bad_lines = 100;
-  // Half a megabyte of columns, which fits into the cache of a core.
+  // The columns of a block then have about 0.5 MB, which fits into the cache of a core.
   std::size_t scans_per_block = 8192;
-  // Size of consecutive empty lines; one more is an error, because a gzip file of some MB may
-  // contain hours of them.
+  // Most bytes of successive empty lines; more bytes are an error. Without this limit, a gzip file
+  // of some MB could contain so many empty lines that reading takes hours.
   std::size_t blank_bytes = std::size_t{4} << 20;
 };
 
-// Values are raw, in the channel's unit. All are finite except missing ones (NaN, marked as
-// Quality::missing). A block has `scans_per_block` scans; the last block, and a block that ends
-// before a skipped line, has fewer. The `lost` of the next block counts the skipped lines. A frames
+// The values are raw, in the unit of the channel. All values are finite, except missing values (NaN
+// with Quality::missing). A block has `scans_per_block` scans. The last block has fewer, and so has
+// a block before a skipped line. `lost` of the next block is the number of skipped lines. A frames
 // file has no time: time_ns is the row number, from 0.
 class CsvRowParser {
  public:
   CsvRowParser(CsvHeader header, CsvLimits limits);
 
-  // Passes the next piece of the file: whole lines, each ending in LF, with kCsvMargin readable
-  // bytes before and after. The piece must remain valid until next() returns false.
+  // Passes the next piece of the file to the parser. A piece consists of complete lines that end in
+  // LF; kCsvMargin bytes before and after the piece must be readable. The piece must remain valid
+  // until next() returns false.
   void give(std::string_view lines);
-  // True: `block` is the next block (its memory is reused). False: call give() first. Errors: too
-  // many bad or empty lines, time that does not increase, a decimal comma. An error is final.
+  // Returns true if `block` is the next block; its memory is reused. Returns false if the parser
+  // needs the next piece: call give(). Errors: too many bad or empty lines; time that does not
+  // increase; a decimal comma. An error is final.
   Result<bool> next(SampleBlock& block);
-  // After the last piece: true and the last, shorter block, or false. Error: no good row was found.
+  // Call this after the last piece. Returns true with the last, shorter block, or false if no rows
+  // remain. Error: the file contains no good row.
   Result<bool> last(SampleBlock& block);
 
   const CsvHeader& header() const { return header_; }
   const std::vector<std::string>& bad_lines() const { return bad_lines_; }  // "file:line: reason"
   std::uint64_t rows() const { return rows_before_ + row_; }
-  // A notice for each column with missing values: their number and the position of the first.
-  // Counts the blocks returned so far.
+  // One notice for each column with missing values: their number and the position of the first
+  // missing value. The notices count only the blocks that were returned so far.
   Notices missing_values() const;
 
  private:
@@ -72,26 +76,27 @@ class CsvRowParser {
 
   CsvHeader header_;
   CsvLimits limits_;
-  std::string plain_rows_, plain_crlf_rows_;  // CsvStops::byte for a batch of good rows
+  std::string plain_rows_, plain_crlf_rows_;  // value of CsvStops::byte for a batch of good rows
   std::string_view text_;
   CsvStops stops_;
-  std::size_t next_stop_ = 0;  // the stop before the next line
+  std::size_t next_stop_ = 0;  // index of the stop before the next line
   std::size_t begin_ = 0;      // start of the next line in text_
   std::uint64_t line_ = 0;     // number of the next line
-  // Number directly before the next line; at the end of a file they are ignored.
+  // Number of blank lines directly before the next line. At the end of a file they are ignored.
   std::uint64_t blank_lines_ = 0;
   std::size_t blank_bytes_ = 0;  // bytes of the blank lines
-  SampleBlock block_;            // current block: columns at full length, row_ rows filled
+  // Current block; its columns have their full length, and row_ rows are filled.
+  SampleBlock block_;
   std::size_t row_ = 0;
-  bool block_ends_ = false;        // the block ends before a skipped line
-  std::uint64_t lost_ = 0;         // lines skipped since the last good row
-  std::uint64_t rows_before_ = 0;  // rows in the blocks returned
+  bool block_ends_ = false;        // true: the block ends before a skipped line
+  std::uint64_t lost_ = 0;         // number of lines that were skipped after the last good row
+  std::uint64_t rows_before_ = 0;  // number of rows in the blocks that were returned
   std::int64_t last_time_ns_;
   std::vector<std::string> bad_lines_;
   struct Missing {
-    bool in_block = false;  // some values may be in block_
+    bool in_block = false;  // true: block_ may contain missing values
     std::uint64_t values = 0;
-    std::uint64_t first_row = 0;  // from 1 on
+    std::uint64_t first_row = 0;  // row number, from 1
     std::int64_t first_ns = 0;
   };
   std::vector<Missing> missing_;  // [channel]

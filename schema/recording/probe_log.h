@@ -1,4 +1,4 @@
-// CSV files of measurements: their header and its errors.
+// The header of CSV files with measurements, and the errors in such headers.
 //
 //   # any comment                                   zero or more such lines
 //   time_s,encoder_mm,A_um,B_um,temperature_C       probe log: time_s and encoder_mm are required
@@ -30,10 +30,10 @@
 namespace mdof {
 
 enum class CsvKind {
-  probe_log,  // samples against time: time_s must increase from row to row
+  probe_log,  // samples as a function of time; time_s must increase from row to row
   stream,     // rows as a device sends them
   frames,     // positions and readings in any order; time_s is optional and has no special meaning
-  table,      // any named columns, rows in any order; any cell may be missing
+  table,      // columns with any names, rows in any order; any cell may be empty
 };
 
 inline constexpr std::string_view kSenseColumn = "positioning_sense";
@@ -41,28 +41,30 @@ inline constexpr double kCommandSense = 1, kBodySense = 0;
 
 struct CsvHeader {
   CsvKind kind = CsvKind::probe_log;
-  std::string source;                        // file name, for messages
-  std::vector<std::string> comments;         // without '#' and outer spaces
-  std::vector<std::string> columns;          // names as in the file
-  int time_column = -1;                      // -1: none (frames, stream)
-  std::vector<Channel> channels;             // all other columns, in their order
+  std::string source;                 // file name, for messages
+  std::vector<std::string> comments;  // without '#' and outer spaces
+  std::vector<std::string> columns;   // names as in the file
+  int time_column = -1;           // index of the time column; -1: no time column (frames, stream)
+  std::vector<Channel> channels;  // all other columns, in the order of the file
   std::vector<std::size_t> channel_columns;  // [channel] -> column
-  std::uint64_t lines = 0;                   // lines of the file up to the header, included
-  std::size_t bytes = 0;                     // bytes of the file up to the header, included
+  std::uint64_t lines = 0;                   // number of lines up to and including the header
+  std::size_t bytes = 0;                     // number of bytes up to and including the header
 
-  // Whether a field of this channel may be empty or nan (missing value). The encoder is required,
-  // because a row without it has no position. Exceptions: a stream, whose channels arrive
-  // independently, and a table, whose reader checks the required cells.
+  // Whether a field of this channel may be empty or nan, which means a missing value. The encoder
+  // must have a value, because a row without it has no position. There are two exceptions: in a
+  // stream, the channels arrive independently of each other; in a table, the reader checks which
+  // cells are required.
   bool may_be_missing(std::size_t channel) const;
   // Whether the file has a text column, so that fields may be quoted.
   bool has_text_columns() const;
-  // Whether a comment begins with "simulated" or "SIMULATED": the data are not from a machine.
+  // Whether a comment begins with "simulated" or "SIMULATED": the data were not measured on a
+  // machine.
   bool is_marked_simulated() const;
   // Whether a comment states that u contains noise and repeatability only.
   bool is_marked_noise_only() const;
 };
 
-// `text` is the beginning of a file, or the whole file; it must include the complete header line.
+// `text`: the whole file or its beginning; it must contain the complete header line.
 Result<CsvHeader> parse_csv_header(std::string_view text, CsvKind kind, const std::string& source);
 
 }  // namespace mdof

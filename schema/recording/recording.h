@@ -1,5 +1,5 @@
 // The recording file (*.mdofrec): a SQLite database with the tables of recording.sql. Its chunks
-// form a hash chain, so that every change, removal or reordering is detected:
+// are a hash chain, which detects every change, removal or change of order:
 //
 //   hash of header   = SHA-256 of each header entry as  key '\n' length-of-value '\n' value '\n'
 //   hash of chunk n  = SHA-256 of  hash n-1 (header's for n = 1) '\n' seq '\n' device '\n'
@@ -7,10 +7,11 @@
 //   hash of the seal = SHA-256 of  hash of the last chunk '\n' chunks '\n' scans '\n' lost '\n'
 //                      finished_utc
 //
-// Numbers are decimal, hashes are lower-case hex. The hash of the recording is that of the last
-// chunk.
+// Numbers are decimal, hashes are lower-case hexadecimal. The hash of the recording is the hash of
+// the last chunk.
 //
-// Format 1 had no header entry "request"; its files are still read and checked in their own format.
+// Format 1 had no header row "request". Files in format 1 are still read and are checked by the
+// rules of format 1.
 #pragma once
 
 #include <cstdint>
@@ -24,16 +25,16 @@ namespace mdof {
 inline constexpr int kRecordingFormat = 2;                // SQLite's user_version
 inline constexpr int kRecordingApplication = 0x6d646f72;  // SQLite's application_id: "mdor"
 
-// Everything that is needed to calculate the results from the samples again.
+// All data that are needed to calculate the results from the samples again.
 struct RecordingHeader {
   std::string software_version;
   std::string rig_text;       // TOML
-  std::string devices;        // JSON array: descriptions that the drivers gave
+  std::string devices;        // JSON array: the descriptions that the drivers returned
   std::string configuration;  // mdofd.toml, or empty
-  std::string started_utc;    // for people
+  std::string started_utc;    // for people only
   bool simulated = false;
-  std::string request;            // JSON: the request of the run with all options; or empty
-  int format = kRecordingFormat;  // of the file that the header was read from
+  std::string request;            // the request of the run with all options, as JSON; or empty
+  int format = kRecordingFormat;  // format of the file from which the header was read
 };
 
 struct RecordingChunk {
@@ -52,7 +53,7 @@ struct RecordingSeal {
   std::string sha256;
 };
 
-// The rows of the header table in the order of hashing, without the hash itself.
+// The rows of the header table in the order in which they are hashed, without the row of the hash.
 std::vector<std::pair<std::string, std::string>> entries(const RecordingHeader& header);
 
 std::string sha256_of(const RecordingHeader& header);

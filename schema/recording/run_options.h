@@ -1,5 +1,5 @@
-// Options with which a stored run was evaluated, as far as a reader of its results needs them. All
-// options: daemon/measure/replay/request_json.h.
+// The options of the evaluation of a stored run that a reader of its results needs. All options are
+// in daemon/measure/replay/request_json.h.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,9 @@ namespace mdof {
 struct RunOptions {
   bool remove_drift = false;
   bool on_the_fly = false;
-  ImportedSense imported;  // of imported positioning; the command for runs of older versions
-  std::vector<std::string> about;                   // statements of an imported file about itself
-  std::optional<double> limit_um, limit_um_per_mm;  // limits requested at import
+  ImportedSense imported;  // sense of imported positioning; for runs of older versions, the command
+  std::vector<std::string> about;                   // what an imported file states about itself
+  std::optional<double> limit_um, limit_um_per_mm;  // limits that the user requested at the import
 };
 // Reads the options of a run; a missing or invalid option keeps its default.
 RunOptions run_options(const RunHeader& run);

@@ -1,6 +1,6 @@
 // A rig and its calibration records (schema/calibration/record.h):
 //
-//   calibration = "mounting.toml"     relative to the rig's file; or a list of several
+//   calibration = "mounting.toml"     path relative to the file of the rig, or a list of paths
 #pragma once
 
 #include <filesystem>
@@ -14,21 +14,26 @@
 
 namespace mdof {
 
-// Text of the rig followed by its records, as parse_rig() reads it and a run stores it. A rig
-// without records, or with records already appended, is returned unchanged. Errors: more than 16
-// records, or one of more than 256 KiB; a file that is not regular, is not a record, was changed
-// since it was made, or belongs to another rig or other probes.
+// Returns the text of the rig followed by the texts of its calibration records. parse_rig() reads
+// this text, and a run stores it. A rig without records is returned unchanged, and also a rig whose
+// records are already appended. Errors:
+// - there are more than 16 records, or a record has more than 256 KiB;
+// - a file is not a regular file or is not a calibration record;
+// - a record was changed after it was made;
+// - a record belongs to another rig or to other probes.
 Result<std::string> load_rig_text(const std::filesystem::path& file);
 
-// Reads `calibration` and the records, for parse_rig(). Values of a record replace those of the
-// rig, including uncertainties; values that a record does not contain remain. `[installation]
-// u_offset_mm` and `u_calibration_um` are used only if the rig does not declare them.
+// Reads the key `calibration` and the records, for parse_rig(). The values of a record replace the
+// values of the rig, including uncertainties. A value that a record does not contain is not
+// changed. `[installation] u_offset_mm` and `u_calibration_um` of a record are used only if the rig
+// does not declare them.
 void apply_records(TomlTable& table, std::string_view text, Rig& rig);
 
-// Notices for results of such a rig: one for each record, and one more if the residuals of a record
-// are larger than the uncertainties of its readings explain. Empty for other rigs.
+// Notices for the results of a rig with calibration records: one for each record, and another one
+// if the residuals of a record are larger than the uncertainties of its readings explain. Empty for
+// a rig without records.
 Notices calibration_notices(const Rig& rig);
-// The same for a stored rig; empty if the text is not a rig.
+// As above, for a stored rig; empty if the text is not a rig.
 Notices calibration_notices(std::string_view rig_text);
 
 }  // namespace mdof

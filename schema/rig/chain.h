@@ -1,5 +1,5 @@
-// Kinematic chain of the machine, from the work to the tool: "w-Y-X-b-Z-t". w work, b bed, t tool.
-// Axes between w and b move the work, axes between b and t move the tool.
+// Kinematic chain of the machine, from the work to the tool: "w-Y-X-b-Z-t". w: work; b: bed; t:
+// tool. The axes between w and b move the work; the axes between b and t move the tool.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@
 namespace mdof {
 
 struct ChainAxis {
-  char letter = 'X';          // X Y Z linear, A B C rotary
-  bool carries_work = false;  // else it moves the tool
-  // travel "-": its body moves in the - direction when the command increases.
+  char letter = 'X';          // X Y Z: linear axis; A B C: rotary axis
+  bool carries_work = false;  // true: the axis moves the work; false: the tool
+  // travel = "-": the body of the axis moves in the - direction when the command increases.
   bool against_command = false;
   bool operator==(const ChainAxis&) const = default;
 };
@@ -29,16 +29,18 @@ struct Chain {
   bool operator==(const Chain&) const = default;
 };
 
-// Error: what is wrong with the text, with an example.
+// The error states what is wrong in the text, with an example.
 Result<Chain> parse_chain(std::string_view text);
 
-// [machine] of a rig or a configuration: chain = "w-Y-X-b-Z-t", and travel = { X = "-" } for axes
-// that do not move in the + direction when their command increases. Absent: unknown chain.
+// Reads [machine] of a rig or a configuration: chain = "w-Y-X-b-Z-t", and travel = { X = "-" } for
+// the axes that move in the - direction when their command increases. If [machine] is absent, the
+// chain is unknown.
 Chain read_machine(TomlTable& root);
 
-// "X+ Y-": the travel of each axis, for people and for the hash of a table.
+// Text with the travel of each axis: "X+ Y-". It is displayed, and it is part of the hash of a
+// table.
 std::string chain_travels_text(const Chain& chain);
-// Reads both stored texts; the inverse of Chain::text and chain_travels_text().
+// Makes the chain from the stored texts Chain::text and chain_travels_text().
 Result<Chain> chain_from(std::string_view text, std::string_view travels);
 
 }  // namespace mdof

@@ -1,5 +1,5 @@
-// The reference point of straightness: an error e(P) of the target is the error of its material at
-// the point P of the metrology frame M.
+// The reference point P of straightness, in the metrology frame M. An error e(P) of the target is
+// the error of the target's material at P.
 #pragma once
 
 #include <string_view>
@@ -10,19 +10,19 @@
 namespace mdof {
 
 enum class Reference {
-  fixture,   // P = origin of M: independent of the zero of the encoder. The default
+  fixture,   // P = origin of M; P does not depend on the zero of the encoder. Default
   carriage,  // P = origin of C, which moves with the target: parameters of the paper's transform
              // (Eq. 2-12)
   tool,      // P = tool_point_mm of the rig
 };
 const char* to_string(Reference reference);
-// False: the name is not "fixture", "carriage" or "tool".
+// Returns false if the name is not "fixture", "carriage" or "tool".
 bool reference_from(std::string_view name, Reference& reference);
 
-// Reference point of a result.
+// The reference point for which a result is stated.
 struct StatedAt {
   Reference reference = Reference::fixture;
-  Vec3 point_m{};  // P in M, machine axes; undefined for the carriage
+  Vec3 point_m{};  // P in M, components along the machine's axes; undefined for the carriage
   bool operator==(const StatedAt&) const = default;
 };
 inline constexpr StatedAt kAtFixture{Reference::fixture, {}};
@@ -31,7 +31,7 @@ inline constexpr StatedAt kAtCarriage{Reference::carriage, {}};
 struct Rig;
 // Error (usage): the reference is the tool, but the rig has no tool_point_mm.
 Result<StatedAt> stated_at(const Rig& rig, Reference reference);
-// Default reference of a table: the tool point if the rig has one, else the fixture.
+// Default reference of a table: the tool point if the rig has a tool point, otherwise the fixture.
 StatedAt stated_at_by_default(const Rig& rig);
 
 }  // namespace mdof

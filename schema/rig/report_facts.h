@@ -1,5 +1,5 @@
-// Facts about a measurement that only a person knows, for reports and certificates: [report] of a
-// rig, or --set KEY=VALUE of a command. Empty: not stated.
+// Facts about a measurement that the user states, for reports and certificates. They are in
+// [report] of a rig, or in the option --set KEY=VALUE of a command. Empty: not stated.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ namespace mdof {
 class TomlTable;
 
 struct ReportFacts {
-  std::string number;  // of the report
+  std::string number;  // number of the report
   std::string customer, customer_address;
-  std::string laboratory, laboratory_address;  // who measured
+  std::string laboratory, laboratory_address;  // laboratory that measured
   std::string machine, manufacturer, serial_number, operator_name;
-  std::string conditions;  // free text
-  std::string place;       // where the measurement took place: laboratory, customer, other
-  std::string date;        // of the measurement, YYYY-MM-DD, because a CSV log has no date
-  std::string country;     // of the laboratory, two capitals of ISO 3166-1
+  std::string conditions;  // free text about the conditions of the measurement
+  std::string place;       // place of the measurement: laboratory, customer, other
+  std::string date;        // date of the measurement, YYYY-MM-DD; a CSV log contains no date
+  std::string country;     // country of the laboratory, two capital letters of ISO 3166-1
 };
 
 struct ReportKey {
@@ -29,15 +29,15 @@ struct ReportKey {
 };
 const std::vector<ReportKey>& report_keys();
 
-// Reads [report] of a rig; an invalid value is rejected there.
+// Reads [report] of a rig. The error for an invalid value names its key.
 ReportFacts read_report_facts(TomlTable& root);
 
 bool is_date(std::string_view text);  // YYYY-MM-DD
 
-// Sets one key of --set. Errors (usage): an unknown key, an invalid value.
+// Sets one fact from --set. Errors (usage): an unknown key, an invalid value.
 Status set_fact(ReportFacts& facts, std::string_view key, const std::string& value);
 
-// Combines both. Error (usage): different values for one key.
+// Combines the facts of `a` and `b`. Error (usage): the two values of a key differ.
 Result<ReportFacts> joined(const ReportFacts& a, const ReportFacts& b);
 
 }  // namespace mdof

@@ -1,5 +1,5 @@
-// A probe that scans a part on a spindle while the axis of the rig moves along the radius of the
-// part. The probes of the fixture measure the straightness of the movement at the same time:
+// A probe that scans a part on a spindle. At the same time the axis of the rig moves along the
+// radius of the part, and the probes of the fixture measure the straightness of this movement:
 //
 //   [scan]
 //   probe = "F"                # column F_um (or F_mm) of the log; no [[probe]] of the fixture
@@ -21,16 +21,16 @@
 namespace mdof {
 
 struct RigScan {
-  std::string probe, angle;  // ids of their columns
+  std::string probe, angle;  // ids of their channels in the log
   Vec3 position_m{}, direction{};
   double centre_m = 0;
   double sense = 1;
 };
 
-// For parse_rig(): errors are recorded in the table.
+// Called by parse_rig(). Errors are recorded in the table.
 std::optional<RigScan> read_scan(TomlTable& rig, Axis axis);
 
-// From the text of a rig that parse_rig() has accepted; nullopt: no [scan].
+// Reads [scan] from the text of a rig that parse_rig() has accepted; nullopt: no [scan].
 Result<std::optional<RigScan>> scan_of_rig(std::string_view rig_text, Axis axis,
                                            const std::string& source);
 

@@ -1,6 +1,6 @@
-// Standard uncertainties that a rig declares (GUM 4.3, type B). All are optional. An undeclared
-// uncertainty is 0 here, and a result names it as not declared. A declared 0 is a statement: the
-// contribution is known to be negligible and is not missing.
+// Standard uncertainties that a rig declares (GUM 4.3, type B). All keys are optional. If a key is
+// absent, its uncertainty is 0 here, and a result names the key as not declared. A key with the
+// value 0 states that the contribution is negligible; a result does not name it.
 #pragma once
 
 #include <limits>
@@ -11,7 +11,7 @@
 
 namespace mdof {
 
-// Distribution of an unknown value, JCGM 101 6.4.
+// Distribution of a value that is known only within its uncertainty, JCGM 101 6.4.
 enum class UncertaintyShape { normal, rectangular, triangular, u_shaped };
 const char* to_string(UncertaintyShape shape);
 
@@ -23,37 +23,41 @@ struct DeclaredUncertainty {
   bool declared() const { return u > 0; }
   bool known() const { return declared() || zero; }
 };
-// Three independent components along the machine's axes.
+// Three independent components, along the axes of the machine.
 struct DeclaredUncertainty3 {
   Vec3 u{};
   UncertaintyShape shape = UncertaintyShape::normal;
   double freedom = std::numeric_limits<double>::infinity();
-  bool zero = false;  // all three are declared as 0
+  bool zero = false;  // true: all three components are declared as 0
   bool declared() const { return u[0] > 0 || u[1] > 0 || u[2] > 0; }
   bool known() const { return declared() || zero; }
   DeclaredUncertainty component(std::size_t k) const { return {u[k], shape, freedom}; }
 };
 
 struct ProbeUncertainty {
-  DeclaredUncertainty calibration;  // of the zero of its readings, constant during a run; m
-  DeclaredUncertainty sensitivity;  // relative uncertainty of their scale; 1
-  DeclaredUncertainty3 position;    // m
-  DeclaredUncertainty direction;    // about each of two axes perpendicular to its direction; rad
+  DeclaredUncertainty calibration;  // zero of the readings, constant during a run; m
+  DeclaredUncertainty sensitivity;  // relative uncertainty of the scale of the readings; 1
+  DeclaredUncertainty3 position;    // position of the probe; m
+  // About each of two axes perpendicular to the probe's direction; rad.
+  DeclaredUncertainty direction;
 };
 
 struct RigUncertainty {
-  DeclaredUncertainty encoder;               // between any two targets; m
-  DeclaredUncertainty3 installation_angle;   // of the whole fixture about the machine's axes; rad
-  DeclaredUncertainty3 installation_offset;  // m
-  DeclaredUncertainty drift;                 // of each probe, proportional to time; m/s
+  DeclaredUncertainty encoder;  // between any two targets; m
+  // Angles of the whole fixture about the machine's axes; rad.
+  DeclaredUncertainty3 installation_angle;
+  DeclaredUncertainty3 installation_offset;  // offset of the whole fixture; m
+  DeclaredUncertainty drift;                 // drift of each probe, proportional to time; m/s
 };
 
-// A number is the standard uncertainty of a normal distribution. An inline table gives more:
+// Reads an uncertainty. A number is the standard uncertainty of a normal distribution. An inline
+// table contains also the distribution and the degrees of freedom:
 //   u_calibration_um = { u = 0.05, distribution = "rectangular", dof = 8 }
 //   u_calibration_um = { half_width = 0.1, distribution = "rectangular" }   limits ±0.1
-// `to_si`: factor from the unit of the key. Absent: not declared. Errors are recorded in the table.
+// `to_si`: factor from the unit of the key to SI. An absent key is not declared. Errors are
+// recorded in the table.
 DeclaredUncertainty read_uncertainty(TomlTable& table, std::string_view key, double to_si);
-// The same with three numbers, or one number for all three.
+// As read_uncertainty(), with three numbers, or with one number for all three components.
 DeclaredUncertainty3 read_uncertainty3(TomlTable& table, std::string_view key, double to_si);
 
 }  // namespace mdof

@@ -7,14 +7,15 @@
 
 namespace mdof {
 
-// {"method", "surface", "axis", "error", "set_ups": [...], "machine": {...}, "target": {...}, ...}
-// In both series "seen_um" is the part that the readings determine. "EYX_um" or "height_um" has the
-// same value if at most offset and slope are undetermined, otherwise null. Each place has "k" and
-// "nu_eff" (null: infinite); outside the series they are present if all places have the same value,
-// otherwise null. If u is unknown, U, k and nu_eff are null, and "u_from" states why.
+// Returns {"method", "surface", "axis", "error", "set_ups": [...], "machine": {...}, "target":
+// {...}, ...}. "machine" and "target" are series. In each series, "seen_um" is the part that the
+// readings determine. If at most offset and slope are undetermined, "EYX_um" or "height_um" has the
+// same value; otherwise it is null. Each position has "k" and "nu_eff" (null: infinite). The object
+// also has "k" and "nu_eff"; they are null if the positions have different values. If u is unknown,
+// U, k and nu_eff are null, and "u_from" states the reason.
 std::string separation_json(const SeparationRecord& record);
 
-// Contributions that u of a separation does not include, for people.
+// Text for people: the contributions that u of a separation does not include.
 const char* separation_u_omits();
 
 }  // namespace mdof

@@ -1,4 +1,4 @@
-// Squareness of two axes and angle error of a square, separated by two set-ups.
+// Squareness of two axes and angle error of a square. They are separated by means of two set-ups.
 #pragma once
 
 namespace mdof {
@@ -6,12 +6,13 @@ namespace mdof {
 struct SquareReversal {
   double EC0Y_rad = 0;    // the angle from +X to +Y is 90° + EC0Y
   double square_rad = 0;  // the angle of the material at the corner of the two faces is 90° + this
-  // For both values: combined uncertainty, its part from noise and repeatability, its declared
-  // part.
+  // For both values: combined standard uncertainty, its part from noise and repeatability, and its
+  // part from the declared uncertainties.
   double u_rad = 0, u_random_rad = 0, u_declared_rad = 0;
   double freedom = 0, coverage_factor = 0, U_rad = 0;
-  double first_rad = 0, second_rad = 0;  // EC0Y of each set-up if the square were perfect
-  bool noise_only = false;               // the rigs declare nothing
+  // Results for EC0Y from the first and the second set-up, if the square were perfect.
+  double first_rad = 0, second_rad = 0;
+  bool noise_only = false;  // true: the rigs declare no uncertainties
 };
 
 }  // namespace mdof

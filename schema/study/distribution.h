@@ -8,12 +8,12 @@
 
 namespace mdof {
 
-// Reads `distribution` and its parameters; paths of samples are relative to `folder`. Errors are
-// recorded in the table, except those of a sample file, which are returned.
+// Reads `distribution` and its parameters. Paths of sample files start from `folder`. Errors are
+// recorded in the table; only errors in a sample file are returned.
 Result<Distribution> read_distribution(TomlTable& table, const std::filesystem::path& folder);
 
-// One column of numbers with `#` comments and an optional heading; ascending. Errors name file and
-// line.
+// Reads one column of numbers and sorts them in ascending order. The file may have `#` comments and
+// a heading. Errors name file and line.
 Result<std::vector<double>> load_sample(const std::filesystem::path& file);
 
 }  // namespace mdof

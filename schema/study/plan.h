@@ -1,5 +1,5 @@
-// A sensitivity study of a user: which quantities of which rig vary how, and the requested outputs.
-// algo/sensitivity/PLAN.md describes the format.
+// The plan of a sensitivity study, made by the user: the rig, the quantities that vary, their
+// distributions, and the outputs. algo/sensitivity/PLAN.md describes the format.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace mdof {
 
-// Distribution by JCGM 101 §6.4 with its parameters; values in the unit of the quantity.
+// A distribution of JCGM 101 §6.4 with its parameters, in the unit of the quantity.
 struct Distribution {
   enum class Kind {
     constant,
@@ -42,25 +42,26 @@ struct Distribution {
 const char* to_string(Distribution::Kind kind);
 
 struct PlannedQuantity {
-  std::string name;  // as written; may contain a star for all probes
+  std::string name;  // name as in the plan; a star in it means all probes
   Distribution distribution;
   std::string where;  // "plan.toml:12: quantity[2].name", for messages
 };
 
-// Joint distribution by a Gaussian copula. Stars in the names are expanded.
+// Joint distribution of several quantities, by a Gaussian copula. Stars in the names are already
+// expanded.
 struct PlannedCorrelation {
   std::vector<std::string> quantities;
   std::vector<double> matrix;  // row-major, symmetric, ones on the diagonal
   std::string where;
 };
 
-// Requested output of each trial.
+// An output that is calculated in each trial.
 enum class OutputKind {
-  error,              // estimate minus truth of one of the five errors: "EYX_um"
-  straightness,       // error of a figure of a series: "EYX_straightness_um", least squares
-  straightness_ends,  // "EYX_straightness_end_point_um"
-  squareness,         // error of "EC0Y_urad", from a series of each axis
-  worst,              // largest |error| of the points of a whole run: "EYX_worst_um"
+  error,         // estimated value minus true value of one of the five errors: "EYX_um"
+  straightness,  // error of the straightness (least squares) of a series: "EYX_straightness_um"
+  straightness_ends,  // the same for the end-point line: "EYX_straightness_end_point_um"
+  squareness,         // error of "EC0Y_urad", from one series of each axis
+  worst,              // largest |error| at the points of a whole run: "EYX_worst_um"
 };
 struct PlannedOutput {
   std::string key;
@@ -69,25 +70,28 @@ struct PlannedOutput {
 };
 
 struct PlannedAdaptive {
-  int digits = 2;                            // used if no tolerance is given
-  std::map<std::string, double> tolerances;  // numerical tolerance by key of the output
+  int digits = 2;                            // significant digits; used if no tolerance is given
+  std::map<std::string, double> tolerances;  // numerical tolerance for each output key
 };
 
 struct PlannedIndices {
-  std::uint64_t trials = 65536;  // base trials; each costs two evaluations plus one for each cause
-  bool each_probe = false;       // a star is one cause for each probe, not one for all
+  // Base trials; each base trial needs two evaluations, and one more for each cause.
+  std::uint64_t trials = 65536;
+  // A star means, true: one cause for each probe; false: one cause for all probes.
+  bool each_probe = false;
 };
 
 struct PlannedAllocation {
   std::string output;
-  double limit = 0;  // unit of the output
+  double limit = 0;  // in the unit of the output
   double probability = 0.95;
   std::vector<std::string> tolerances;  // names of quantities, as in PlannedQuantity
   std::uint64_t trials = 20000;
   std::string where;
 };
 
-// A whole run: simulated samples of the perturbed rig through the real pipeline.
+// A whole run. Samples of the rig with its random deviations are simulated and evaluated as a real
+// run.
 struct PlannedRun {
   std::vector<double> targets_mm;
   double dwell_s = 0.4;
@@ -95,10 +99,10 @@ struct PlannedRun {
   double speed_mm_s = 20;
 };
 
-enum class Forward { rigid, small_angle };  // model of the probe readings: algo/model
+enum class Forward { rigid, small_angle };  // model of the probe readings, see algo/model
 
-// Limit for the binned quantity: 33 MB of statistics for each thread with five outputs; a plan has
-// at most ten outputs.
+// Limit for `bins`. With 200 bins and five outputs, the statistics of each thread need 33 MB. A
+// plan has at most ten outputs.
 inline constexpr std::size_t kMostStudyBins = 200;
 
 struct StudyPlan {
@@ -106,8 +110,8 @@ struct StudyPlan {
   std::string source;  // file name, for messages
   std::string text;    // the TOML text, for provenance
   Rig rig;
-  std::optional<Rig> rig_y;    // for squareness: the rig of the second axis
-  std::optional<Rig> compare;  // [compare] rig
+  std::optional<Rig> rig_y;    // for squareness only: the rig of the second axis
+  std::optional<Rig> compare;  // the rig of [compare]
   Model model = Model::exact;
   Forward forward = Forward::rigid;
   bool zero_at_start = true;
@@ -115,24 +119,25 @@ struct StudyPlan {
   double coverage = 0.95;
   std::vector<PlannedOutput> outputs;
   bool whole_run = false;                   // output_of = "run"
-  std::vector<PlannedQuantity> quantities;  // [truth] first
+  std::vector<PlannedQuantity> quantities;  // the quantities of [truth] come first
   std::vector<PlannedCorrelation> correlations;
-  std::string binned_key;  // "" : no bins
+  std::string binned_key;  // "": no bins
   std::size_t bins = 1;
   std::size_t series_positions = 11;
-  double series_period_mm = 0;  // period of the true errors along the travel; 0: the whole travel
+  // Period of the true errors along the travel; 0: the period is the whole travel.
+  double series_period_mm = 0;
   double fixture_per_K = 0, target_per_K = 0;  // expansion coefficients, 1/K
-  double flatness_length_mm = 30;              // longest wave of a random height
+  double flatness_length_mm = 30;              // longest wavelength of a random height
   std::optional<PlannedAdaptive> adaptive;
   std::optional<PlannedIndices> indices;
   std::vector<PlannedAllocation> allocations;
   PlannedRun run;
 };
 
-// Reads a plan and the rigs and samples that it names (paths relative to the plan). Errors name
-// file, line and key, and for an unknown word the nearest known one. Mathematical errors (a rig
-// that cannot determine an error, an invalid correlation matrix) are found by
-// make_plan_experiment().
+// Reads a plan and the rigs and samples that it names; their paths start from the folder of the
+// plan. Errors name file, line and key; the error for an unknown word names the most similar known
+// word. Mathematical errors (a rig that cannot determine an error, an invalid correlation matrix)
+// are found later, by make_plan_experiment().
 Result<StudyPlan> load_study_plan(const std::filesystem::path& file);
 Result<StudyPlan> parse_study_plan(std::string_view toml_text, const std::string& source_name);
 

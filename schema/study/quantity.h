@@ -1,5 +1,5 @@
-// Quantities that may vary in a study, by name: "probe.A.x_um", "installation.yaw_mrad",
-// "travel_mm". algo/sensitivity/PLAN.md lists them with their meaning.
+// Names of the quantities that may vary in a study: "probe.A.x_um", "installation.yaw_mrad",
+// "travel_mm". algo/sensitivity/PLAN.md lists all names and their meanings.
 #pragma once
 
 #include <cstddef>
@@ -13,46 +13,49 @@
 namespace mdof {
 
 enum class Effect {
-  probe_shift,        // one coordinate of a probe's position, machine axes; m
-  probe_circle,       // a probe's position on a circle across its direction; m
-  probe_tilt,         // a probe's direction by this angle, to a random side; rad
-  probe_tilt_about,   // a probe's direction about one machine axis; rad
-  probe_sensitivity,  // relative error of the reading's scale; 1
-  probe_noise,        // added to each reading, a new value each time; m
-  probe_zero,         // added to every reading of a trial; m
-  probe_drift,        // added from the zero to the reading, in a series proportionally; m
-  part_shift,         // installation of a part of the fixture along one machine axis; m
-  part_turn,          // ... about a local axis through the origin of M: roll, pitch, yaw; rad
-  plane_turn,         // a target plane about a local axis: its angle to the frame C; rad
-  plane_flatness,     // random smooth height of a target plane, highest to lowest; m
-  plane_map,          // relative error of the rig's height map; 1
-  square,             // true artefact angle minus the one in the rig; rad
-  encoder_offset,     // indicated minus true travel; m
-  encoder_scale,      // indicated minus true travel, proportional to the travel; 1
-  encoder_noise,      // indicated minus true travel, a new value for each reading; m
-  fixture_heat,       // temperature of the fixture at the reading, minus that at the zero; K
-  target_heat,        // the same for the target; K
-  truth,              // one of the five errors to be determined; m or rad
-  travel,             // position of the axis; m
+  probe_shift,        // position of a probe along one machine axis; m
+  probe_circle,       // position of a probe, on a circle perpendicular to its direction; m
+  probe_tilt,         // angle by which the direction of a probe tilts to a random side; rad
+  probe_tilt_about,   // tilt of the direction of a probe about one machine axis; rad
+  probe_sensitivity,  // relative error of the scale of the readings; 1
+  probe_noise,        // added to each reading, with a new random value each time; m
+  probe_zero,         // added to every reading of a trial, with one value; m
+  probe_drift,        // drift between zero and reading; in a series it increases proportionally; m
+  part_shift,         // installation of a part of the fixture: shift along one machine axis; m
+  // Installation: turn about a local axis through the origin of M (roll, pitch, yaw); rad.
+  part_turn,
+  plane_turn,      // turn of a target plane relative to the frame C, about a local axis; rad
+  plane_flatness,  // random smooth height of a target plane, peak to valley; m
+  plane_map,       // relative error of the height map in the rig; 1
+  square,          // true angle of the artefact minus the angle in the rig; rad
+  encoder_offset,  // indicated travel minus true travel; m
+  encoder_scale,   // indicated travel minus true travel, relative to the travel; 1
+  encoder_noise,  // indicated travel minus true travel, with a new random value for each reading; m
+  fixture_heat,   // temperature of the fixture at the reading minus its temperature at the zero; K
+  target_heat,    // temperature of the target at the reading minus its temperature at the zero; K
+  truth,          // one of the five errors that are to be determined; m or rad
+  travel,         // position of the axis; m
 };
 
-enum class Part { fixture = 0, top = 1, side = 2 };  // side and top: by the probes' directions
+// Top: the probes that measure along z, and their plane; side: along y.
+enum class Part { fixture = 0, top = 1, side = 2 };
 
-// One random number of one rig.
+// One random number that applies to one rig.
 struct QuantityTarget {
   std::string name;  // without a star: "probe.A.x_um"
   Effect effect = Effect::travel;
   std::size_t probe = 0;      // index in the rig, for probe_...
-  Part part = Part::fixture;  // for part_... and plane_...
-  std::size_t axis = 0;       // 0 1 2: machine axis of a shift or tilt, local axis of a turn;
-                              // LocalError of a truth
-  double to_si = 1;           // from the unit of the name; includes the sign of a truth
+  Part part = Part::fixture;  // for part_... and plane_... only
+  // Shift or tilt: 0 1 2 is the machine axis; turn: local axis; truth: LocalError.
+  std::size_t axis = 0;
+  double to_si = 1;  // factor from the unit of the name to SI; for a truth it includes the sign
 };
 
-// All names that a plan may use with this rig, including those with a star.
+// All names that a plan may use with this rig. Names with a star are included.
 std::vector<std::string> quantity_names(const Rig& rig);
 
-// Targets of a name; a star gives one target for each probe. Error: unknown, with the nearest name.
+// Returns the targets of a name; a name with a star has one target for each probe. Error: the name
+// is unknown; the message contains the most similar name.
 Result<std::vector<QuantityTarget>> resolve_quantity(std::string_view name, const Rig& rig);
 
 }  // namespace mdof

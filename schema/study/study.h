@@ -1,5 +1,5 @@
-// Result of a sensitivity study, which is printed, stored and plotted. Values are in the unit at
-// the end of the key of their output ("EAX_urad", "EYX_um").
+// Result of a sensitivity study. It is printed, stored and plotted. The key of an output ends in
+// its unit ("EAX_urad", "EYX_um"); the values are in this unit.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ struct Quantile {
   double p = 0, value = 0;
 };
 
-// A histogram for plots: counts[i] trials in [from + i width, from + (i+1) width).
+// A histogram for plots. counts[i] is the number of trials with a value in [from + i width, from +
+// (i+1) width).
 struct Histogram {
   double from = 0, width = 0;
   std::vector<std::uint64_t> counts;
@@ -26,15 +27,15 @@ struct Histogram {
 // Statistics of one output over n trials.
 struct OutputSummary {
   std::string key;
-  std::uint64_t n = 0;         // trials solved
-  std::uint64_t unsolved = 0;  // trials without a solution: not included in any figure
+  std::uint64_t n = 0;         // number of trials with a solution
+  std::uint64_t unsolved = 0;  // number of trials without a solution; no other figure includes them
   double mean = 0, mean_se = 0, sd = 0, sd_se = 0, min = 0, max = 0;
   std::vector<Quantile> quantiles;  // ascending p
   double coverage = 0.95;
   CoverageInterval symmetric;  // probabilistically symmetric, JCGM 101 §7.7
   CoverageInterval shortest;   // JCGM 101 §5.3.4
-  // Largest distance of a quantile or an end of an interval from the exact order statistic of the
-  // same trials, which sorting all of them would give.
+  // Largest distance between a quantile (or an end of an interval) here and the exact value that
+  // sorting of all trials would produce.
   double resolution = 0;
   Histogram histogram;
 };
@@ -45,43 +46,44 @@ struct StudyBin {
   std::vector<OutputSummary> outputs;
 };
 
-// Convergence of the figures of one output with the number of trials.
+// Statistics of one output after a number of trials; they show how the statistics converge.
 struct ConvergencePoint {
   std::uint64_t trials = 0;
-  double mean = 0, sd = 0, low = 0, high = 0;  // low, high: symmetric interval
+  double mean = 0, sd = 0, low = 0, high = 0;  // low, high: ends of the symmetric interval
 };
 struct Convergence {
   std::string key;
   std::vector<ConvergencePoint> points;
 };
 
-// Variance-based indices (Sobol) of one output; se: standard error of each.
+// Variance-based indices (Sobol) of one output. se: standard error of the index.
 struct CauseIndex {
   std::string cause;
   double first = 0, first_se = 0, total = 0, total_se = 0;
 };
 struct OutputIndices {
   std::string key;
-  std::vector<CauseIndex> causes;  // largest total first
+  std::vector<CauseIndex> causes;  // sorted by `total`, largest first
 };
 
 // Largest tolerances for which P(|output| <= limit) >= probability.
 struct AllocatedTolerance {
   std::string tolerance;     // key in the plan with its unit, "probe_position_um"
-  double value = 0;          // largest value that keeps the limit
-  double low = 0, high = 0;  // its sampling uncertainty, 95 %
+  double value = 0;          // largest value with which the output meets the limit
+  double low = 0, high = 0;  // 95 % interval of `value`, because the number of trials is limited
 };
 struct Allocation {
   std::string output;
   double limit = 0, probability = 0;
-  double reached = 0;                     // P with the tolerances of the plan
-  std::vector<AllocatedTolerance> alone;  // each alone, the others as planned
-  double common_factor = 0;               // factor on all allocated tolerances together
-  // Pairs: for a value of the first tolerance, the largest value of the second.
+  double reached = 0;  // probability with the tolerances of the plan
+  // Largest value of each tolerance, while the others are as planned.
+  std::vector<AllocatedTolerance> alone;
+  double common_factor = 0;  // common factor by which all allocated tolerances can be multiplied
+  // Pairs of tolerances: a value of the first tolerance, and the largest value of the second.
   std::vector<std::vector<AllocatedTolerance>> frontier;
 };
 
-// Two fixtures compared with the same random numbers.
+// Comparison of two fixtures with the same random numbers.
 struct ComparedOutput {
   std::string key;
   double sd_this = 0, sd_other = 0, ratio = 0, ratio_se = 0;  // ratio = other / this
@@ -92,15 +94,15 @@ const char* to_string(StudyState state);
 
 struct StudyResult {
   std::string name;       // "simulation-1", or the plan's name
-  std::string plan_toml;  // the whole plan; for a preset its options in the same form
-  std::string software;   // version
+  std::string plan_toml;  // the whole plan; for a preset, its options in the format of a plan
+  std::string software;   // version of mdof
   std::string started_utc;
-  std::uint64_t seed = 0, trials = 0;  // done
+  std::uint64_t seed = 0, trials = 0;  // trials: number of finished trials
   std::uint64_t trials_wanted = 0;
   double elapsed_s = 0;
   StudyState state = StudyState::complete;
   std::vector<OutputSummary> outputs;
-  std::string binned_key;  // "travel_mm"; "" : no bins
+  std::string binned_key;  // "travel_mm"; "": no bins
   std::vector<StudyBin> bins;
   std::vector<Convergence> convergence;
   std::vector<OutputIndices> indices;

@@ -1,9 +1,9 @@
-// Limit for residuals that their uncertainties do not explain.
+// Limit above which residuals are larger than their uncertainties explain.
 #pragma once
 
 namespace mdof {
 
-// Value that χ² exceeds by chance with a probability of 1e-6.
+// The value that χ² exceeds with a probability of 1e-6.
 double chi_square_limit(int freedom);
 
 }  // namespace mdof

@@ -1,4 +1,4 @@
-// Conformity of a figure to its tolerance: ISO 14253-1:2017.
+// Decides whether a figure conforms to its tolerance (ISO 14253-1:2017).
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ const char* to_string(Conformity conformity);  // "conform", "not conform", "und
 struct Decision {
   Conformity conformity = Conformity::undecided;
   double limit = 0;         // largest permitted magnitude of the figure; m, rad
-  double guard_band = 0;    // g, by which the limit is reduced to prove conformity
+  double guard_band = 0;    // guard band g; to prove conformity, the figure must be below limit - g
   double guard_factor = 0;  // g / u
-  std::string rule;         // standard and probability of the decision
-  std::string reason;       // why undecided, a sentence without a full stop; else empty
+  std::string rule;         // standard and probability on which the decision is based
+  std::string reason;       // reason if undecided: a sentence without a full stop; otherwise empty
 };
 
 // Writes "tolerance", "conformity" and "decision": {"conformity", "rule", "guard_band",
-// "guard_band_factor", "reason"} into an open object, in the unit of the figure's name.
+// "guard_band_factor", "reason"} into an open object, in the unit at the end of the figure's name.
 void write_decision(JsonWriter& json, const Decision& decision);
 
 }  // namespace mdof

@@ -22,8 +22,8 @@ constexpr ContributorKind of_component(ContributorKind x_kind, std::size_t compo
 
 struct ContributorName {
   ContributorKind kind = ContributorKind::noise_repeatability;
-  std::string subject = {};            // id of the probe, plane or calibration record
-  std::vector<std::string> runs = {};  // for a figure of two runs: "X", or both
+  std::string subject = {};            // id of the probe, of the plane or of the calibration record
+  std::vector<std::string> runs = {};  // for a figure of two runs: one of them ("X"), or both
 
   bool operator==(const ContributorName&) const = default;
 };
@@ -32,7 +32,8 @@ struct ContributorName {
 // of the runs come first, joined by `and_word`: "X and Y, probe A: sensitivity".
 std::string contributor_text(const ContributorName& name, std::string_view pattern,
                              std::string_view and_word);
-// English text: "contributor" of documents. The German text is in daemon/words/words.h.
+// The English text, for the member "contributor" of documents. daemon/words/words.h has the German
+// text.
 std::string contributor_text(const ContributorName& name);
 
 }  // namespace mdof

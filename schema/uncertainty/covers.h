@@ -14,17 +14,17 @@ enum class Covered {
 };
 using Covers = std::vector<Covered>;
 
-// Facts about the u of results that a fixture measured.
+// Facts about the standard uncertainty u of results that were measured with a fixture.
 struct CoverFacts {
   bool noise_only = false, declares = false;
-  bool repeated = true;  // false: no target of a run was visited twice from the same side
+  bool repeated = true;  // false: in a run, no target was visited twice from the same side
 };
 Covers covers(const CoverFacts& of);
 
-// One English sentence without a full stop: "u_covers" of documents. The German text is in
-// daemon/words/words.h.
+// One English sentence without a full stop, for the member "u_covers" of documents.
+// daemon/words/words.h has the German text.
 std::string covers_text(const Covers& covers);
-// For a budget, a run or a table: any type with covers().
+// As above, for a budget, a run or a table: any type for which covers() exists.
 template <class Stated>
 requires requires(const Stated& stated) {
   Covers(covers(stated));

@@ -1,4 +1,5 @@
-// Whether u contains only noise and repeatability, for several values that are stated together.
+// Whether u contains only noise and repeatability. It describes several values that are stated
+// together.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +12,12 @@ enum class NoiseOnly : std::uint8_t { none, some, all };
 constexpr NoiseOnly noise_only_if(bool all) {
   return all ? NoiseOnly::all : NoiseOnly::none;
 }
-// Combines two groups of values.
+// Combines the statements for two groups of values.
 constexpr NoiseOnly joined(NoiseOnly a, NoiseOnly b) {
   return a == b ? a : NoiseOnly::some;
 }
 
-// Contributions that u of a sum of machine errors includes, in English, without a full stop.
+// English text without a full stop: the contributions that u of a sum of machine errors includes.
 std::string error_covers_text(NoiseOnly noise_only, bool some_without_u);
 
 }  // namespace mdof

@@ -1,5 +1,5 @@
-// Compensation table over a plane or a volume: values that are added to the commands of the linear
-// axes, so that the tool reaches the commanded position.
+// Compensation table for a plane or a volume. Its values are added to the commands of the linear
+// axes; the tool then reaches the commanded position.
 #pragma once
 
 #include <array>
@@ -15,57 +15,62 @@
 
 namespace mdof {
 
-// Noise of the tables of one axis at one of its nodes. For each component X, Y, Z of the
-// correction, m²: the variance at the node, and the covariance with the next node of the axis, each
-// as c0 + c1 p + c2 q + c3 p² + c4 p q + c5 q² of the commands p, q (m) of the other two axes in
-// the order X, Y, Z.
+// Noise of the tables of one axis, at one node of this axis. There are two sets of numbers for each
+// component X, Y, Z of the correction, in m²: the variance at the node, and the covariance with the
+// next node of the axis. Each is a polynomial
+//   c0 + c1 p + c2 q + c3 p² + c4 p q + c5 q²
+// of the commands p and q (m) of the other two axes, in the order X, Y, Z.
 struct AxisNoise {
   using SquareForm = std::array<double, 6>;
   std::array<SquareForm, 3> variance{}, covariance_with_next{};
   bool operator==(const AxisNoise&) const = default;
 };
 
-// The nodes of the grid are all combinations of the commands, X fastest, then Y, then Z. An axis
-// with one command is fixed there: a plane has one such axis, also if the machine has no such axis.
+// The nodes of the grid are all combinations of the commands; X changes fastest, then Y, then Z. An
+// axis with only one command is fixed at this command. A table for a plane has one such axis, even
+// if the machine does not have this axis.
 struct VolumetricTable {
-  std::int64_t id = 0;  // 0 until stored; never equal to the id of a table of an axis
-  std::string name;     // of the machine
+  std::int64_t id = 0;  // 0: not stored yet; never equal to the id of a table of one axis
+  std::string name;     // name of the machine
   Chain machine;
   std::string description;         // text of MACHINE.toml
   std::vector<std::int64_t> runs;  // runs whose errors the table corrects
-  bool simulated = false;          // wholly or partly
-  // Of the errors; `some` in an older table may also mean all.
+  bool simulated = false;          // true: all or some of the data are simulated
+  // Whether u of the errors contains noise only. In an older table, `some` may also mean `all`.
   NoiseOnly noise_only = NoiseOnly::none;
-  std::string approach = "mean";  // of all axes: "mean", "forward", "reverse"
-  Vec3 tool_m{};                  // point of the tool in machine coordinates, all axes at 0
+  std::string approach = "mean";  // approach for all axes: "mean", "forward", "reverse"
+  Vec3 tool_m{};  // point of the tool, in machine coordinates, when all axes are at 0
   std::array<std::vector<double>, 3> command_m;  // X, Y, Z; each strictly increasing
   Vec3 rotary_rad{};                             // positions of A, B, C
 
-  // By node: correction added to the commands of X, Y, Z, m; standard uncertainty of the tool's
-  // position along X, Y, Z of the work, m (NaN: no error with an effect has a declared
-  // uncertainty).
+  // For each node: the correction that is added to the commands of X, Y, Z, m; and the standard
+  // uncertainty of the tool's position along X, Y, Z of the work, m. NaN: no error that affects
+  // this position has a declared uncertainty.
   std::vector<Vec3> correction_m, u_m;
-  // The part of u_m from the noise of the tables of the grid's axes. It is independent between
-  // positions of an axis; nodes with the same command of an axis share that axis' part. Empty: the
-  // table is older than this member, or nothing is declared.
+  // The part of u_m that comes from the noise of the tables of the grid's axes. This part is
+  // independent between different positions of an axis; nodes with the same command of an axis have
+  // the same contribution from this axis. Empty: the table is older than this member, or nothing is
+  // declared.
   std::vector<Vec3> u_independent_m;
-  // The same by axis and its commands; empty for an axis with one command. All empty: as above.
+  // The same noise for each axis and each of its commands; empty for an axis with one command.
+  // Empty for all axes: as for u_independent_m.
   std::array<std::vector<AxisNoise>, 3> noise;
-  // Largest difference between the linear interpolation between nodes and the correction of the
-  // model, found at the centres of cells, faces and edges; m, by axis.
+  // Largest difference between the linear interpolation between the nodes and the correction of the
+  // model; m, for each axis. It is calculated at the centres of cells, faces and edges.
   Vec3 interpolation_m{};
-  // Largest part of a correction that remains at a node because the errors depend on the approach
-  // and the table has one value: half the difference for the approach "mean", the whole difference
-  // for one approach. Each machine axis may arrive from either side. m, by axis; 0 in a table older
+  // The errors depend on the approach, but the table has only one value for each node. This is the
+  // largest part of a correction that therefore remains at a node; m, for each axis. For the
+  // approach "mean" it is half the difference between the approaches, for "forward" or "reverse"
+  // the whole difference. Each machine axis may arrive from either side. 0 in a table that is older
   // than this member.
   Vec3 reversal_m{};
-  // Largest remaining errors with the corrected commands: the position error (m) that the linear
-  // axes cannot correct, and the rotation of the tool (rad), which they cannot change.
+  // Largest errors that remain with the corrected commands: the position error that the linear axes
+  // cannot correct (m), and the rotation of the tool, which the linear axes cannot change (rad).
   double place_left_m = 0, turn_left_rad = 0;
-  // Names of errors: not measured and therefore not corrected; without u; with a table that ends
-  // within the grid.
+  // Names of errors: errors that were not measured and are therefore not corrected; errors without
+  // u; errors whose table ends inside the grid.
   std::vector<std::string> not_measured, u_not_declared, beyond_tables;
-  // Notices of the errors that the table was built from; empty also in a table older than this
+  // Notices of the errors from which the table was built. Empty in a table that is older than this
   // member.
   Notices doubtful;
   std::string created_utc;
@@ -78,21 +83,23 @@ struct VolumetricTable {
     return x + command_m[0].size() * (y + command_m[1].size() * z);
   }
   Vec3 command_at(std::size_t node) const;
-  // Two parts of u: u_independent_m, and the part that is common to all nodes (squareness, declared
-  // uncertainties, u of files). NaN: the parts are not known separately.
+  // The two parts of u: u_independent_m, and the part that is common to all nodes (squareness,
+  // declared uncertainties, u of files). NaN: the parts are not known separately.
   Vec3 u_independent_at(std::size_t node) const;
   Vec3 u_common_at(std::size_t node) const;
 };
 
-// Positions of the rotary axes, as "A = 0 deg, C = 30 deg"; "": the machine has none. The table is
-// valid only there.
+// Text with the positions of the rotary axes: "A = 0 deg, C = 30 deg"; "": the machine has no
+// rotary axes. The table is valid only at these positions.
 std::string rotary_text(const VolumetricTable& table);
 
-// The other part of u, if `part_m` is one part; m. NaN if either is NaN.
+// Returns the other part of u, if `part_m` is one of its two parts; m. NaN if `u_m` or `part_m` is
+// NaN.
 Vec3 remaining_u(const Vec3& u_m, const Vec3& part_m);
 
-// All numbers of `noise`, X first: the variances of a node, then its covariances. set_noise()
-// assigns them to the commands of the table; false: the number of values does not fit.
+// noise_numbers() returns all numbers of `noise`: X first; for each node the variances, then the
+// covariances. set_noise() assigns such numbers to the commands of the table; it returns false if
+// their number is wrong.
 std::vector<double> noise_numbers(const VolumetricTable& table);
 bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
 
@@ -107,7 +114,7 @@ bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
 //   appended to the first s and s notices_json() is the last value.
 std::string volumetric_sha256(const VolumetricTable& table);
 
-// Contributions that u includes: one sentence for people, without a full stop.
+// Text for people, one sentence without a full stop: the contributions that u includes.
 std::string covers_text(const VolumetricTable& table);
 
 }  // namespace mdof

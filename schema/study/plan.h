@@ -77,7 +77,7 @@ struct PlannedAdaptive {
 struct PlannedIndices {
   // Base trials; each base trial needs two evaluations, and one more for each cause.
   std::uint64_t trials = 65536;
-  // A star means, true: one cause for each probe; false: one cause for all probes.
+  // True: a star means one cause for each probe; false: it means one cause for all probes.
   bool each_probe = false;
 };
 

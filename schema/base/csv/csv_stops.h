@@ -1,5 +1,5 @@
-// Positions where the fields of CSV text end, found many bytes at a time, so that fields can be
-// read independently of each other.
+// Finds the positions at which the fields of a CSV text end, many bytes at a time. The fields can
+// then be read independently of each other.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,19 @@
 
 namespace mdof {
 
-// Positions of all bytes below '-' (as signed numbers): ',', LF, CR and bytes that do not belong in
-// a row of plain numbers (space, '#', '+', '"', bytes beyond ASCII). Field k of the text is
-// [at[k] + 1, at[k + 1]), where at[0] is -1 (mod 2^32).
+// Positions of all bytes below '-' (as signed numbers). These are ',', LF, CR and the bytes that do
+// not occur in a row of plain numbers (space, '#', '+', '"', bytes beyond ASCII). Field k of the
+// text is [at[k] + 1, at[k + 1]), where at[0] is -1 (mod 2^32).
 struct CsvStops {
   std::size_t count = 0;
   std::unique_ptr<std::uint32_t[]> at;
-  std::unique_ptr<char[]> byte;  // [k]: the byte at at[k]; [0]: LF
-  std::size_t room = 0;          // allocated length of both; untouched memory uses no RAM
+  std::unique_ptr<char[]> byte;  // byte[k]: the byte at position at[k]; byte[0]: LF
+  // Allocated length of at and byte; memory that was never written needs no RAM.
+  std::size_t room = 0;
 };
 
-// Replaces `stops` by the stops of the text, which must be shorter than 4 GiB. Reads up to
-// kStopsMargin bytes beyond its end.
+// Replaces `stops` by the stops of the text. The text must be shorter than 4 GiB; kStopsMargin
+// bytes after its end must be readable.
 inline constexpr int kStopsMargin = 64;
 void find_stops(std::string_view text, CsvStops& stops,
                 InstructionSet set = best_instruction_set());

@@ -1,5 +1,6 @@
-// Files beside a SQLite database (-wal, -shm, -journal), examined without SQLite, and a private
-// copy of all of them. A foreign database is read without writing to it or beside it.
+// Examines the companion files of a SQLite database (-wal, -shm, -journal) without SQLite, and
+// makes a private copy of the database with these files. A database of another program is read
+// without writing to it or to its folder.
 #pragma once
 
 #include <sys/stat.h>
@@ -12,43 +13,46 @@
 
 namespace mdof::sqlite {
 
-// Path of a companion file of the database: beside the target of a symbolic link. `ending`: "-wal",
-// ...
+// Path of a companion file. If `database` is a symbolic link, the companion file is in the folder
+// of the link's target. `ending`: "-wal", ...
 std::filesystem::path beside(const std::filesystem::path& database, const char* ending);
 
-// Error (bad_input): the rollback journal names a super-journal (a transaction over several
-// databases, which mdof never makes). SQLite would delete the file of that name.
+// Error (bad_input): the rollback journal contains the name of a super-journal (for a transaction
+// over several databases). mdof never makes a super-journal. SQLite would delete the file with this
+// name.
 Status check_journal(const std::filesystem::path& database);
 
-// has_journal(): a transaction must be rolled back before reading. has_wal(): the -wal file
-// contains transactions.
+// has_journal(): a transaction must be rolled back before the database is read. has_wal(): the -wal
+// file contains transactions.
 bool has_journal(const std::filesystem::path& database);
 bool has_wal(const std::filesystem::path& database);
 
-// Whether another process has the database open in WAL mode. Opens -shm: do not call it for a file
-// for which is_open_for_writing() is true.
+// Whether another process has the database open in WAL mode. The function opens the -shm file: do
+// not call it for a file for which is_open_for_writing() is true.
 bool is_shared(const std::filesystem::path& database);
 
-// Whether this process has the file open for writing, by any name or link: its own database, -wal
-// or -shm, or a recording in progress. Files open only for appending do not count, because SQLite
-// has no lock on them. Closing any other descriptor of such a file (also one of open(2), or one
-// that a client passed) drops the locks of SQLite on it, and another program may then delete a -wal
-// that is in use. Ask before opening the file; a descriptor of open(2) with O_PATH drops no locks
-// and answers the question without a race.
+// Whether this process has the file open for writing, under any name or link: its own database,
+// -wal or -shm, or a recording in progress. Files that are open only for appending do not count,
+// because SQLite has no lock on them. If the process closes any other descriptor of such a file,
+// the kernel removes the locks of SQLite on this file; this applies also to a descriptor from
+// open(2) or from a client. Another program may then delete a -wal file that is in use. Therefore
+// call this function before the file is opened. A descriptor from open(2) with O_PATH removes no
+// locks; with it the check is free of races.
 bool is_open_for_writing(const struct stat& file);
 bool is_open_for_writing(const std::filesystem::path& file);
 
-// Opens the file for reading without waiting. -1 and errno: EBUSY: this process writes the file,
-// which was not opened; EINVAL: not a regular file. `flags`: O_NOFOLLOW or 0.
+// Opens the file for reading without waiting. Returns -1 with errno on failure. EBUSY: this process
+// writes to the file, so it was not opened; EINVAL: the file is not a regular file. `flags`:
+// O_NOFOLLOW or 0.
 int open_foreign(const std::filesystem::path& file, int flags);
 // Text for the errno of open_foreign().
 std::string foreign_error_text(int error);
 
-// A consistent copy of database, -journal and -wal in a folder of mode 0700. The folder is removed
-// with the object.
+// A consistent copy of database, -journal and -wal in a folder with mode 0700. The destructor
+// removes the folder.
 class PrivateCopy {
  public:
-  // Waits up to `timeout_ms` for a program that is writing the file.
+  // Waits at most `timeout_ms` for a program that is writing to the file.
   static Result<PrivateCopy> make(const std::filesystem::path& database, int timeout_ms);
   PrivateCopy(PrivateCopy&& other) noexcept;
   PrivateCopy& operator=(PrivateCopy&&) = delete;

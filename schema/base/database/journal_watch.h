@@ -1,10 +1,10 @@
-// Watches the -wal and -shm files of a database in WAL mode that this process writes. Another
-// program may delete, replace or truncate them. SQLite does not notice this and continues to write
-// into files that the next program does not find.
+// Watches the -wal and -shm files of a database in WAL mode to which this process writes. Another
+// program may delete, replace or truncate these files. SQLite does not notice this: it continues to
+// write into files that other programs no longer find.
 //
-// -shm remains a file that all programs map. To keep it in memory (locking_mode = EXCLUSIVE) would
-// avoid truncation, but readers (mdof runs, show, verify) could then not open the database while
-// mdofd has it open.
+// -shm remains a file that all programs map into memory. With locking_mode = EXCLUSIVE, SQLite
+// would keep it in private memory, which cannot be truncated; but readers (mdof runs, show, verify)
+// could then not open the database while mdofd has it open.
 #pragma once
 
 #include <sys/types.h>
@@ -16,26 +16,28 @@ struct sqlite3;
 
 namespace mdof::sqlite {
 
-// Prevents SQLite from opening and deleting super-journals. After a rollback SQLite would delete
-// the file that the journal names, whatever it is; mdof makes no such journals. Call it before the
-// first database is opened.
+// Prevents SQLite from opening and deleting super-journals. After a rollback, SQLite would delete
+// the file whose name is in the journal, whichever file this is; mdof makes no such journals. Call
+// this function before the first database is opened.
 void guard_files();
 
-// From now on a truncated -shm file does not end this process by SIGBUS. Its mapped regions are
-// replaced by memory in which SQLite detects damage (SQLITE_CORRUPT) and finds no outdated page,
-// and each JournalWatch reports a fault. For a daemon, before its threads start.
+// After this call, a truncated -shm file no longer ends this process by SIGBUS. The mapped regions
+// of the file are replaced by memory in which SQLite detects damage (SQLITE_CORRUPT) and finds no
+// outdated page. Each JournalWatch then reports a fault. For a daemon, before it starts its
+// threads.
 void survive_truncated_shm();
 
-// Thread-bound, as the connection is.
+// Thread-bound, as is the connection.
 class JournalWatch {
  public:
-  // For a connection in WAL mode that has already read.
+  // The connection must be in WAL mode and must have read before.
   JournalWatch(sqlite3* database, const std::filesystem::path& file);
-  // "FILE-wal was deleted ..."; empty: no change detected. A fault is permanent. After a fault
-  // other than a truncated -wal, committed data are moved into the database immediately, if
+  // "FILE-wal was deleted ..."; empty: no change was detected. A fault is permanent. If the fault
+  // is not a truncated -wal file, committed data are moved into the database immediately, if
   // possible.
   const std::string& fault();
-  // Whether the next program finds all committed data: no fault, or all data were moved.
+  // Whether the next program finds all committed data: there is no fault, or all data were moved
+  // into the database.
   bool is_kept();
 
  private:

@@ -1,5 +1,5 @@
-// Columns of plain decimal numbers from CSV text whose field ends are known
-// (schema/base/csv/csv_stops.h).
+// Reads columns of plain decimal numbers from CSV text. The ends of the fields must already be
+// known (schema/base/csv/csv_stops.h).
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,9 @@
 
 namespace mdof {
 
-// Fields of one column in consecutive rows: field j is the text between stop[j stride] and
-// stop[j stride + 1], both excluded. kColumnMargin bytes before the first field and after the last
-// are readable.
+// The fields of one column in consecutive rows. Field j is the text between stop[j stride] and
+// stop[j stride + 1]; both ends are excluded. kColumnMargin bytes before the first field and after
+// the last field must be readable.
 struct ColumnText {
   const char* text;
   const std::uint32_t* stop;
@@ -19,11 +19,12 @@ struct ColumnText {
 };
 inline constexpr int kColumnMargin = 64;
 
-// Reads up to n fields. Returns the number of fields before the first that is not a finite decimal
-// number. The results are the nearest doubles, as from parse_double(), on every processor.
+// Reads up to n fields. Stops at the first field that is not a finite decimal number, and returns
+// the number of fields before it. The results are the nearest doubles, as from parse_double(), on
+// every processor.
 std::size_t read_doubles(const ColumnText& column, std::size_t n, double* out,
                          InstructionSet set = best_instruction_set());
-// The same for decimal seconds to nanoseconds, as from parse_seconds().
+// As read_doubles(), but converts decimal seconds to nanoseconds, as parse_seconds() does.
 std::size_t read_times_ns(const ColumnText& column, std::size_t n, std::int64_t* out,
                           InstructionSet set = best_instruction_set());
 

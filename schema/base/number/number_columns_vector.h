@@ -9,16 +9,17 @@
 
 namespace mdof {
 
-// Read fields in groups; return the number read. Reading ends before the first group with a field
-// that is not [-]ddd.ddd of at most 32 characters, a digit last, and 19 significant digits, or
-// whose rounding needs more than the fast calculation.
+// These functions read fields in groups and return the number of fields that they have read. They
+// stop before the first group that contains a field of another kind. A field must be [-]ddd.ddd
+// with at most 32 characters and 19 significant digits, and must end in a digit. They also stop if
+// the rounding of a number needs more than the fast calculation.
 struct PlainReaders {
   std::size_t (*doubles)(const ColumnText& column, std::size_t n, double* out);
   std::size_t (*times_ns)(const ColumnText& column, std::size_t n, std::int64_t* out);
 };
 
-// The widest readers of at most this set that the processor supports; without vectors, readers that
-// read nothing.
+// Returns the readers with the widest vectors that `most` and the processor allow. If no vectors
+// are allowed, returns readers that read no field.
 PlainReaders plain_readers(InstructionSet most);
 
 }  // namespace mdof

@@ -1,8 +1,8 @@
-// 17 digits of a double: x = m·2^e becomes the integer D = round(x·10^q), 10^16 <= D < 10^17, by
-// one multiplication with a 128-bit power of ten. The error is below one unit of the 128 bits, so
-// the rounding is certain unless the fraction is within one unit of a half; std::to_chars then
-// decides. (The idea of Grisu and Ryu printf, with the table of fast_float, valid for 1e-292 ...
-// 1e308.)
+// Finds 17 digits of a double: x = m·2^e becomes the integer D = round(x·10^q), 10^16 <= D < 10^17,
+// by one multiplication with a 128-bit power of ten. The error of the product is less than one unit
+// of its last bit. Therefore the rounding is certain, unless the fraction differs from 1/2 by less
+// than one unit; std::to_chars is then used. (The method is that of Grisu and Ryu printf, with the
+// table of fast_float, valid for 1e-292 ... 1e308.)
 #pragma once
 
 #include <fast_float/fast_float.h>

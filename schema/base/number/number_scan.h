@@ -1,6 +1,6 @@
-// The inner loop of every CSV reader: reads a field with known ends as a plain decimal number
-// [-]ddd.ddd, sixteen digits at a time and without data-dependent branches. Other fields (an
-// exponent, more digits) are left to parse_double().
+// The innermost loop of every CSV reader. It reads a field whose ends are known as a plain decimal
+// number [-]ddd.ddd: sixteen digits at a time and without branches that depend on the data. Other
+// fields (with an exponent or more digits) must be read by parse_double().
 #pragma once
 
 #include <fast_float/fast_float.h>
@@ -15,7 +15,7 @@
 
 namespace mdof {
 
-// Bytes that must be readable before and after a field, whatever their values.
+// Number of bytes before and after a field that must be readable; their values have no effect.
 inline constexpr int kScanMargin = 32;
 
 inline constexpr std::uint64_t kPowersOfTen[] = {1,

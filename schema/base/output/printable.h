@@ -1,4 +1,4 @@
-// Makes text from outside (notes, names, messages of devices) safe for a terminal.
+// Makes text from outside (notes, names, messages of devices) safe for output on a terminal.
 #pragma once
 
 #include <string>
@@ -6,15 +6,16 @@
 
 namespace mdof {
 
-// Whether a terminal interprets no part of the text as a command or as a change of writing
-// direction.
+// Whether no part of the text is a command for the terminal or a change of the writing direction.
 bool is_printable(std::string_view utf8);
 
-// Replaces each non-printable character by "?": control characters except line end and tab, DEL,
-// U+0080 to U+009F, the marks of writing direction, and bytes that are not UTF-8.
+// Replaces each character that is not printable by "?": control characters except line end and tab,
+// DEL, U+0080 to U+009F, characters that change the writing direction, and bytes that are not
+// UTF-8.
 std::string printable(std::string_view utf8);
 
-// For a JSON document: writes these characters as escapes, so the content is unchanged.
+// For a JSON document: writes these characters as JSON escapes. The contents of the document are
+// unchanged.
 std::string printable_json(std::string_view utf8);
 
 }  // namespace mdof

@@ -1,5 +1,5 @@
-// Codes for the user's remedy of an error. Code that finds an error does not know whether a command
-// line, a program or a report shows it. The texts are in daemon/words.
+// Codes for the remedy of an error. The code that finds an error does not know whether the error is
+// displayed by a command, by another program or in a report. The texts are in daemon/words.
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,9 @@
-// Thin typed wrapper of SQLite's C API: a connection with a cache of prepared statements, and a
-// transaction that detects when SQLite has rolled back by itself. It is in schema/ because the
-// store (daemon/) and the recording reader (drivers/) both use it.
+// A thin typed interface to SQLite's C API: a connection with a cache of prepared statements, and a
+// transaction that detects when SQLite itself has rolled back. It is in schema/ because the store
+// (daemon/) and the reader of recordings (drivers/) use it.
 //
 // Thread-bound: a connection and all its objects belong to one thread. Errors name the file and the
-// operation, contain SQLite's own text, and state the remedy.
+// operation, and contain SQLite's own text and the remedy.
 #pragma once
 
 #include <cstdint>
@@ -21,25 +21,29 @@ struct sqlite3_stmt;
 namespace mdof::sqlite {
 
 enum class OpenMode {
-  read_only,   // for a database in use; does not write to it
-  snapshot,    // any file as it is now; does not write to it or beside it
-  read_write,  // the file must exist
-  create,      // read_write; creates a missing file
+  read_only,   // for a database in use; does not write to the database
+  snapshot,    // for any file in its present state; does not write to the file or its folder
+  read_write,  // for an existing file
+  create,      // as read_write; makes the file if it does not exist
 };
 
 // Durability of a commit; see SQLite's "PRAGMA synchronous".
 enum class Durability {
-  full,    // stored on the medium before commit returns: survives a power cut
-  normal,  // survives the end of the process; a power cut may lose the last commits
-  off,     // for benchmarks and temporary files
+  full,  // the data are on the disk before commit returns; a power failure does not affect them
+  // The data remain after the end of the process; a power failure may lose the last commits.
+  normal,
+  off,  // for benchmarks and temporary files
 };
 const char* to_string(Durability durability);
 
-struct Session;  // the open database and its cache of statements; not moved when its owner is moved
+// The open database and its cache of statements; its address stays the same when its owner is
+// moved.
+struct Session;
 
-// Borrowed from the cache of its connection; the destructor resets and returns it. Parameters are
-// bound from the left, one call each. Text is copied; bytes are not copied and must outlive the
-// last step of the statement. A NaN is stored as NULL and read back as NaN.
+// A statement from the cache of its connection; the destructor resets it and returns it to the
+// cache. Each call of bind() sets the next parameter, from the left. Text is copied. Bytes are not
+// copied and must exist until the last step of the statement. A NaN is stored as NULL; a NULL is
+// read as NaN.
 class Statement {
  public:
   Statement(Statement&& other) noexcept;
@@ -53,8 +57,8 @@ class Statement {
   Statement& bind_null();
   Statement& bind(std::optional<std::int64_t> x) { return x ? bind(*x) : bind_null(); }
 
-  Result<bool> step();  // true: a row is available
-  Status run();         // executes to the end; the statement can then be bound again
+  Result<bool> step();  // true: there is a row
+  Status run();         // executes the statement to its end; it can then be bound again
 
   std::int64_t integer(int column) const;
   double real(int column) const;
@@ -84,19 +88,23 @@ class Connection {
   Connection& operator=(Connection&&) noexcept;
   ~Connection();
 
-  Status execute(const std::string& sql);           // one or more statements without results
-  Result<Statement> prepare(std::string_view sql);  // cached by its text; only one user at a time
-  Result<std::int64_t> integer(std::string_view sql);  // first column of the first row; none: 0
+  Status execute(const std::string& sql);  // one or more statements without results
+  // The statement is cached by its text; only one user at a time.
+  Result<Statement> prepare(std::string_view sql);
+  // First column of the first row; 0 if there is no row.
+  Result<std::int64_t> integer(std::string_view sql);
   std::int64_t last_insert_rowid() const;
-  std::int64_t changes() const;       // rows written since the connection was opened
-  const std::string& damage() const;  // the last error that reports a damaged file; empty: none
+  std::int64_t changes() const;  // number of rows that were written since the connection was opened
+  // The last error that reports a damaged file; empty: no such error.
+  const std::string& damage() const;
 
-  // From now on -wal and -shm are watched (journal_watch.h): no transaction begins or is
-  // acknowledged if the next program would not find it.
+  // After this call, -wal and -shm are watched (journal_watch.h). If another program would not find
+  // a transaction, the transaction is not begun or not acknowledged.
   void watch_journal();
-  std::string journal_fault();  // why writing is impossible; empty: it is possible
+  std::string journal_fault();  // reason why writing is impossible; empty: it is possible
 
-  // The last error as an Error: "FILE: cannot DOING: ... (SQLITE_FULL). Remedy".
+  // The last error of SQLite: "FILE: cannot DOING: ... (SQLITE_FULL). Remedy", where DOING is
+  // `doing`.
   tl::unexpected<Error> error(std::string_view doing) const;
   const std::filesystem::path& file() const;
   sqlite3* handle() const;
@@ -107,8 +115,9 @@ class Connection {
   std::unique_ptr<Session> session_;
 };
 
-// BEGIN IMMEDIATE ... COMMIT; rolls back unless committed. If the disk is full, SQLite rolls back
-// by itself and a second ROLLBACK would be an error: the destructor checks this first.
+// BEGIN IMMEDIATE ... COMMIT. The destructor rolls back if commit() was not called. If the disk is
+// full, SQLite itself rolls back, and a second ROLLBACK would be an error; the destructor checks
+// this.
 class Transaction {
  public:
   static Result<Transaction> begin(Connection& connection);

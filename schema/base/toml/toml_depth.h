@@ -1,6 +1,6 @@
-// Nesting depth of a TOML document, found from its text before it is parsed. The parser limits
-// nested values, but not the tables of a dotted key, and both the parser and the destructor of its
-// tree recurse once for each level.
+// Finds the nesting depth of a TOML document from its text, before the document is parsed. The
+// parser limits the depth of nested values, but not of the tables in a dotted key. The parser and
+// the destructor of its tree are recursive: each level needs stack memory.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,9 @@ namespace mdof {
 
 inline constexpr std::size_t kMaxTomlDepth = 32;  // deeper than any document that mdof reads
 
-// The first line (1, 2, ...) where the depth exceeds `bound`; nullopt: none. The depth is the
-// number of open brackets and braces plus the dots of the keys before a value.
+// Number (1, 2, ...) of the first line in which the depth exceeds `bound`; nullopt: no such line.
+// The depth is the number of open brackets and braces, plus the number of dots in the keys before a
+// value.
 std::optional<std::size_t> toml_line_over_depth(std::string_view text, std::size_t bound);
 
 }  // namespace mdof

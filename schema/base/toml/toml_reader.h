@@ -1,5 +1,5 @@
-// Strict reader of TOML documents: the caller reads each key by name and type. A key that is not
-// read is an error, which names the nearest known key. Messages contain file and line.
+// Strict reader of TOML documents. The caller reads each key by its name and type. A key that was
+// not read is an error; the message contains the most similar known key, the file and the line.
 #pragma once
 
 #include <array>
@@ -14,14 +14,15 @@
 
 namespace mdof {
 
-// One table of a document. The first error is kept; later calls do nothing and return their
-// default, so that a reader can call repeatedly and check once at the end.
+// A table of a document. Only the first error is stored. After an error, all functions do nothing
+// and return their default. Therefore the caller can read all keys and check for an error once, in
+// finish().
 class TomlTable {
  public:
   // `source_name` is the name of the document in messages.
   static Result<TomlTable> parse(std::string_view text, const std::string& source_name);
 
-  // has() only gives a hint for misspelt keys; a key must be read to be known.
+  // has() does not count as reading the key; the key only appears in hints for misspelt keys.
   bool has(std::string_view key);
   bool is_array(std::string_view key);  // [[key]], or key = [...]
   bool is_table(std::string_view key);  // [key], or key = {...}
@@ -37,14 +38,14 @@ class TomlTable {
   std::array<double, 3> vector3(std::string_view key);
   std::vector<std::vector<double>> matrix(std::string_view key);  // absent: empty
   std::vector<std::string> strings(std::string_view key);         // absent: empty
-  std::vector<TomlTable> tables(std::string_view key);            // [[key]]; absent: none
+  std::vector<TomlTable> tables(std::string_view key);            // [[key]]; absent: no tables
   std::optional<TomlTable> table(std::string_view key);           // [key]
 
-  // Records an error of the caller at this key ("position_mm: outside the target").
+  // Records an error that the caller has found at this key ("position_mm: outside the target").
   void reject(std::string_view key, const std::string& why, Remedy remedy = Remedy::none,
               const std::string& remedy_for = "");
-  // Ok, or the first error of this document, including unknown keys of this table and its
-  // sub-tables. Call it once, after all keys were read.
+  // Returns the first error of this document. A key of this table and its sub-tables that was not
+  // read is also an error. Call it once, after all keys were read.
   Status finish();
   std::string where(std::string_view key) const;  // "rig.toml:12: probe.range_um"
 
@@ -57,10 +58,11 @@ class TomlTable {
   std::shared_ptr<Node> node_;
 };
 
-// Number of letters to add, remove or change and of neighbours to swap ("slove").
+// Number of letters to add, remove or change, plus number of neighbouring letters to exchange
+// ("slove").
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// The candidate with the smallest edit distance to `word`; empty if none is near.
+// The candidate with the smallest edit distance to `word`; empty if no candidate is similar.
 std::string nearest_candidate(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace mdof

@@ -1,5 +1,6 @@
-// Checks whether the numbers of a rig are plausible, to find wrong units (mm entered as µm, metres
-// or volts) before a measurement. An impossible number is an error, an unusual one a notice.
+// Checks whether the numbers of a rig are plausible. It finds wrong units (values in mm, m or V
+// instead of µm) before a measurement. An impossible number causes an error, an unusual number a
+// notice.
 #pragma once
 
 #include <string>
@@ -11,10 +12,11 @@
 
 namespace mdof {
 
-// Error: the first impossible number, with file, line, key and the unit that was probably meant.
+// Error: the first impossible number. The message contains file, line, key and the unit that the
+// user probably meant.
 Status check_rig(const Rig& rig);
 
-// Unusual numbers, each with file, line and key, for the user of this rig.
+// Notices for unusual numbers, each with file, line and key.
 Notices unusual_values(const Rig& rig);
 
 }  // namespace mdof

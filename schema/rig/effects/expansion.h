@@ -9,8 +9,9 @@
 //   square_ppm_per_K, u_square_ppm_per_K                                of the target
 //   u_square_gradient_K_per_m = 0.5  of its temperature's slope along X, Y and Z
 //
-// Nothing is corrected. A target of uniform temperature keeps its angles and stays flat, and its
-// size is included in the zero of the probes, so only a gradient has an effect.
+// Nothing is corrected. A target of uniform temperature keeps its angles and stays flat, and the
+// zero of the probes includes its size. Therefore only a temperature gradient of the target has an
+// effect.
 #pragma once
 
 #include <cmath>
@@ -29,9 +30,9 @@ struct BodyExpansion {
   ThermalExpansion expansion;
   double above_20_K = 0;
   DeclaredUncertainty u_temperature;  // K
-  // Root mean square about 0 of the relative expansion, with coefficient and temperature
-  // independent. As nothing is corrected, it includes the known part and its uncertainty (GUM H.1.7
-  // with its second-order term).
+  // Root mean square, about 0, of the relative expansion; the coefficient and the temperature are
+  // independent. Because nothing is corrected, it includes both the known expansion and its
+  // uncertainty (GUM H.1.7 with its second-order term).
   double relative() const {
     const double above = above_20_K, u = u_temperature.u;
     return std::sqrt(expansion.mean_square_per_K2() * (above * above + u * u));
@@ -39,7 +40,7 @@ struct BodyExpansion {
 };
 
 struct RigExpansion {
-  bool any = false;  // there is a table [temperature]
+  bool any = false;  // true: there is a table [temperature]
   BodyExpansion scale, fixture;
   ThermalExpansion square;
   DeclaredUncertainty3 square_gradient;  // K/m

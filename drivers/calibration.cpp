@@ -11,9 +11,11 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr double kRangeUsed = 0.9995;  // a reading beyond this share of the range is at its end
+// A reading beyond this part of the range is at the end of the range.
+constexpr double kRangeUsed = 0.9995;
 
-// Limits of valid raw readings, µm. A reading at or outside a limit is at the end of the range.
+// Limits of the valid raw readings, µm. A reading at a limit or outside the limits is at an end of
+// the range.
 struct Window {
   double low_um, high_um;
 };
@@ -49,10 +51,10 @@ std::array<double, 2> displacement_window_m(const Probe& probe) {
 namespace {
 
 // Converts raw values to displacements. Returns true if a value is outside the window or NaN. The
-// loops have no branches, so that the compiler can vectorise them.
+// loops of these functions have no branches, so that the compiler can use vector instructions.
 using Displace = bool (*)(double um_per_unit, Window window, std::span<double> values);
 
-// For a probe without offset, linearity table, polynomial or gap.
+// For a probe that has neither offset, linearity table nor polynomial, and does not read the gap.
 [[gnu::always_inline]] inline bool scale(double um_per_unit, Window window,
                                          std::span<double> values) {
   unsigned outside = 0;
@@ -105,7 +107,7 @@ Status reject_encoder(const SampleBlock& block, const Channel& encoder, const st
 
 }  // namespace
 
-// The driver has converted the volts to a length with its own scale.
+// um_per_V of a record is not used if the driver has already converted the volts to a length.
 Notices unused_scales(const Rig& rig, const std::vector<Channel>& channels) {
   Notices found;
   for (const Channel& channel : channels)
@@ -157,8 +159,8 @@ Status Calibrator::apply_probe(const Probe& probe, std::size_t channel, SampleBl
   }
   auto& column = block.value[channel];
   if (!displace(c, um_per_unit, valid_window(probe), column)) return {};
-  // Rare second pass. The raw values were overwritten, so it compares displacements with the
-  // limits.
+  // This second loop runs only rarely. The raw values are already overwritten, so it compares the
+  // displacements with the limits.
   const Window window = valid_window(probe);
   const double low_m = displacement_m(c, window.low_um), high_m = displacement_m(c, window.high_um);
   for (std::size_t i = 0; i < column.size(); ++i) {

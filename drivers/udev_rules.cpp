@@ -35,8 +35,8 @@ std::string bus_rule(const UsbDevice& usb) {
   return rule + kForGroup + R"(, SYMLINK+="mdof/$attr{serial}")";
 }
 
-// All ATTRS of a udev rule must belong to one parent. This one is the interface, whose modalias
-// contains the vendor and the interface number.
+// In a udev rule, all ATTRS must match the same parent device. Here this parent is the USB
+// interface; its modalias contains the vendor and the number of the interface.
 std::string hidraw_rule(const UsbDevice& usb) {
   const std::string product = usb.product ? hex("%04X", *usb.product) : "";
   return match("SUBSYSTEM", "hidraw") +

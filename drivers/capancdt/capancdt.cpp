@@ -13,12 +13,14 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-constexpr std::size_t kBlockScans = 4096;    // in one read; exceeded by at most one packet
-constexpr std::size_t kReadBytes = 1 << 16;  // in one read() of the socket
-constexpr int kReads = 16;                   // calls of read() before the data are processed
-// Bytes without a packet; the largest packet has half.
+// Most scans in one read(); exceeded by at most one packet.
+constexpr std::size_t kBlockScans = 4096;
+constexpr std::size_t kReadBytes = 1 << 16;  // most bytes in one read() of the socket
+constexpr int kReads = 16;                   // most calls of read() before the data are processed
+// Most bytes without a valid packet. The largest packet has half this size.
 constexpr std::uint64_t kMostGarbage = 1 << 18;
-constexpr double kMostLost_ns = 10e9;  // in a row; a longer gap means a reset counter
+// If frames of a longer time are missing, the counter was reset.
+constexpr double kMostLost_ns = 10e9;
 
 std::int64_t to_ns(steady_clock::time_point time) {
   return std::chrono::duration_cast<nanoseconds>(time.time_since_epoch()).count();
@@ -88,7 +90,7 @@ Health Capancdt::health() const {
           s.clock.state()};
 }
 
-// Takes all received data; waits once if there are none.
+// Reads all received data. If no data were received, waits once.
 Status Capancdt::receive(milliseconds timeout) {
   Session& s = *session_;
   bool came = false;
@@ -96,7 +98,8 @@ Status Capancdt::receive(milliseconds timeout) {
   if (came) {
     const auto now = steady_clock::now();
     auto placed = place_packets(now);
-    MDOF_CHECK(update_clock(to_ns(now), all.value_or(true)));  // also for frames before an error
+    // Also for frames that arrived before an error.
+    MDOF_CHECK(update_clock(to_ns(now), all.value_or(true)));
     MDOF_CHECK(std::move(placed));
   }
   if (!all) return in_context("the data connection", all.error());
@@ -106,7 +109,8 @@ Status Capancdt::receive(milliseconds timeout) {
   return check_silence();
 }
 
-// Returns false if more data are pending, so that the received frames are not the newest.
+// Returns false if more data are pending; the newest received frame is then not the newest frame of
+// the controller.
 Result<bool> Capancdt::receive_all(milliseconds timeout, bool& came) {
   std::array<char, kReadBytes> bytes;
   for (int i = 0; i < kReads; ++i) {
@@ -130,8 +134,8 @@ Status Capancdt::place_packets(steady_clock::time_point received) {
   return {};
 }
 
-// Adds only the newest frame to the clock: earlier frames may have waited in this computer, so the
-// device's clock would appear to jump. Also checks the frame rate.
+// Adds only the newest frame to the clock. Earlier frames may have waited in this computer; with
+// these frames, the device's clock would appear to jump. Also checks the frame rate.
 Status Capancdt::update_clock(std::int64_t received_ns, bool all) {
   Session& s = *session_;
   if (s.waiting.empty() || (!all && s.newest_frame)) return {};
@@ -166,7 +170,7 @@ tl::unexpected<Error> Capancdt::with_device_name(const Error& error) const {
   return in_context("device \"" + options_.name + "\"" + (named ? "" : " at " + place), error);
 }
 
-// A block ends before lost frames; the next block counts them as lost.
+// A block ends before lost frames. The next block then contains their number in `lost`.
 void Capancdt::fill_block(SampleBlock& block) {
   auto& waiting = session_->waiting;
   if (waiting.empty()) return;

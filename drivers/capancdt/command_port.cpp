@@ -43,7 +43,7 @@ Result<std::optional<std::string>> CommandPort::ask_if_known(const std::string& 
   return std::move(reply.text);
 }
 
-// A command may be sent twice, because the repetition of a command has no further effect.
+// A command may be sent twice, because sending it again has no further effect.
 Result<Reply> CommandPort::exchange(const std::string& command) {
   for (int tries = 0; tries < 2; ++tries) {
     MDOF_TRY(auto reply, try_once(command));

@@ -18,7 +18,7 @@ using capancdt::Options;
 constexpr std::int64_t kMostSampleTime_us = 10'000'000;
 constexpr double kMostRange_um = 1e6;
 
-// nullopt: the key is missing.
+// Returns nullopt if the key is missing.
 std::optional<int> read_integer(TomlTable& table, const char* key, std::int64_t min,
                                 std::int64_t max) {
   const bool given = table.has(key);
@@ -74,7 +74,8 @@ bool rig_corrects(const Rig& rig, const std::string& id) {
   return !calibration.linearity.empty() || !calibration.polynomial_um.empty();
 }
 
-// Checks the values that the configuration gives; the driver checks the others with the controller.
+// Checks the values that are in the configuration. The driver checks the other values when it
+// connects to the controller.
 void check_averaging(TomlTable& table, const Options& options) {
   if (!options.averaging || *options.averaging == Averaging::none) return;
   if (!options.averaged_values || !options.sample_time_us) return;

@@ -11,13 +11,14 @@ namespace mdof::drivers::capancdt {
 namespace {
 
 constexpr int kMostSample_us = 10'000'000;
-constexpr double kRangeTolerance = 1e-3;  // share of the range; the controller rounds ranges
+constexpr double kRangeTolerance = 1e-3;  // relative to the range; the controller rounds the ranges
 
 tl::unexpected<Error> wrong(const std::string& what, const std::string& remedy) {
   return io_error(what + "; " + remedy);
 }
 
-// Takes the identity from the version, the controller information ($COI) or the welcome text.
+// Reads the identity from the version, from the controller information ($COI) or from the welcome
+// text.
 Status identify(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const Welcome welcome, port.welcome());
   MDOF_TRY(const std::string version, port.ask("$VER"));
@@ -49,7 +50,7 @@ Status change_settings(CommandPort& port, const Options& options) {
   return set(port, "$STI", options.sample_time_us);
 }
 
-// nullopt: the controller does not know the command.
+// Returns nullopt if the controller does not know the command.
 Result<std::optional<int>> setting(CommandPort& port, const std::string& command) {
   MDOF_TRY(const auto text, port.ask_if_known(command));
   if (!text) return std::nullopt;
@@ -74,7 +75,7 @@ std::string averaging_text(int type) {
   return std::string("\"") + to_string(static_cast<Averaging>(type)) + "\"";
 }
 
-// The error uses the names of the configuration.
+// The error message contains the names that the configuration uses.
 Status check_averaging(std::optional<Averaging> wanted, std::optional<int> is) {
   if (!wanted || !is || static_cast<int>(*wanted) == *is) return {};
   return wrong("averaging is " + averaging_text(*is) + " on the controller, but " +
@@ -94,13 +95,13 @@ Status read_averaging(CommandPort& port, const Options& options, Setup& setup) {
   return {};
 }
 
-// $LIN of each input, in the controller's order; empty: unknown.
+// Returns $LIN of each input, in the order of the controller; empty: unknown.
 Result<std::vector<int>> linearisations(CommandPort& port) {
   MDOF_TRY(const auto text, port.ask_if_known("$LIN?"));
   return parse_channel_list(text.value_or("")).value_or(std::vector<int>{});
 }
 
-// Corrections that the controller applies silently; each result must state them.
+// Reads the corrections that the controller applies without a report. Each result must state them.
 Status read_corrections(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const auto modes, linearisations(port));
   if (modes.empty()) setup.notices.push_back(notice(NoticeCode::linearisation_unknown));
@@ -138,7 +139,8 @@ Status read_settings(CommandPort& port, const Options& options, Setup& setup) {
                     " us, which is not from 1 to " + std::to_string(kMostSample_us));
   setup.sample_time_us = *time_us;
   MDOF_CHECK(check_filter(setup.sample_time_us, setup.window, options.settle_s));
-  // The controller uses the nearest sample time that it supports; the actual value counts.
+  // The controller uses the nearest sample time that it supports. The driver uses this actual
+  // sample time.
   return options.configure ? Status{} : check("sample_time_us", options.sample_time_us, time_us);
 }
 
@@ -153,7 +155,7 @@ Result<Setup::Input> read_input(CommandPort& port, const Options::Channel& chann
   const std::string command = "$CHI" + std::to_string(channel.number);
   MDOF_TRY(const auto reply, port.ask_if_known(command));
   const std::string info = reply.value_or("");
-  // A late reply to $CHI12 must not be accepted as a reply to $CHI1.
+  // Without this check, a late reply to $CHI12 would be accepted as a reply to $CHI1.
   if (!info.empty() && info.front() != ':')
     return io_error("the answer to " + command + " is \"" + info +
                     "\", which belongs to another command");

@@ -7,13 +7,13 @@
 namespace mdof::drivers::capancdt {
 namespace {
 
-constexpr int kVotes = 3;              // number of steps that must agree
-constexpr std::size_t kMostHeld = 32;  // packets
-// A packet at most this many packets before the last one is a duplicate; a longer series of them
-// means that the counter was reset.
+constexpr int kVotes = 3;              // number of steps that must agree with the unit
+constexpr std::size_t kMostHeld = 32;  // most packets that are kept back
+// A packet is a duplicate if its counter is at most this number of packets before the last packet.
+// If more duplicates than this follow each other, the counter was reset.
 constexpr int kMostDuplicates = 64;
 
-// Signed distance from `a` to `b`, for a counter that wraps at 2^32.
+// Signed difference of the counters, b - a. The counter overflows at 2^32.
 std::int32_t moved(const Packet& a, const Packet& b) {
   return static_cast<std::int32_t>(b.counter - a.counter);
 }
@@ -58,8 +58,8 @@ std::uint64_t FrameCounter::step(const Packet& packet, CounterUnit unit) const {
   return frames;
 }
 
-// Number of frames for a step of the counter. A lost packet is assumed to have as many frames as
-// the packet before.
+// Number of frames for `counted` counts. A lost packet is assumed to have as many frames as the
+// packet before it.
 double FrameCounter::frames(std::uint64_t counted, const Packet& before) const {
   return static_cast<double>(counted) * before.frames() / static_cast<double>(step(before, *unit_));
 }
@@ -95,7 +95,7 @@ Status FrameCounter::place(Packet packet, std::deque<PlacedPacket>& placed) {
     if (counted < expected) return jumped(last_->packet, packet);
     const double lost = frames(counted - expected, last_->packet);
     if (lost > static_cast<double>(most_lost_)) return jumped(last_->packet, packet);
-    // At least one whole frame is lost, so round up.
+    // At least one whole frame is lost. Therefore the number is rounded up.
     next.lost = static_cast<std::uint64_t>(lost + 0.999);
     next.first_frame =
         last_->first_frame + last_->packet.frames() + static_cast<std::int64_t>(next.lost);

@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::string_view kPreamble = "SAEM";  // "MEAS" as a number, little-endian
 constexpr std::uint64_t kLowBits = 0x5555555555555555;
-constexpr std::size_t kKeep = 1 << 16;  // processed bytes that are kept before they are erased
+// Number of processed bytes that are kept in memory before they are erased.
+constexpr std::size_t kKeep = 1 << 16;
 
 template <class T>
 T get(std::string_view bytes, std::size_t at) {
@@ -24,7 +25,7 @@ void put(std::string& bytes, T value) {
     bytes += static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i) & 0xFF);
 }
 
-// The low bit of each pair that is 01.
+// Returns a bit mask with the low bit of each pair whose value is 01.
 std::uint64_t available(std::uint64_t channel_bits) {
   return channel_bits & ~(channel_bits >> 1) & kLowBits;
 }
@@ -94,7 +95,7 @@ bool PacketParser::next(Packet& packet) {
     const std::string_view rest = std::string_view(bytes_).substr(begin_);
     const std::size_t found = rest.find(kPreamble);
     if (found == std::string_view::npos) {
-      // The last bytes may be the beginning of a preamble.
+      // The last bytes may be the beginning of the next preamble, so they are kept.
       const std::size_t tail = kPreamble.size() - 1;
       std::size_t keep = rest.size() < tail ? rest.size() : tail;
       while (!kPreamble.starts_with(rest.substr(rest.size() - keep))) --keep;
@@ -131,7 +132,8 @@ bool PacketParser::parse_at(std::size_t at, Packet& packet, std::size_t& size) c
   }
   const std::size_t whole = kHeaderBytes + sizes->frames * sizes->bytes_per_frame;
   if (bytes.size() < whole) return false;
-  // A value has 24 bits and cannot contain a preamble, so this packet was truncated.
+  // A value has only 24 bits, so a value cannot contain a preamble. Therefore this packet was
+  // truncated.
   if (bytes.substr(kHeaderBytes, whole - kHeaderBytes).find(kPreamble) != std::string_view::npos) {
     size = 1;
     return false;
@@ -144,7 +146,7 @@ bool PacketParser::parse_at(std::size_t at, Packet& packet, std::size_t& size) c
 }
 
 bool PacketParser::known(const Packet& packet) const {
-  if (skipped_now_ == 0) return true;  // a packet must begin here
+  if (skipped_now_ == 0) return true;  // no bytes were skipped, so a packet must begin here
   return !article_ || (packet.article == *article_ && packet.serial == *serial_);
 }
 

@@ -18,7 +18,7 @@ constexpr const char* kWrong = "$WRONG PARAMETER\r\n";
 constexpr std::string_view kGarbage = "\x01SAEM\x02SA";
 constexpr int kArithmetic = 2;
 
-// The next shorter supported sample time.
+// Returns the next shorter sample time that the controller supports.
 int possible(int wanted_us) {
   const auto above = std::upper_bound(kSampleTimes_us.begin(), kSampleTimes_us.end(), wanted_us);
   return above == kSampleTimes_us.begin() ? *above : *(above - 1);
@@ -94,7 +94,7 @@ std::string SimulatedCapancdt::answer_commands(CommandClient& client, std::strin
   return answer;
 }
 
-// The reply to a command, with the echo that the faults select.
+// Returns the reply to a command, with the kind of echo that the faults select.
 std::string SimulatedCapancdt::dialogue(std::string_view command) {
   std::string text = reply(command);
   const std::string echo = std::string(command) + "\r";
@@ -141,7 +141,7 @@ std::string SimulatedCapancdt::query(std::string_view command) const {
   return joined(kinds);
 }
 
-// The reply without the command; nullopt: no such command or value.
+// Returns the reply without the command; nullopt: no such command or value.
 std::optional<std::string> SimulatedCapancdt::change(std::string_view name, int value) {
   if (value < 0) return std::nullopt;
   if (name == "$STI") {
@@ -239,7 +239,7 @@ std::int32_t SimulatedCapancdt::raw(std::size_t input, std::int64_t t_ns) const 
   return static_cast<std::int32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kFullScale));
 }
 
-// The step of the counter from this packet to the next.
+// Returns the step of the counter from this packet to the next packet.
 std::uint32_t SimulatedCapancdt::counted(const Packet& packet) const {
   const auto frames = static_cast<std::uint32_t>(options_.frames_per_packet);
   const bool averages = options_.averaging == kArithmetic;

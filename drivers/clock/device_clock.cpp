@@ -10,15 +10,19 @@ namespace mdof::drivers {
 namespace {
 
 constexpr double kStretch_ns = 0.25e9;
-constexpr std::size_t kStretches = 256;       // 64 s
-constexpr std::size_t kStretchesToFit = 16;   // 4 s; before that, the nominal rate is used
-constexpr std::size_t kStretchesToBegin = 4;  // 1 s: delays from opening the device end soon
-constexpr std::size_t kRefitDivisor = 32;     // refit when 1/32 of the stretches are new
-constexpr double kMostDrift = 1e-3;           // 1000 ppm: no clock deviates more
-constexpr double kSlew = 2e-3;                // share of the elapsed time, in addition to the drift
-constexpr double kFirstSlew = 0.2;  // the same before the first fit, to correct the offset quickly
-constexpr double kStep_ns = 0.1e9;  // larger than any jitter: a later packet counts as late
-constexpr std::int64_t kLongestLateness_ns = 60'000'000'000;  // longer lateness is a step
+constexpr std::size_t kStretches = 256;      // together 64 s
+constexpr std::size_t kStretchesToFit = 16;  // 4 s; before the first fit, the nominal rate is used
+// 1 s; delays that come from opening the device are over then.
+constexpr std::size_t kStretchesToBegin = 4;
+// The line is fitted again when 1/32 of the stretches are new.
+constexpr std::size_t kRefitDivisor = 32;
+constexpr double kMostDrift = 1e-3;  // 1000 ppm; no clock has a larger drift
+constexpr double kSlew = 2e-3;       // largest correction of the time: part of the elapsed time
+// The same before the first fit; it is large, so that the offset is corrected quickly.
+constexpr double kFirstSlew = 0.2;
+constexpr double kStep_ns = 0.1e9;  // larger than any jitter; a packet with a larger delay is late
+// If packets are late for a longer time, the clock has stepped.
+constexpr std::int64_t kLongestLateness_ns = 60'000'000'000;
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -36,7 +40,7 @@ void DeviceClock::reset() {
   const std::int64_t given_ns = returned_ns_;
   const std::uint64_t steps = steps_;
   *this = DeviceClock(tick_ns_);
-  returned_ns_ = given_ns;  // time still does not go backwards
+  returned_ns_ = given_ns;  // the returned times still do not decrease
   steps_ = steps;
 }
 
@@ -49,11 +53,12 @@ void DeviceClock::add(std::int64_t ticks, std::int64_t received_ns) {
     first_ticks_ = ticks;
     first_ns_ = received_ns;
   }
-  // A decreasing count means that the device has restarted its count.
+  // A count that decreases shows that the device has restarted its count.
   if (std::exchange(last_ticks_, ticks).value_or(ticks) > ticks) return step(ticks, received_ns);
   const double nominal = nominal_ns(ticks);
   const double offset = static_cast<double>(received_ns - *first_ns_) - nominal;
-  // The packet arrived long before it can have been sent: the device's time has jumped ahead.
+  // The packet arrived earlier than it can have been sent. This shows that the device's time has
+  // jumped forward.
   if (offset < intercept_ns_ + slope_ * nominal - kStep_ns) return step(ticks, received_ns);
   if (!best_.empty() && is_late(offset, nominal, received_ns)) {
     if (received_ns - *late_since_ns_ > kLongestLateness_ns) step(ticks, received_ns);
@@ -138,7 +143,8 @@ std::int64_t DeviceClock::host_ns(std::int64_t ticks) {
 
 ClockState DeviceClock::state() const {
   ClockState state;
-  // A fast device clock counts more nominal time than elapses, so its offset falls.
+  // If the device's clock is fast, more nominal time passes than real time, so the offset
+  // decreases.
   state.drift_ppm = -slope_ * 1e6;
   state.settled = fitted_;
   state.steps = steps_;

@@ -5,12 +5,14 @@
 namespace mdof::drivers {
 namespace {
 
-// With a wrong polarity the counter loads once a period, which is at most four counts. A single
-// reading may be wrong, so several are needed.
+// With a wrong polarity of the index, the counter loads the preset once in each signal period,
+// which has at most four counts. A single reading may be wrong, so several readings are needed.
 constexpr std::int64_t kLeastMove_counts = 16;
 constexpr int kReadings = 3;
-// Divisors of a quarter of the range: largest plausible motion without the mark; largest plausible
-// motion beyond the mark between two readings; distance at which to arm again.
+// A quarter of the counter's range, divided by these numbers, is
+// - kMotion: the largest plausible motion without the mark;
+// - kBeyondMark: the largest plausible motion between the mark and the next reading;
+// - kFar: the distance at which arm() is needed again.
 constexpr std::int64_t kMotion = 2, kBeyondMark = 64, kFar = 4;
 
 }  // namespace

@@ -79,7 +79,8 @@ Status ByteSource::refill() {
   return {};
 }
 
-// Fills `to` completely except at the end of the file, even if a pipe gives small pieces.
+// Fills `to` completely, except at the end of the file, even if a pipe delivers the bytes in small
+// pieces.
 Result<std::size_t> ByteSource::read_stored(char* to, std::size_t capacity) {
   std::size_t count = 0;
   while (count < capacity) {

@@ -14,7 +14,8 @@ bool ChunkRing::may_read(Role role) const {
   return room && !reading_ && !ended_ && (parser_reads_ || role == Role::companion);
 }
 
-// Reads without the lock; meanwhile the other role uses neither lines_ nor this chunk.
+// Reads without the lock. This is safe, because the other role does not use lines_ or this chunk at
+// that time.
 void ChunkRing::read_one(std::unique_lock<std::mutex>& lock) {
   reading_ = true;
   LineChunk& chunk = chunks_[read_ % kChunks];

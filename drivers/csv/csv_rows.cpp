@@ -21,7 +21,7 @@ class CsvRows::Reading {
   Reading(std::unique_ptr<ByteSource> source, const CsvRowsOptions& options)
       : source_(std::move(source)),
         hash_(options.sha256 && !source_->is_gzip() ? std::make_unique<Sha256>() : nullptr),
-        // a thread is worthwhile for hashing, unpacking and waiting for a pipe
+        // The thread is necessary only for hashing, unpacking or waiting for a pipe.
         companion_(options.sha256 || source_->is_gzip() || source_->bytes_total() == 0),
         chunks_(*source_, options.chunk_bytes, companion_, source_->bytes_total() > 0) {}
   ~Reading() {
@@ -34,7 +34,7 @@ class CsvRows::Reading {
 
   const ByteSource& source() const { return *source_; }
   const CsvRowParser& rows() const { return *rows_; }
-  bool ended() const { return ended_; }  // all was read, or an error occurred
+  bool ended() const { return ended_; }  // true: all data were read, or an error occurred
   std::string sha256() const;
 
  private:
@@ -43,11 +43,11 @@ class CsvRows::Reading {
   Result<bool> finish(SampleBlock& block);
 
   std::unique_ptr<ByteSource> source_;
-  std::unique_ptr<Sha256> hash_;  // used by the thread "csv read" while it runs
+  std::unique_ptr<Sha256> hash_;  // used by the thread "csv read" while this thread runs
   bool companion_;
   ChunkRing chunks_;
   std::optional<CsvRowParser> rows_;
-  bool chunk_in_use_ = false;  // the parser reads its text
+  bool chunk_in_use_ = false;  // true: the parser is reading the text of the chunk
   bool ended_ = false;
   Status status_;
   std::thread thread_;
@@ -68,7 +68,7 @@ Status CsvRows::Reading::start(const CsvRowsOptions& options) {
   return {};
 }
 
-// Thread "csv read": reads ahead of the parser and hashes plain text.
+// Thread "csv read": reads the chunks before the parser needs them, and hashes plain text.
 void CsvRows::Reading::read_ahead() {
   start_thread_as("csv read");
   while (const LineChunk* const chunk = chunks_.next(Role::companion, kForever)) {
@@ -77,7 +77,8 @@ void CsvRows::Reading::read_ahead() {
   }
 }
 
-// Returns true if `block` is filled; false: no row in time or, if ended_, no more rows.
+// Returns true if `block` is filled. Returns false if no row arrived within `timeout` or, if
+// ended_, no rows remain.
 Result<bool> CsvRows::Reading::fill(SampleBlock& block, std::chrono::milliseconds timeout) {
   for (;;) {
     MDOF_TRY(const bool complete, rows_->next(block));
@@ -96,7 +97,7 @@ Result<bool> CsvRows::Reading::finish(SampleBlock& block) {
   if (rest && *rest) return true;
   if (thread_.joinable()) thread_.join();
   ended_ = true;
-  MDOF_CHECK(chunks_.status());  // more precise than "no rows"
+  MDOF_CHECK(chunks_.status());  // this error is more precise than "no rows"
   return rest;
 }
 

@@ -28,7 +28,7 @@ tl::unexpected<Error> no_column(const CsvHeader& header, const std::string& name
                    "); add this column, or rename the column that contains these values");
 }
 
-// Index of the channel for each column name.
+// Returns the index of the channel for each column name.
 Result<std::vector<std::size_t>> channels_of(const CsvHeader& header,
                                              const std::vector<std::string>& names) {
   std::vector<std::size_t> channels;
@@ -42,7 +42,8 @@ Result<std::vector<std::size_t>> channels_of(const CsvHeader& header,
   return channels;
 }
 
-// A column with the same stem but another unit is requested too, so that channels_of() reports it.
+// Also requests a column that has the same name with another unit, so that channels_of() reports
+// the wrong unit.
 std::vector<std::string> existing_columns(const CsvHeader& header, std::vector<std::string> names,
                                           const std::vector<std::string>& optional) {
   for (const std::string& name : optional)
@@ -60,8 +61,9 @@ std::string folded(const std::string& name) {
   return text;
 }
 
-// Whether `column` is a misspelt `name`: "Direction", "runs", "dirction". For short names and names
-// with a capital letter (EYX_um), a name that differs by one letter can be another quantity.
+// Whether `column` is a misspelt `name`: "Direction", "runs", "dirction". Returns false for short
+// names and for names with a capital letter (EYX_um), because a name that differs by one letter can
+// be another quantity.
 bool is_misspelling(const std::string& column, const std::string& name) {
   constexpr std::size_t kLongName = 5;
   const std::string is = folded(column), wanted = folded(name);
@@ -105,7 +107,7 @@ bool is_missing(double x) {
   return std::isnan(x);
 }
 
-// Columns from index `required` on are optional and may be empty in all rows.
+// The columns from index `required` on are optional: they may be empty in all rows.
 Status check_values(CsvTable& table, const std::vector<std::string>& names, std::size_t required) {
   for (std::size_t k = 0; k < names.size(); ++k) {
     std::vector<double>& value = table.columns[k];
@@ -132,7 +134,7 @@ Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::
 
 }  // namespace
 
-// Valid because no line between the rows is skipped (bad_lines = 0).
+// The line number is correct, because no line between the rows is skipped (bad_lines = 0).
 std::string CsvTable::where(std::size_t row) const {
   return source + ":" + std::to_string(header_line + 1 + row) + ": ";
 }

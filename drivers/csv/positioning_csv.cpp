@@ -20,7 +20,7 @@ constexpr const char* kDirectionValues =
     "1 if the target was approached in the + direction (forward), -1 if it was approached in the "
     "- direction";
 
-// Target, direction, run -> index of the row.
+// Index of the row for each combination of target, direction and run.
 using Seen = std::map<std::tuple<double, int, int>, std::size_t>;
 
 Result<PositioningReading> reading_of(const CsvTable& table, std::size_t row) {
@@ -50,7 +50,7 @@ std::vector<double> targets_of(const CsvTable& table) {
   return distinct_targets(std::move(positions_m));
 }
 
-// Adds the valid values to the error of a direction that is not a number.
+// If the direction is not a number, adds the valid values to the error.
 Error with_remedy(Error error) {
   if (error.message.find(": column direction: \"") != std::string::npos)
     error.message += std::string("; the direction is ") + kDirectionValues;

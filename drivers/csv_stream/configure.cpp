@@ -66,7 +66,7 @@ CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
     return rig.check(channels);
   };
   read_header(table, options);
-  // At most 5 s: the watchdog would report a longer wait as a hung thread.
+  // The maximum is 5 s, because the watchdog would report a longer wait as a hung thread.
   options.start = read_seconds(table, "start_s", options.start, 5);
   options.silence = read_seconds(table, "silence_s", options.silence, 3600);
   options.absolute = table.boolean("absolute", false);
@@ -76,7 +76,7 @@ CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
   return options;
 }
 
-// A started program may open a device, so two drivers must not run the same program.
+// The program may open a device. Therefore two drivers must not start the same program.
 std::string identity(const CsvStreamOptions& options) {
   if (options.server) return identity_of(*options.server);
   if (!options.fifo.empty()) return identity_of_path(options.fifo);

@@ -15,9 +15,9 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr milliseconds kConnect{2000};
-constexpr std::int64_t kBurstGap_ns = 50'000'000;       // after a longer pause, rows are suspect
-constexpr std::int64_t kPaceWindow_ns = 2'000'000'000;  // period of checking time_s
-constexpr std::size_t kMostScans = 4096;                // in a block
+constexpr std::int64_t kBurstGap_ns = 50'000'000;  // after a longer pause, the rows are suspect
+constexpr std::int64_t kPaceWindow_ns = 2'000'000'000;  // period of the checks of time_s
+constexpr std::size_t kMostScans = 4096;                // most scans in a block
 
 constexpr const char* kDatumLost =
     "the source was started or connected again, so the zero of its positions may have changed (if "
@@ -86,7 +86,8 @@ Status CsvStream::open() {
 }
 
 Status CsvStream::connect() {
-  if (waits_for_writer_) return {};  // keeps the FIFO open: a writer may have just connected
+  // The FIFO stays open, because a writer may just have connected.
+  if (waits_for_writer_) return {};
   child_.reset();
   stream_.reset();
   if (options_.server) {
@@ -174,7 +175,8 @@ Result<ReadState> CsvStream::read(SampleBlock& block, milliseconds timeout) {
     return ReadState::more;
   }
   const Quality good = header.is_marked_simulated() ? Quality::simulated : Quality::good;
-  // Lost lines are counted in the block that follows them, so a loss starts a new block.
+  // The number of lost lines belongs to the block after them. Therefore rows after a loss begin a
+  // new block.
   while (!rows_.empty() && block.scans() < kMostScans &&
          (block.scans() == 0 || rows_.front().lost == 0)) {
     const Row& row = rows_.front();
@@ -193,7 +195,8 @@ void CsvStream::mark_encoder_suspect(SampleBlock& block) {
       block.quality[c].back() = std::max(block.quality[c].back(), Quality::suspect);
 }
 
-// Appends rows that arrive within `timeout` to rows_. read() reports the error after these rows.
+// Appends the rows that arrive within `timeout` to rows_. If there is an error, read() returns it
+// after these rows.
 Status CsvStream::fetch(milliseconds timeout) {
   if (child_) child_->take_errors();
   std::array<char, 65'536> bytes;
@@ -220,8 +223,8 @@ Status CsvStream::fetch(milliseconds timeout) {
 tl::unexpected<Error> CsvStream::ended(const Error& why) {
   if (child_) return io_error(source_ + " " + child_->exit_description());
   if (!options_.fifo.empty()) {
-    // The FIFO is opened again before the old descriptor is closed, so that no bytes of the next
-    // writer are lost.
+    // The FIFO is opened again before the old descriptor is closed. Otherwise bytes of the next
+    // writer could be lost.
     if (auto again = open_fifo(options_.fifo)) {
       stream_ = std::move(*again);
       waits_for_writer_ = true;
@@ -249,8 +252,8 @@ void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) 
   }
 }
 
-// Rows that arrive together (a serial adapter sends every 16 ms) were made one after the other
-// since the previous arrival.
+// Rows may arrive together although they were made one after the other since the previous arrival;
+// for example, a serial adapter sends only every 16 ms.
 void CsvStream::spread(std::vector<CsvStreamRow>& rows, std::int64_t since_ns,
                        std::int64_t received_ns) {
   const auto n = static_cast<std::int64_t>(rows.size());
@@ -259,7 +262,7 @@ void CsvStream::spread(std::vector<CsvStreamRow>& rows, std::int64_t since_ns,
         received_ns - (received_ns - since_ns) / n * (n - 1 - i);
 }
 
-// Converts device times to host times. Each start of the script has its own clock.
+// Converts device times to host times. Each start of the script begins a new device clock.
 void CsvStream::take_device_times(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
   for (auto begin = rows.begin(); begin != rows.end();) {
     const auto end =
@@ -270,7 +273,7 @@ void CsvStream::take_device_times(std::vector<CsvStreamRow>& rows, std::int64_t 
   }
 }
 
-// Rejects time_s in milliseconds and a backlog of old rows.
+// Rejects a time_s that is in milliseconds, and rows that are old when they arrive.
 Status CsvStream::check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
   const bool restarted =
       std::any_of(rows.begin(), rows.end(), [](const CsvStreamRow& row) { return row.restarted; });

@@ -46,7 +46,7 @@ std::optional<double> number_from(std::string_view word) {
   return x;
 }
 
-// An integer from 1 to `most`; 0: not such a number.
+// Returns an integer from 1 to `most`; 0: the word is not such an integer.
 std::size_t count_from(std::string_view word, std::size_t most) {
   const auto x = number_from(word);
   if (!x || *x != std::floor(*x) || *x < 1 || *x > static_cast<double>(most)) return 0;
@@ -61,7 +61,7 @@ bool contains_word(std::string_view text, std::string_view lower_case) {
          text.end();
 }
 
-// The parts of a line "key : value" before and after its first colon.
+// Returns the texts before and after the first colon of a line "key : value".
 std::pair<std::string_view, std::string_view> key_and_value(std::string_view line) {
   const std::size_t colon = line.find(':');
   if (colon == line.npos) return {trimmed(line), {}};
@@ -89,7 +89,7 @@ class Rtl {
     if (section_ == "TARGET DATA") return take_target_line(line);
     if (section_ == "RUNS") return take_run_count(line);
     if (section_ == "DEVIATIONS") return take_deviation_line(line);
-    return {};  // EQUIPMENT, ENVIRONMENT: not read
+    return {};  // the sections EQUIPMENT and ENVIRONMENT are not read
   }
 
   Result<ImportedSeries> finish() {
@@ -127,7 +127,7 @@ class Rtl {
 
   Status take_description(std::string_view line) {
     const auto [key, value] = key_and_value(line);
-    // Type written by the program: "Linear", "Angular", "Rotary", "Straightness".
+    // The program writes one of these types: "Linear", "Angular", "Rotary", "Straightness".
     if (key == "File type" || key == "Owner") MDOF_CHECK(check_linear(key, value));
     if (!value.empty())
       series_.about.push_back(utf8_from_latin1(key) + ": " + utf8_from_latin1(value));
@@ -215,8 +215,8 @@ class Rtl {
     return {};
   }
 
-  // Only the run number distinguishes forward from reverse, so the order of the targets must agree
-  // with it.
+  // Only the run number states whether a run is forward or reverse. Therefore the order of the
+  // targets must agree with the run number.
   Status check_run_direction(std::size_t run, std::size_t target) {
     const bool same = run == last_run_;
     const bool right = run % 2 == 1 ? target > last_target_ : target < last_target_;
@@ -229,13 +229,15 @@ class Rtl {
                  "test to CSV with columns target_mm,direction,run,deviation_um");
   }
 
-  // Programs write runs that were not measured, such as the reverse runs of a unidirectional test,
-  // with zeros. If these are all runs of one direction, the other direction is the complete test.
+  // For runs that were not measured, programs write zeros; examples are the reverse runs of a
+  // unidirectional test. If exactly the runs of one direction contain only zeros, these runs are
+  // removed, and the other direction is the complete test.
   Status drop_unmeasured_runs(bool descending) {
     std::vector<bool> measured(run_count_ + 1, target_count_ < 2);
     for (const ImportedReading& r : series_.readings)
       if (r.deviation != 0) measured[number_of(r)] = true;
-    std::array<std::size_t, 2> filled{}, runs{};  // even, odd
+    // Number of runs with zeros and number of runs; index 0: even runs, 1: odd runs.
+    std::array<std::size_t, 2> filled{}, runs{};
     std::size_t first = 0;
     for (std::size_t run = 1; run <= run_count_; ++run) {
       ++runs[run % 2];
@@ -258,7 +260,7 @@ class Rtl {
                 {"runs", static_cast<std::int64_t>(filled[odd])}}));
     return {};
   }
-  // Number of the run in the file.
+  // Returns the number of the run in the file.
   static std::size_t number_of(const ImportedReading& r) {
     return 2 * static_cast<std::size_t>(r.run) - (r.direction > 0 ? 1 : 0);
   }
@@ -270,7 +272,8 @@ class Rtl {
   std::size_t target_count_ = 0, run_count_ = 0, last_run_ = 0, last_target_ = 0;
   std::vector<double> targets_;  // mm
   std::set<std::pair<std::size_t, std::size_t>> seen_;
-  ImportedSeries series_;  // position_m holds the target's index until all targets are known
+  // position_m contains the index of the target until all targets are known.
+  ImportedSeries series_;
 };
 
 }  // namespace
@@ -281,7 +284,7 @@ Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& sourc
   const std::string_view ending = name.size() < 4 ? "" : name.substr(name.size() - 4);
   if (contains_word(ending, ".rta"))
     return bad_input(source + ": an .rta file contains angles, " + kConvertAngles);
-  // The last letter of the extension is the kind of test: l means linear.
+  // The last letter of the extension shows the kind of test: l is linear.
   if (!error_is_stated && contains_word(ending.substr(0, 3), ".rt") &&
       !contains_word(ending, ".rtl"))
     return bad_input(source + ": a file that ends in " + std::string(ending) +

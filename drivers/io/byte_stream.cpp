@@ -17,8 +17,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Waits until fd is ready or until `until`. Uses poll() because select() cannot use descriptors
-// above 1023.
+// Waits until fd is ready, at most until the time `until`. Uses poll(), because select() cannot use
+// descriptors above 1023.
 bool ready(int fd, short events, steady_clock::time_point until) {
   for (;;) {
     const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
@@ -29,7 +29,8 @@ bool ready(int fd, short events, steady_clock::time_point until) {
   }
 }
 
-// MSG_NOSIGNAL: a closed connection gives an error instead of a signal. A pipe needs write().
+// With MSG_NOSIGNAL, a closed connection causes an error and not a signal. A pipe cannot be used
+// with send(), so it needs write().
 ssize_t put(int fd, std::string_view bytes) {
   const ssize_t n = ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   return n < 0 && errno == ENOTSOCK ? ::write(fd, bytes.data(), bytes.size()) : n;
@@ -62,7 +63,7 @@ ByteStream& ByteStream::operator=(ByteStream&& other) noexcept {
 Result<std::size_t> ByteStream::read(std::span<char> into, milliseconds timeout) {
   const auto until = steady_clock::now() + timeout;
   for (;;) {
-    // Usually no bytes are pending, so polling first saves a failing read.
+    // Usually no bytes are pending. Waiting first then avoids a read() that fails.
     const bool came = timeout > milliseconds(0) && ready(fd_, POLLIN, until);
     const ssize_t n = ::read(fd_, into.data(), into.size());
     if (n > 0) return static_cast<std::size_t>(n);

@@ -22,9 +22,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kGrace{500};        // from SIGTERM to SIGKILL
-constexpr milliseconds kExit{300};         // from the end of the output to the exit
-constexpr std::size_t kLongestLine = 500;  // of standard error
+constexpr milliseconds kGrace{500};  // time between SIGTERM and SIGKILL
+constexpr milliseconds kExit{300};   // longest time between the end of the output and the exit
+constexpr std::size_t kLongestLine = 500;  // longest line of standard error
 
 struct Pipe {
   ByteStream read, write;
@@ -33,7 +33,8 @@ Result<Pipe> make_pipe(const std::string& name) {
   std::array<int, 2> fds{};
   if (::pipe2(fds.data(), O_CLOEXEC) != 0) return io_error(name + ": " + std::strerror(errno));
   Pipe pipe{ByteStream(fds[0], name), ByteStream(fds[1], name)};
-  // Programs expect that a write blocks while the pipe is full.
+  // The pipe must be blocking for the program: programs expect that a write waits while the pipe is
+  // full.
   ::fcntl(fds[1], F_SETFL, ::fcntl(fds[1], F_GETFL) & ~O_NONBLOCK);
   return pipe;
 }
@@ -106,7 +107,7 @@ ChildProcess::~ChildProcess() {
   ::waitpid(pid_, nullptr, 0);
 }
 
-// Does not reap the process, so that its process id stays reserved until the destructor.
+// The function does not release the process id; the id stays reserved until the destructor.
 std::optional<siginfo_t> ChildProcess::exited(milliseconds within) const {
   const auto until = std::chrono::steady_clock::now() + within;
   for (;;) {

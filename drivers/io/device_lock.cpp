@@ -20,7 +20,8 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr int kPendingInquiries = 64;  // pending connections before answer_inquiries()
+// Most pending connections before answer_inquiries() is called.
+constexpr int kPendingInquiries = 64;
 constexpr int kKind = SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK;
 
 struct Name {
@@ -29,7 +30,7 @@ struct Name {
   sockaddr* get() { return reinterpret_cast<sockaddr*>(&address); }
 };
 
-// A first byte of 0 makes the socket name abstract.
+// The first byte of the socket name is 0, which makes the name abstract.
 Name name_of(const std::string& identity) {
   Name name;
   name.address.sun_family = AF_UNIX;
@@ -40,7 +41,7 @@ Name name_of(const std::string& identity) {
   return name;
 }
 
-// The process that holds the lock; 0: not known.
+// Returns the process that has the lock; 0: not known.
 pid_t lock_holder(Name& name) {
   const int fd = ::socket(AF_UNIX, kKind, 0);
   if (fd < 0) return 0;

@@ -26,7 +26,8 @@ std::string narrow(const wchar_t* text) {
   return ascii;
 }
 
-// hidapi gives no error code, so the device is opened again without hidapi to get errno.
+// hidapi returns no error code. Therefore the device is opened again without hidapi to find the
+// errno.
 tl::unexpected<Error> not_opened(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   const int error = fd < 0 ? errno : 0;
@@ -41,7 +42,7 @@ tl::unexpected<Error> not_opened(const std::string& path) {
 }  // namespace
 
 Result<HidDevice> HidDevice::open(const std::string& path) {
-  auto own = DeviceLock::take(path);  // hidapi and udev give /dev/hidrawN, which is not a link
+  auto own = DeviceLock::take(path);  // hidapi and udev return /dev/hidrawN, which is not a link
   if (!own) return in_context(path, own.error());
   const std::lock_guard lock(library());
   if (hid_device* const device = ::hid_open_path(path.c_str()))

@@ -24,7 +24,7 @@ struct Ids {
   unsigned bus = 0, vendor = 0, product = 0;
 };
 
-// The kernel's format: "0003:00001DC3:00001001".
+// Parses the format of the kernel: "0003:00001DC3:00001001".
 std::optional<Ids> parse_ids(const char* text) {
   Ids ids;
   if (!text || std::sscanf(text, "%x:%x:%x", &ids.bus, &ids.vendor, &ids.product) != 3)
@@ -40,8 +40,8 @@ int interface_of(udev_device* node) {
   return number ? static_cast<int>(std::strtol(number, nullptr, 16)) : -1;
 }
 
-// nullopt: another vendor, or the device was unplugged after it was listed. Every property may be
-// missing.
+// Returns nullopt if the device is from another vendor, or was unplugged after it was listed. Each
+// property may be missing.
 std::optional<HidEntry> entry_of(udev_device* node, std::uint16_t vendor) {
   const char* const path = ::udev_device_get_devnode(node);
   udev_device* const hid = ::udev_device_get_parent_with_subsystem_devtype(node, "hid", nullptr);

@@ -53,7 +53,8 @@ class LockedDriver final : public Driver {
   const std::string name_;
   const std::function<std::string()> identity_;
   const bool shared_;
-  std::optional<DeviceLock> lock_;  // destroyed after the driver, which then has closed the device
+  // Destroyed after the driver, so that the device is already closed.
+  std::optional<DeviceLock> lock_;
   std::unique_ptr<Driver> driver_;
   steady_clock::time_point next_answer_{};
 };

@@ -13,7 +13,7 @@ AinCalibration nominal_calibration(std::size_t gain) {
 }
 
 Status check(const AinCalibration& c, std::size_t gain) {
-  constexpr double kSlope = 0.05, kCentre = 2000;  // more than any device deviates
+  constexpr double kSlope = 0.05, kCentre = 2000;  // larger than the deviation of any device
   const AinCalibration nominal = nominal_calibration(gain);
   const auto near = [](double value, double wanted, double by) {
     return std::abs(value - wanted) <= by;  // false for NaN

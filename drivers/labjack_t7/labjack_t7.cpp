@@ -15,7 +15,7 @@ using std::chrono::steady_clock;
 
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr int kClockReads = 5;
-constexpr double kEnable_s = 2;  // longest time for writing STREAM_ENABLE
+constexpr double kEnable_s = 2;  // longest duration of writing STREAM_ENABLE
 constexpr const char* kZeroLost = "the LabJack T7 lost power, and its counter restarted at 0";
 
 std::int64_t now_ns() {
@@ -30,7 +30,7 @@ bool counts(const Input& input) {
   return input.ain < 0;
 }
 
-// Text of the highest speed of each counter.
+// Returns text with the highest speed that each counter can follow.
 std::string speeds(const Settings& settings) {
   std::string text;
   for (const Input& input : settings.inputs)
@@ -102,7 +102,7 @@ Status LabjackT7::open() {
   return {};
 }
 
-// Stops the stream, so that other programs can use the device. A failure is ignored.
+// Stops the stream, so that other programs can use the device. Errors are ignored.
 void LabjackT7::close() {
   if (registers_ && stream_) (void)registers_->write(reg::stream_enable, 0);
   registers_.reset();
@@ -140,7 +140,7 @@ Status LabjackT7::start_counters() {
   return {};
 }
 
-// Several reads; DeviceClock uses the one with the smallest delay.
+// Reads CORE_TIMER several times. DeviceClock uses the reading with the smallest delay.
 Status LabjackT7::start_clock() {
   core_.reset();
   for (int i = 0; i < kClockReads; ++i) {
@@ -153,7 +153,8 @@ Status LabjackT7::start_clock() {
   return {};
 }
 
-// The first scan begins one period after STREAM_ENABLE, which takes at most kEnable_s.
+// The first scan begins one period after STREAM_ENABLE was written; writing takes at most
+// kEnable_s.
 Status LabjackT7::read_start_stamp() {
   MDOF_TRY(const std::uint32_t stamp, registers_->u32(reg::stream_start_time));
   const std::int64_t start = core_(stamp);
@@ -175,7 +176,7 @@ Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
   return ReadState::more;
 }
 
-// Scans received before an error are returned first.
+// Scans that were received before an error are returned before the error.
 Status LabjackT7::next_scans(milliseconds timeout) {
   scans_.clear();
   returned_ = 0;
@@ -221,7 +222,7 @@ std::int64_t LabjackT7::ticks_of(std::uint64_t scan) const {
   return *start_ticks_ + std::llround(static_cast<double>(scan) * ticks_per_scan_);
 }
 
-// A block ends before lost scans; the next block counts them as lost.
+// A block ends before lost scans. The next block then contains their number in `lost`.
 void LabjackT7::fill_block(SampleBlock& block) {
   reserve_scans(block, scans_.size() - returned_);
   while (returned_ < scans_.size()) {
@@ -264,7 +265,7 @@ void LabjackT7::append_count(SampleBlock& block, std::size_t channel, std::uint3
   block.quality[channel].push_back(counter.sure() ? Quality::good : Quality::suspect);
 }
 
-// The number of scans that the device would have taken since the last returned scan.
+// Returns the number of scans that the device would have taken since the last returned scan.
 std::uint64_t LabjackT7::lost_while_closed(std::int64_t time_ns) const {
   const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
   return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));

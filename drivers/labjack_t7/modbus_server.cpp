@@ -6,7 +6,7 @@ namespace {
 using modbus::word_at;
 
 constexpr std::size_t kHead = 6, kMostLength = 254;
-constexpr std::size_t kFixed = 5;  // length of a request: function and two words
+constexpr std::size_t kFixed = 5;  // length of a request with a function and two words
 
 std::string framed(const ModbusRequest& request, std::string pdu) {
   return modbus::wrap(modbus::Framing::tcp,
@@ -58,7 +58,7 @@ std::string read_reply(const ModbusRequest& request, const std::vector<std::uint
   return framed(request, pdu);
 }
 
-// Repeats the request, without the values of function 16.
+// The reply repeats the request, but without the values of function 16.
 std::string write_reply(const ModbusRequest& request) {
   return framed(request, request.frame.pdu.substr(0, kFixed));
 }

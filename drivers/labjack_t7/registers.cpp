@@ -53,8 +53,8 @@ Status Registers::write_u16(Register at, std::uint16_t value) {
   return put(at, std::array{value});
 }
 
-// If the connection is still trusted after an error, the device sent an exception reply, and
-// LAST_ERR_DETAIL states the reason.
+// If trusted() is still true after an error, the device has sent an exception reply.
+// LAST_ERR_DETAIL then contains the reason.
 tl::unexpected<Error> Registers::explained(const char* what, Register at, Error error) {
   std::array<std::uint16_t, 1> code{};
   if (client_.trusted() && client_.read_holding(reg::last_error.address, code) && code[0] != 0)

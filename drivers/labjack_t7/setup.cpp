@@ -10,8 +10,9 @@ namespace mdof::drivers::labjack_t7 {
 namespace {
 
 constexpr float kProduct = 7;
-constexpr std::uint32_t kBufferBytes = 32768;  // the maximum; 0.5 s at 4 kHz with 7 samples
-constexpr int kLines = 2;                      // lines of a quadrature pair
+// The maximum; it has room for 0.5 s of 7 samples at 4 kHz.
+constexpr std::uint32_t kBufferBytes = 32768;
+constexpr int kLines = 2;  // number of lines of a quadrature counter
 constexpr double kStampFirmware = 1.0214, kRecoveryFirmware = 1.026;
 
 Status check_words(std::uint32_t test) {
@@ -30,7 +31,7 @@ Status check_product(float product) {
                   ", not 7, so this LabJack is not a T7");
 }
 
-// Without this check, old firmware would cause less clear errors later.
+// Without this check, old firmware would cause later errors that are less clear.
 Status check_firmware(float firmware) {
   const auto is_older = [&](double than) { return firmware < than - 1e-5; };
   const char* lacks =
@@ -71,8 +72,8 @@ Result<Identity> identify(Registers& registers, const Settings& settings) {
   return Identity{serial, firmware};
 }
 
-// Reads STREAM_ENABLE first: the T7 refuses to stop a stream that does not run, and a refusal may
-// make the connection unusable.
+// Reads STREAM_ENABLE first. If no stream runs, the T7 rejects the command to stop it, and after a
+// rejection the connection may be unusable.
 Status stop_stream(Registers& registers) {
   MDOF_TRY(const std::uint32_t running, registers.u32(reg::stream_enable));
   return running ? registers.write(reg::stream_enable, 0) : Status{};
@@ -114,7 +115,8 @@ Status set_up_ain(Registers& registers, const Input& input) {
 
 }  // namespace
 
-// First resets all inputs, because another program may have changed them; then sets single inputs.
+// First sets all inputs to the same values, because another program may have changed them. Then
+// sets the inputs that have other values.
 Result<std::vector<AinCalibration>> set_up_ains(Registers& registers, const Settings& settings) {
   MDOF_CHECK(registers.write_u16(reg::ain_all_negative_ch, kSingleEnded));
   MDOF_CHECK(registers.write_f32(reg::ain_all_range, static_cast<float>(settings.range_v)));

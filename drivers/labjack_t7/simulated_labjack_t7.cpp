@@ -37,7 +37,8 @@ std::uint32_t flash_word(std::uint32_t address) {
   const std::uint32_t i = (address - flash_address(0)) / 4;
   if (i >= 4 * kRanges_v.size()) return bits(0);
   const AinCalibration c = SimulatedLabjackT7::calibration(i / 4);
-  const std::array numbers{c.positive_slope, c.negative_slope, c.centre, 0.0};  // last: unused
+  // The last number is not used.
+  const std::array numbers{c.positive_slope, c.negative_slope, c.centre, 0.0};
   return bits(static_cast<float>(numbers[i % 4]));
 }
 
@@ -48,7 +49,8 @@ SimulatedLabjackT7::SimulatedLabjackT7(Senses senses, const Options& options)
   restart();
 }
 
-// Near nominal and different for each range, so that tests detect a wrong block.
+// The constants differ a little from the nominal constants and for each range, so that tests detect
+// a wrong block.
 AinCalibration SimulatedLabjackT7::calibration(std::size_t range) {
   AinCalibration c = labjack::nominal_calibration(range);
   const auto by = static_cast<double>(range);
@@ -129,7 +131,7 @@ std::optional<std::uint16_t> SimulatedLabjackT7::read(int address, std::int64_t 
   return words_of(*value)[low ? 1 : 0];
 }
 
-// Registers whose value is not simply the written value.
+// Registers that return a calculated value and not the value that was written.
 std::optional<std::uint32_t> SimulatedLabjackT7::computed(int address, std::int64_t now_ns) const {
   const std::size_t ain = static_cast<std::size_t>(address) / 2;
   if (ain < kAins) return bits(static_cast<float>(senses_(ain, now_ns)));
@@ -162,7 +164,7 @@ void SimulatedLabjackT7::store(int address, Words words) {
   registers_[address + 1] = words[1];
 }
 
-// Returns 0 or an exception code.
+// Returns 0, or the code of a Modbus exception.
 int SimulatedLabjackT7::write(const ModbusRequest& request, std::int64_t now_ns) {
   const int from = request.address, to = from + request.count;
   for (int a = from; a < to; ++a)
@@ -183,7 +185,7 @@ int SimulatedLabjackT7::write(const ModbusRequest& request, std::int64_t now_ns)
   return code ? refuse(code) : 0;
 }
 
-// A value written for all inputs is copied to each input.
+// Copies a value that was written for all inputs to each input.
 void SimulatedLabjackT7::spread(int address) {
   for (int n = 0; n < static_cast<int>(kAins); ++n) {
     if (address == reg::ain_all_range.address)
@@ -210,7 +212,8 @@ int SimulatedLabjackT7::check_stream() const {
   return 0;
 }
 
-// The stamp is written when the first scan begins; before that it is that of the previous stream.
+// The stamp is written when the first scan begins. Before that, the register contains the stamp of
+// the previous stream.
 std::uint32_t SimulatedLabjackT7::start_stamp(std::int64_t now_ns) const {
   const bool begun = stream_ && now_ns >= stream_->start_ns && !options_.faults.stale_stamp;
   return begun ? core_at(stream_->start_ns) : last_stamp_;

@@ -83,7 +83,7 @@ std::uint16_t SimulatedLabjackT7::ain_code(std::size_t ain, std::int64_t t_ns) c
   return static_cast<std::uint16_t>(std::clamp(code, 0.0, 65535.0));
 }
 
-// Returns 0 for lines that are not configured as a counter.
+// Returns 0 if the line is not configured as a counter.
 std::uint32_t SimulatedLabjackT7::count_at(int line, std::int64_t t_ns) const {
   for (const int n : {line, line + 1})
     if (stored(reg::dio_ef_enable.address + 2 * n) != 1 ||

@@ -1,4 +1,4 @@
-// Packets of port 702 and the scans in them.
+// Reads the packets of port 702 and the scans in the packets.
 #include "drivers/labjack_t7/protocol.h"
 #include "drivers/modbus/protocol.h"
 
@@ -9,7 +9,8 @@ using modbus::append_word;
 using modbus::word_at;
 
 constexpr std::size_t kHeader = 16;
-constexpr std::size_t kLengthFrom = 6;  // the length starts at the unit id
+// The length in a packet counts the bytes from the unit id on.
+constexpr std::size_t kLengthFrom = 6;
 constexpr std::uint8_t kFunction = 76, kType = 16;
 
 std::uint8_t byte_at(std::string_view bytes, std::size_t i) {

@@ -77,7 +77,7 @@ std::string read_calibration(int block) {
   return extended(kReadCalibration, std::string{'\0', static_cast<char>(block)});
 }
 
-// Fixed point: 32 bits of fraction, then a signed integer of 32 bits.
+// The numbers have a fixed point: 32 bits of fraction, then a signed integer of 32 bits.
 Result<CalibrationBlock> read_calibration_reply(std::string_view reply) {
   MDOF_TRY(const std::string body,
            accepted("the command that reads the calibration", reply, kReadCalibration, 40));
@@ -124,12 +124,13 @@ Status read_config_io(std::string_view reply, int timers, int pin_offset) {
 }
 
 std::string start_quadrature() {
-  const std::string mode{kQuadrature, 0, 0};  // with value 0
+  const std::string mode{kQuadrature, 0, 0};  // the count starts at 0
   const std::string start(1, '\0'), even(1, '\0');
   return extended(kFeedback, start + kConfigureTimer0 + mode + kConfigureTimer1 + mode + even);
 }
 
-// Reply: error, index of the failed command, echo, and a byte for even length.
+// The reply contains the error code, the index of the failed command, the echo, and a byte that
+// makes the length even.
 Status read_feedback(std::string_view reply) {
   MDOF_TRY(const std::string body, accepted("Feedback", reply, kFeedback, 10));
   return {};

@@ -12,10 +12,12 @@ namespace {
 
 using namespace labjack_u6;
 
-// The device allows two timers on any lines; the driver allows the pairs with their own terminals.
+// The device allows two timers on any lines. The driver allows only the pairs that have their own
+// terminals.
 constexpr int kCounterLines[] = {0, 2};
 constexpr double kMostSamples_Hz = 50'000;  // samples of all inputs together
-// The firmware handles each edge; the value is from LabJack's manual of the U3, which counts alike.
+// The firmware handles each edge. The limit is from LabJack's manual of the U3, which counts in the
+// same way.
 constexpr double kMostCounts_per_s = 30'000;
 constexpr int kMostResolution = 8, kMostSettling_us = 2550;
 
@@ -27,7 +29,7 @@ void read_serial(TomlTable& table, Settings& settings) {
   if (serial > 0) settings.serial = std::to_string(serial);
 }
 
-// The gain of all inputs without their own range.
+// Returns the gain of the inputs that have no range of their own.
 int read_gain(TomlTable& table) {
   const int gain = labjack::range_of(table.number("range_v", 10));
   if (gain < 0) table.reject("range_v", labjack::kRangesText);

@@ -25,7 +25,7 @@ Result<std::string> query_serial(usb::Handle& handle) {
   return std::to_string(identity.serial);
 }
 
-// The input with the counter; nullptr: no counter.
+// Returns the input with the counter; nullptr: no counter.
 const Input* counter_of(const Settings& settings) {
   const auto at = std::find_if(settings.inputs.begin(), settings.inputs.end(), counts);
   return at == settings.inputs.end() ? nullptr : &*at;
@@ -90,7 +90,7 @@ Status LabjackU6::open() {
   return {};
 }
 
-// Stops the stream, so that other programs can use the device. A failure is ignored.
+// Stops the stream, so that other programs can use the device. Errors are ignored.
 void LabjackU6::close() {
   if (handle_ && stream_ && broken_) (void)ask(*handle_, stream_stop());
   stream_.reset();
@@ -123,8 +123,8 @@ Status LabjackU6::start() {
   return read_stream_start(started);
 }
 
-// The U6 does not report in which mode another program has left the timers, so only a counter that
-// this object started is known to count.
+// The U6 does not report the mode of timers that another program has set. Therefore only a counter
+// that this object has started is certain to count.
 Status LabjackU6::start_or_keep_counter() {
   const Input* counter = counter_of(settings_);
   if (!counter) return {};
@@ -147,7 +147,7 @@ Result<ReadState> LabjackU6::read(SampleBlock& block, milliseconds timeout) {
   return ReadState::more;
 }
 
-// Scans received before an error are returned first.
+// Scans that were received before an error are returned before the error.
 Status LabjackU6::next_scans(milliseconds timeout) {
   scans_.clear();
   returned_ = 0;
@@ -172,7 +172,7 @@ Status LabjackU6::receive(milliseconds timeout) {
   return {};
 }
 
-// The packet with the reason may lie in a transfer that is not full.
+// The packet that contains the reason may be in a transfer that is not full.
 Status LabjackU6::silence_error() {
   stream_->cancel();
   if (const auto last = stream_->next(steady_clock::now())) MDOF_CHECK(take(*last));
@@ -194,7 +194,7 @@ Status LabjackU6::take(const usb::InStream::Chunk& chunk) {
   return taken;
 }
 
-// A block ends before lost scans; the next block counts them as lost.
+// A block ends before lost scans. The next block then contains their number in `lost`.
 void LabjackU6::fill_block(SampleBlock& block) {
   while (returned_ < scans_.size()) {
     const Scan& scan = scans_[returned_];
@@ -229,7 +229,7 @@ void LabjackU6::append(SampleBlock& block, const Scan& scan) {
   }
 }
 
-// The number of scans that the device would have taken since the last returned scan.
+// Returns the number of scans that the device would have taken since the last returned scan.
 std::uint64_t LabjackU6::lost_while_closed(std::int64_t time_ns) const {
   const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * scan_clock_.rate_hz;
   return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));

@@ -50,7 +50,7 @@ Status check_order(std::uint8_t counter, std::uint8_t expected) {
 
 }  // namespace
 
-// Sum of the bytes; then, two times, the quotient by 256 is added to the remainder.
+// Adds all bytes. Then, two times, adds the quotient of the sum and 256 to the remainder.
 std::uint8_t checksum8(std::string_view bytes) {
   const unsigned total = sum(bytes);
   const unsigned once = total / 256 + total % 256;

@@ -19,7 +19,7 @@ std::string normal_reply(std::uint8_t command, int error) {
   return static_cast<char>(checksum8(reply)) + reply;
 }
 
-// One interface of three bulk endpoints, 64 bytes each: U6 Datasheet 5, exodriver.
+// The device has one interface with three bulk endpoints of 64 bytes: U6 Datasheet 5, exodriver.
 usb::Identity identity_of(std::uint32_t serial, bool nameless) {
   usb::Identity identity;
   identity.vendor = kVendor;
@@ -78,7 +78,8 @@ std::string SimulatedLabjackU6::identity_body() const {
   return extended(kConfigU6, body);
 }
 
-// Near nominal and different for each gain, so that tests detect a wrong block.
+// The constants differ a little from the nominal constants and for each gain, so that tests detect
+// a wrong block.
 AinCalibration SimulatedLabjackU6::calibration(std::size_t gain) {
   AinCalibration c = labjack::nominal_calibration(gain);
   c.positive_slope *= 1.001 + 0.0002 * static_cast<double>(gain);
@@ -114,7 +115,7 @@ usb::Reply SimulatedLabjackU6::in(std::uint8_t endpoint, std::size_t max_bytes,
   return reply;
 }
 
-// Returns whole packets until the transfer is full; a short packet ends the transfer.
+// Returns complete packets until the transfer is full. A short packet ends the transfer.
 usb::Reply SimulatedLabjackU6::stream_in(std::size_t max_bytes) {
   std::size_t bytes = 0, packets = 0;
   bool ends = false;
@@ -170,7 +171,8 @@ std::string SimulatedLabjackU6::answer_extended(std::string_view command, std::i
       if (command[6] & 1) timers_ = command.substr(7, 3);
       return extended(kConfigIo, std::string(2, '\0') + timers_ + std::string(5, '\0'));
     case kFeedback:
-      zero_ = senses_(kCounterInput, now_ns);  // Feedback is used only to start the counter
+      // The command Feedback is used only to start the counter.
+      zero_ = senses_(kCounterInput, now_ns);
       return extended(kFeedback, std::string(4, '\0'));
     case kStreamConfig:
       return configured(command);
@@ -227,8 +229,8 @@ void SimulatedLabjackU6::take_scans(std::int64_t now_ns) {
   }
 }
 
-// The scan of 0xFFFF takes the place of the dropped scans. It lies between the end of one scan and
-// the beginning of the next.
+// A scan of 0xFFFF is sent instead of the dropped scans. It is between the end of a scan and the
+// beginning of the next scan.
 StreamData SimulatedLabjackU6::packet_of(Stream& s) {
   StreamData packet;
   packet.counter = static_cast<std::uint8_t>(s.packet);

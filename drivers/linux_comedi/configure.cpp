@@ -13,11 +13,11 @@ namespace {
 
 using namespace linux_comedi;
 
-constexpr double kLeastRate_Hz = 0.25, kMostRate_Hz = 1e6;  // a period is 32 bits of ns
+constexpr double kLeastRate_Hz = 0.25, kMostRate_Hz = 1e6;  // the period has 32 bits, in ns
 constexpr unsigned kMostNumber = 255;
 constexpr std::int64_t kMostSubdevice = 255;
 
-// Keys that a channel or the whole device may have.
+// Keys that may be in the table of a channel or of the device.
 struct Wiring {
   double low_v = -10, high_v = 10;
   Reference reference = Reference::ground;

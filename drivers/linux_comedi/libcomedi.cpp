@@ -1,4 +1,4 @@
-// Real boards through comedilib. Only this file uses comedilib.
+// Real boards, through comedilib. Only this file calls comedilib.
 #include <comedilib.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -71,7 +71,7 @@ unsigned references_of(int flags) {
   return references;
 }
 
-// The result is valid as long as `inputs`.
+// The returned command is valid as long as `inputs` exists.
 comedi_cmd raw_command(const Command& command, std::vector<unsigned>& inputs) {
   inputs.clear();
   for (const BoardInput& input : command.inputs)
@@ -186,8 +186,9 @@ std::vector<Range> LibraryBoard::ranges(unsigned subdevice, unsigned channel) {
   return all;
 }
 
-// Compares driver and board with the file, because comedi_get_softcal_converter accepts the file of
-// another board (comedi_apply_parsed_calibration does not).
+// Compares driver and board with the calibration file. This is necessary because
+// comedi_get_softcal_converter accepts the file of another board (comedi_apply_parsed_calibration
+// does not).
 Calibration LibraryBoard::calibrate(unsigned subdevice, const std::vector<BoardInput>& inputs) {
   Calibration calibration;
   const std::unique_ptr<char, Freed> path(comedi_get_default_calibration_path(device_.get()));
@@ -256,15 +257,15 @@ Status LibraryBoard::start(const Command& command) {
   return {};
 }
 
-// A board that is gone never becomes readable; only read() reports it (comedi_poll and comedi_read
-// of the kernel's comedi_fops.c).
+// A board that was removed never becomes readable, so poll() does not report it. Only read()
+// reports it (comedi_poll and comedi_read in the kernel's comedi_fops.c).
 Result<Received> LibraryBoard::receive(std::span<char> into, milliseconds timeout) {
   const int fd = comedi_fileno(device_.get());
   pollfd ready{fd, POLLIN, 0};
   const auto longest = milliseconds(std::numeric_limits<int>::max());
   const int woken = ::poll(&ready, 1, static_cast<int>(std::min(timeout, longest).count()));
-  // No data: a board may keep samples until its FIFO is half full, so ask it for them. Not every
-  // board supports this.
+  // No data arrived. A board may keep samples until its FIFO is half full, so this call asks for
+  // the samples. Not every board supports it.
   if (woken == 0) (void)comedi_poll(device_.get(), subdevice_);
   const ssize_t bytes = ::read(fd, into.data(), into.size());
   if (bytes > 0) return Received{static_cast<std::size_t>(bytes), StreamState::runs};

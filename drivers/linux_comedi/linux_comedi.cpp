@@ -16,7 +16,8 @@ using std::chrono::steady_clock;
 
 constexpr std::size_t kBuffer = 65536;
 constexpr double kSilence_s = 2;
-constexpr double kHalfFifo_samples = 1024;  // half of a large FIFO, which a board may keep
+// Half the size of a large FIFO; a board may keep so many samples.
+constexpr double kHalfFifo_samples = 1024;
 
 milliseconds remaining_time(steady_clock::time_point until) {
   return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(until - steady_clock::now()));
@@ -78,7 +79,7 @@ Status LinuxComedi::start() {
   return {};
 }
 
-// An error is returned after all scans before it.
+// An error is returned after all scans that precede it.
 Result<ReadState> LinuxComedi::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
   if (!board_) return io_error(place() + " is not open; call open() before read()");
@@ -146,7 +147,7 @@ void LinuxComedi::append(SampleBlock& block, std::size_t scan) {
   }
 }
 
-// The number of scans that the board would have taken since the last returned scan.
+// Returns the number of scans that the board would have taken since the last returned scan.
 std::uint64_t LinuxComedi::lost_while_closed(std::int64_t time_ns) const {
   const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
   return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));

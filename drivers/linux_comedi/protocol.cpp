@@ -11,7 +11,7 @@ namespace mdof::drivers::linux_comedi {
 namespace {
 
 constexpr std::array<const char*, 4> kReferences = {"ground", "common", "differential", "other"};
-constexpr double kConvert_us = 20;  // settling time of the multiplexer at most boards
+constexpr double kConvert_us = 20;  // settling time of the multiplexer on most boards
 constexpr double kWakeEach_Hz = 1000;
 
 unsigned period_ns(double period_s) {
@@ -36,7 +36,8 @@ Result<Event> conversion(const Command& sources, std::size_t inputs, const ScanT
   return Event{kTimer, period_ns(each_us * 1e-6)};
 }
 
-// For boards without a scan timer: conversions follow each other, scan after scan.
+// For boards without a timer for scans: the conversions follow each other without a pause, one scan
+// after the other.
 Result<Command> continuous_command(Command command, const Command& sources, double rate_hz) {
   if (!can(sources.scan_begin, kFollow) || !can(sources.convert, kTimer))
     return bad_input(

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kRateTolerance = 0.01;  // relative to the requested rate
 constexpr const char* kTestDriver = "comedi_test";
-constexpr int kTests = 4;  // the first test changes arguments, the next test them again
+// The first test changes the arguments; the next test checks the changed arguments.
+constexpr int kTests = 4;
 
 std::string channel_text(unsigned channel) {
   return "CH" + std::to_string(channel);
@@ -59,13 +60,14 @@ Result<BoardInput> board_input(Board& board, unsigned subdevice, const Subdevice
                    text_of({input.low_v, input.high_v}) + "; range_v can be" + known);
 }
 
-// Uses the nearest values that the board supports. test() changes the command accordingly.
+// Uses the nearest values that the board supports: test() changes the command to these values.
 Status fit_command(Board& board, Command& command) {
   int failed = 0;
   for (int i = 0; i < kTests; ++i) {
     MDOF_TRY(failed, board.test(command));
     if (failed == 0) return {};
-    if (failed != 3 && failed != 4) break;  // with 3 and 4 the board has changed the arguments
+    // The results 3 and 4 mean that the board has changed arguments.
+    if (failed != 3 && failed != 4) break;
   }
   const std::string inputs =
       failed == 5 ? "; the board cannot scan these inputs together with these ranges and references"
@@ -88,7 +90,7 @@ Notice uncalibrated(const std::string& why) {
   return notice(NoticeCode::board_not_calibrated, "", {{"reason", why}});
 }
 
-// Conversions from the calibration file if it is used, otherwise from the ranges.
+// Makes the conversions from the calibration file if there is one, otherwise from the ranges.
 Status convert(Board& board, const Subdevice& has, Setup& setup) {
   const Command& command = setup.command;
   const Calibration calibration = board.calibrate(command.subdevice, command.inputs);

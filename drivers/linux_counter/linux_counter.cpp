@@ -12,7 +12,7 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr std::int64_t kSlow_ns = 2'000'000;  // a longer read was delayed
+constexpr std::int64_t kSlow_ns = 2'000'000;  // a reading that takes longer was delayed
 
 struct Count {
   SysfsAttribute file;
@@ -31,8 +31,8 @@ Result<std::int64_t> counts_now(Count& count) {
                   "changed the settings of the counter");
 }
 
-// The position is missing for the reading at which the mark counts as passed; later readings are
-// valid.
+// The reading at which the state becomes `passed` has no position. Later readings have valid
+// positions.
 Result<SysfsReading> read_marked(Count& count, std::int64_t counts) {
   using State = IndexMark::State;
   const State before = count.state;

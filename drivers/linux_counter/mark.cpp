@@ -36,8 +36,8 @@ Status Quad8Mark::enable(bool on) const {
   return write_sysfs(path_ + "/preset_enable", on ? "1" : "0");
 }
 
-// Disabled while the count is read and the preset is set; otherwise the counter could load the old
-// preset.
+// preset_enable is 0 while the count is read and the preset is written. Otherwise the counter could
+// load the old preset.
 Status Quad8Mark::arm() {
   MDOF_CHECK(enable(false));
   MDOF_TRY(const std::int64_t count, read_());

@@ -12,7 +12,7 @@ tl::unexpected<Error> needs_setting(const std::string& file, const std::string& 
 
 std::optional<std::int64_t> CountUnwrap::operator()(std::uint64_t raw) {
   if (raw > ceiling_) return std::nullopt;
-  // Computed modulo ceiling + 1, which may be 2^64.
+  // The difference is calculated modulo ceiling + 1, which may be 2^64.
   const std::uint64_t up = raw >= last_raw_ ? raw - last_raw_ : raw + (ceiling_ - last_raw_) + 1;
   const std::uint64_t down = up == 0 ? 0 : ceiling_ - up + 1;
   const std::uint64_t step = up <= ceiling_ / 2 ? up : ~down + 1;

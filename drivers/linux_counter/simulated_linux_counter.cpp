@@ -28,7 +28,7 @@ Result<std::unique_ptr<SimulatedLinuxCounter>> SimulatedLinuxCounter::make(Sense
 
 void SimulatedLinuxCounter::turn(std::int64_t now_ns) {
   const auto count = std::llround(senses_(0, now_ns));
-  // A removed folder simulates a device that is gone, so errors are ignored.
+  // Errors are ignored, because a removed folder simulates a disconnected device.
   (void)tree_.set("count0/count", std::to_string(static_cast<std::uint32_t>(count)));
 }
 

@@ -10,13 +10,14 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr double kOverhead_s = 0.004;  // of a reading: the I²C transfers and the wake-up
+// Duration of the I²C transfers and of the wake-up for each reading.
+constexpr double kOverhead_s = 0.004;
 
 std::string folder_of(const LinuxIioOptions& options) {
   return options.sysfs_root + "/bus/iio/devices/" + options.device;
 }
 
-// The kernel's driver determines the unit of a capacitance, so other converters are refused.
+// Accepts only AD7745 and AD7746, because the unit of a capacitance depends on the kernel's driver.
 Result<std::string> check_chip(const std::string& folder) {
   MDOF_TRY(const auto chip, read_sysfs(folder + "/name"));
   if (!chip)
@@ -57,7 +58,8 @@ Status set_sampling(const LinuxIioOptions& options, const std::string& folder) {
                    "; lower rate_hz or raise sampling_hz");
 }
 
-// Counts that the converter's capacitors subtract; each of its two inputs has one capacitor.
+// Returns the counts that the converter's internal capacitors (CAPDAC) subtract. Each of the two
+// inputs of the converter has one capacitor.
 Result<std::int64_t> read_capdac(const std::string& folder, const std::string& input) {
   const std::string own = input.substr(0, input.find('-'));
   const std::string other = own == "capacitance0" ? "-capacitance2" : "-capacitance3";

@@ -41,7 +41,7 @@ void SimulatedLinuxIio::turn(std::int64_t now_ns) {
   for (std::size_t i = 0; i < options_.inputs; ++i) {
     const double pF = kEps0_um_pF_per_mm2 * options_.area_mm2 / senses_(i, now_ns);
     const auto raw = std::llround(pF / kAd7746_pF_per_count);
-    // A removed folder simulates a device that is gone, so errors are ignored.
+    // Errors are ignored, because a removed folder simulates a disconnected device.
     (void)tree_.set("in_capacitance" + std::to_string(i) + "_raw", std::to_string(raw));
   }
 }

@@ -17,7 +17,7 @@ constexpr milliseconds kReply{500}, kQuiet{20};
 constexpr milliseconds kStatusEvery{100};
 constexpr double kSilence_s = 2;
 
-// Index of each channel in a scan; the device sends channels by number.
+// Position of each channel in a scan. The device sends the inputs in the order of their numbers.
 std::vector<std::size_t> words_of(const std::vector<Input>& inputs) {
   std::vector<std::size_t> words;
   const unsigned mask = mask_of(inputs);
@@ -67,7 +67,7 @@ Status MccUsb1608fsPlus::open() {
   return {};
 }
 
-// Stops the scan, so that other programs can use the device. A failure is ignored.
+// Stops the scan, so that other programs can use the device. Errors are ignored.
 void MccUsb1608fsPlus::close() {
   if (handle_ && stream_) (void)handle_->vendor_out(kScanStop, 0, 0, "", kReply);
   stream_.reset();
@@ -95,7 +95,7 @@ Status MccUsb1608fsPlus::start() {
   return {};
 }
 
-// Stops a running scan, also that of another program, and discards its remaining data.
+// Stops a running scan, even if another program has started it, and discards its remaining data.
 Status MccUsb1608fsPlus::stop_scan() {
   MDOF_CHECK(handle_->vendor_out(kScanStop, 0, 0, "", kReply));
   MDOF_CHECK(handle_->vendor_out(kClearFifo, 0, 0, "", kReply));
@@ -124,7 +124,7 @@ Result<ReadState> MccUsb1608fsPlus::read(SampleBlock& block, milliseconds timeou
   return ReadState::more;
 }
 
-// Returns when confirmed scans have arrived, or at `until`.
+// Returns when scans were confirmed, or at the time `until`.
 Status MccUsb1608fsPlus::receive(Time until) {
   do {
     MDOF_CHECK(take_chunk(std::min(until, next_status_)));
@@ -182,7 +182,7 @@ void MccUsb1608fsPlus::fill_block(SampleBlock& block) {
   first_ += std::exchange(confirmed_, 0);
 }
 
-// The number of scans that the device would have taken since the last returned scan.
+// Returns the number of scans that the device would have taken since the last returned scan.
 std::uint64_t MccUsb1608fsPlus::lost_while_closed(std::int64_t time_ns) const {
   const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
   return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));

@@ -21,7 +21,8 @@ void append(std::string& bytes, std::uint32_t value, std::size_t size) {
 }
 
 bool possible(const Calibration& c) {
-  constexpr float kSlope = 0.1F, kOffset = 4000;  // more than any device deviates; NaN is refused
+  // Larger than the deviation of any device; NaN is rejected too.
+  constexpr float kSlope = 0.1F, kOffset = 4000;
   return std::abs(c.slope - 1) <= kSlope && std::abs(c.offset) <= kOffset;
 }
 

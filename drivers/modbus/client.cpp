@@ -20,12 +20,14 @@ using modbus::Framing;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// The longest assumed delay of a reply; delays of up to five time-outs were tested.
+// The longest delay of a reply that is assumed, in response time-outs. Delays of up to five
+// time-outs were tested.
 constexpr int kLatest_timeouts = 6;
 
 using Context = std::unique_ptr<modbus_t, decltype(&::modbus_free)>;
 
-// Address and line settings are dummies, because the library never opens the connection itself.
+// The library never opens the connection itself, so address and settings of the line have no
+// effect.
 Context new_context(Framing framing) {
   return {framing == Framing::tcp ? ::modbus_new_tcp("127.0.0.1", MODBUS_TCP_DEFAULT_PORT)
                                   : ::modbus_new_rtu("/dev/null", 19200, 'E', 8, 1),
@@ -51,7 +53,8 @@ struct ModbusClient::Impl {
   std::uint16_t transaction = 0;
   std::uint64_t rejected = 0;
   int exception = 0;
-  // An RTU line may still carry replies to the requests of an earlier program.
+  // Replies to the requests of an earlier program may still arrive on an RTU line, so it is not
+  // trusted at the start.
   bool trusted = framing == Framing::tcp;
   steady_clock::time_point failed_at = steady_clock::now(), heard_at = failed_at;
 
@@ -86,7 +89,7 @@ Status ModbusClient::Impl::configure() {
                    " ms is out of range; units are from 1 to 247 (with TCP, also 255)");
 }
 
-// Sends a request for values. Errors begin with device and register.
+// Sends a request for values. Errors begin with the device and the register.
 Result<Answer> ModbusClient::Impl::ask(const char* what, int address, std::size_t count,
                                        const std::string& pdu) {
   const int function = pdu[0] == modbus::kReadInput ? modbus::kReadInput : modbus::kReadHolding;
@@ -119,11 +122,11 @@ Result<Answer> ModbusClient::Impl::ask_in_order(const std::string& pdu, int addr
   return exchange(pdu);
 }
 
-// Sends with ByteStream, which handles partial writes. Receives with the library's confirmation
-// function, because its read functions check neither unit nor length of a TCP reply. Then checks
-// the whole reply.
+// Sends with ByteStream, which can send the bytes in several parts. Receives with the library's
+// function for confirmations, because the library's functions for reading do not check the unit and
+// the length of a TCP reply. Then checks the whole reply.
 Result<Answer> ModbusClient::Impl::exchange(const std::string& pdu) {
-  expect_long_step(2 * options.response_timeout);  // to send and to receive
+  expect_long_step(2 * options.response_timeout);  // the time for sending and for receiving
   const modbus::Frame asked{++transaction, static_cast<std::uint8_t>(options.unit), pdu};
   if (auto sent = stream.write(modbus::wrap(framing, asked), options.response_timeout); !sent) {
     distrust();
@@ -142,7 +145,7 @@ Result<Answer> ModbusClient::Impl::exchange(const std::string& pdu) {
   return answer;
 }
 
-// Succeeds if no bytes arrive for `wait`.
+// No error if no bytes arrive during `wait`.
 Status ModbusClient::Impl::expect_silence(milliseconds wait) {
   std::array<char, MODBUS_MAX_ADU_LENGTH> waste;
   auto came = stream.read(waste, wait);
@@ -177,8 +180,8 @@ Status ModbusClient::Impl::prove(int address, modbus::Shape regular) {
   return {};
 }
 
-// Exceptions do not show to which request they belong. An exception therefore proves the line only
-// after all older replies must have arrived.
+// An exception reply does not show to which request it belongs. Therefore it proves that the line
+// is free of older replies only if all older replies must already have arrived.
 Result<Answer> ModbusClient::Impl::refused(int code) {
   if (heard_at - failed_at >= kLatest_timeouts * options.response_timeout) return Answer{};
   ++rejected;

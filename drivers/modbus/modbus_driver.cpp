@@ -14,17 +14,19 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kConnect{2000}, kSilence{2000};
 constexpr int kFailures = 20;
-// Pause between two attempts; without it, a removed adapter would fail in a fast loop.
+// Pause between two attempts. Without it, the loop would run very fast after a serial adapter was
+// removed.
 constexpr milliseconds kBetweenAttempts{10};
 constexpr const char* kDatumLost =
     "the device was disconnected, and may have stopped counting in the meantime";
-constexpr int kLineTest_timeouts = 10;  // for the test of an RTU line when it is opened
+// Limit for the test of an RTU line when it is opened, in response time-outs.
+constexpr int kLineTest_timeouts = 10;
 
 nanoseconds from_ms(double ms) {
   return nanoseconds(std::llround(ms * 1e6));
 }
 
-// Four characters of eleven bits, but at least the standard's 1.75 ms.
+// Four characters of eleven bits, but at least the 1.75 ms that the standard requires.
 milliseconds gap_of(int baud) {
   return milliseconds(std::max(2L, std::lround(std::ceil(4 * 11 * 1000.0 / baud))));
 }
@@ -97,7 +99,8 @@ Status ModbusDriver::ask(const modbus::Register& from, std::span<std::uint16_t> 
                                              : client_->read_holding(from.address, into);
 }
 
-// An RTU line may need a test first, so it is tried repeatedly; on TCP the first error is final.
+// On RTU the line may first need a test, so the request is tried several times. On TCP the first
+// error is final.
 Status ModbusDriver::ask_at_opening(const modbus::Register& from, std::span<std::uint16_t> into) {
   const bool rtu = settings_.profile.framing == modbus::Framing::rtu;
   const auto until = steady_clock::now() + kLineTest_timeouts * timeout_;
@@ -145,7 +148,8 @@ Result<ReadState> ModbusDriver::read(SampleBlock& block, milliseconds timeout) {
   return ReadState::more;
 }
 
-// A line that needs a test is tried again after kBetweenAttempts, not after a whole period.
+// If an RTU line needs a test, the next attempt begins after kBetweenAttempts and not after a whole
+// period.
 Status ModbusDriver::poll(SampleBlock& block) {
   const auto start = steady_clock::now();
   for (std::size_t i = 0; i < readings_.blocks().size(); ++i) {

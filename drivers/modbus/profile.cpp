@@ -15,7 +15,8 @@ struct Word {
   T means;
 };
 
-// The meaning of the word at `key`; if the key is missing, the meaning of the first word.
+// Returns the value that belongs to the word at `key`. If the key is missing, returns the value of
+// the first word.
 template <class T, std::size_t N>
 T choice(TomlTable& table, const char* key, const Word<T> (&words)[N]) {
   const std::string given = table.string(key, words[0].word);
@@ -94,7 +95,7 @@ Value read_value(TomlTable& table) {
   return value;
 }
 
-// A [[value]] with `count` gives `count` values; a number replaces "#" in each name.
+// A [[value]] with `count` becomes `count` values. In each name, "#" is replaced by a number.
 void append_values(TomlTable& table, std::vector<Value>& values) {
   const Value one = read_value(table);
   const int count = whole(table, "count", 1, 1, 1000);

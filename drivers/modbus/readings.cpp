@@ -80,7 +80,7 @@ const std::vector<Reading>& Readings::read() {
   return readings_;
 }
 
-// A missing value does not change the count.
+// If the value is missing, the count does not change.
 Reading Readings::read(Counter& counter) {
   const Value& value = counter.value;
   Reading reading{kNaN, Quality::good};

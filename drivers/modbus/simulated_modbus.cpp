@@ -14,9 +14,9 @@ using modbus::Function;
 using modbus::Value;
 
 constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kFrameEnd_ns = 50 * kMs;  // an incomplete frame of this age is discarded
+constexpr std::int64_t kFrameEnd_ns = 50 * kMs;  // an incomplete frame is discarded at this age
 
-// Length of the request at the beginning of `bytes`; 0: not known yet.
+// Returns the length of the request at the beginning of `bytes`; 0: not known yet.
 std::size_t request_size(Framing framing, std::string_view bytes) {
   if (framing == Framing::tcp) return bytes.size() < 6 ? 0 : 6u + modbus::word_at(bytes, 4);
   if (bytes.size() < 8) return 0;
@@ -52,7 +52,8 @@ double highest(const Value& value) {
   return 0;
 }
 
-// The contents of the register: rounded; wrapped at the ring or limited to the range.
+// Returns the contents of the register for a value: rounded, and then wrapped at the ring or
+// limited to the range of the type.
 double raw_of(const Value& value, double sensed) {
   const double raw = (sensed - value.offset) / value.scale;
   if (value.type == modbus::Type::f32) return raw;
@@ -114,7 +115,7 @@ std::string SimulatedModbus::exchange(std::size_t, int id, std::string_view rece
   return std::exchange(client.outbox, {});
 }
 
-// Takes complete requests from the inbox until one is for this unit.
+// Removes complete requests from the inbox until a request is for this unit.
 bool SimulatedModbus::take_request(Client& client, Frame& request) const {
   for (;;) {
     const std::size_t size = request_size(profile_.framing, client.inbox);

@@ -10,7 +10,8 @@ namespace {
 
 using namespace pokeys57u;
 
-// 2.5 times the highest frequency that the manual states for each kind, with four counts a period.
+// 2.5 times the highest frequency in the manual for each kind of encoder, with four counts in a
+// period.
 constexpr double kSlow_Hz = 10e3, kFast_Hz = 1e6, kUltraFast_Hz = 50e6;
 
 std::vector<std::string> input_names() {
@@ -21,7 +22,7 @@ std::vector<std::string> input_names() {
   return names;
 }
 
-// In addition to the keys that all drivers have.
+// These keys extend the keys that the channels of all drivers have.
 struct ChannelOptions {
   std::optional<std::uint8_t> options;
   double most_counts_per_s;

@@ -17,9 +17,9 @@ using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kTickEvery{1000}, kQuiet{10};
-// Largest number of reports for the requests of another program that may still arrive.
+// Most reports for requests of another program that may still arrive.
 constexpr int kMostStale = 200;
-// Tolerances of the device's tick against the host's clock.
+// Tolerances for the difference between the device's tick and the host's clock.
 constexpr double kTickSlack_ms = 500, kTickDrift = 0.001;
 constexpr double kStepSlack_counts = 16;
 
@@ -77,8 +77,8 @@ Status PoKeys57u::open() {
   return {};
 }
 
-// Finds the device by its serial number. The device itself is asked for it, because its USB string
-// has two formats.
+// Finds the device by its serial number. The driver asks each device for its number, because the
+// USB serial string has two formats.
 Status PoKeys57u::connect() {
   std::vector<std::string> others;
   Status failed;
@@ -157,7 +157,8 @@ Status PoKeys57u::set_up_encoders() {
   return check_enabled(now);
 }
 
-// Encoders 1 to 3 may be fast encoders, which are enabled elsewhere, so they are not checked.
+// Encoders 1 to 3 are not checked, because they may be fast encoders, which are enabled in another
+// setting.
 Status PoKeys57u::check_enabled(const Frame& options) const {
   for (const Input& input : settings_.inputs) {
     if (input.index < 3 || input.index >= kEncoders) continue;
@@ -169,9 +170,10 @@ Status PoKeys57u::check_enabled(const Frame& options) const {
   return {};
 }
 
-// Compares the device's milliseconds since power-on with the time of the host. If they differ, the
-// device has lost power and its counts have started at 0. The difference is taken modulo 2^32, so
-// after more than 24.9 days a restart appears as a tick that is ahead.
+// Compares the device's tick (milliseconds since it was switched on) with the host's clock. If they
+// do not agree, the power of the device has failed and its counts have started at 0 again. The
+// difference is calculated modulo 2^32. Therefore after more than 24.9 days a restart appears as a
+// tick that is too large; this is detected too.
 Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
   MDOF_TRY(const auto reply, exchange(request(kTick)));
   if (!reply) return std::nullopt;
@@ -203,8 +205,8 @@ Result<std::optional<PoKeys57u::Reply>> PoKeys57u::exchange(Frame asked) {
   return std::nullopt;
 }
 
-// The command byte is not compared, because the specification prints a different byte for some
-// replies. Number and checksum are sufficient.
+// The command byte is not compared, because the specification states another byte for some replies.
+// The request number and the checksum are sufficient.
 Result<std::optional<Frame>> PoKeys57u::reply_to(std::uint8_t id, Time until) {
   for (;;) {
     const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
@@ -252,7 +254,7 @@ Status PoKeys57u::poll(SampleBlock& block) {
                   " ms; check the cable, and end any other program that uses the device");
 }
 
-// Requests the blocks of counts and the analogue inputs that the channels need.
+// Requests only those blocks of counts and analogue inputs that the channels use.
 Result<std::optional<PoKeys57u::Span>> PoKeys57u::fetch() {
   std::array<bool, 3> needed{};
   for (const Input& input : settings_.inputs) needed[input.index / kCountersPerBlock] = true;

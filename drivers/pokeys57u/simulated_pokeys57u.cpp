@@ -25,7 +25,7 @@ std::string keyboard_report() {
                    0x75, 0x08, 0x81, 0x01, 0x95, 0x06, 0x75, 0x08, 0x15, 0x00, 0x25, 0x65,
                    0x05, 0x07, 0x19, 0x00, 0x29, 0x65, 0x81, 0x00, 0xC0});
 }
-// 64 bytes in each direction, of a vendor-defined usage page.
+// 64 bytes in each direction, with a vendor-defined usage page.
 std::string vendor_report() {
   return bytes_of({0x06, 0x00, 0xFF, 0x09, 0x01, 0xA1, 0x01, 0x15, 0x00,
                    0x26, 0xFF, 0x00, 0x75, 0x08, 0x95, 0x40, 0x09, 0x02,
@@ -73,7 +73,7 @@ SimulatedPokeys57u::SimulatedPokeys57u(Senses senses, Options options)
 usb::Reply SimulatedPokeys57u::control(const usb::Setup& setup, std::string_view out,
                                        std::int64_t now_ns) {
   switch (setup.request) {
-    case kHidSetReport:  // used by a host that does not use the endpoint
+    case kHidSetReport:  // for hosts that do not use the OUT endpoint
       return setup.index == kInterface ? this->out(kOut, out, now_ns) : usb::Reply{};
     case kHidSetIdle:
     case kHidSetProtocol:

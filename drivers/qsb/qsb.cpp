@@ -20,7 +20,8 @@ constexpr const char* kDatumLost = "the QSB was reset or lost power, and its cou
 constexpr const char* kAtMark =
     "the index signal is always active, so either index_inverted of the channel is wrong, or the "
     "axis is at its reference mark";
-constexpr double kMaxStampLead_ns = 2e9;  // largest lead of a stamp over the host's clock
+// Largest difference by which a stamp may be ahead of the host's clock.
+constexpr double kMaxStampLead_ns = 2e9;
 
 }  // namespace
 
@@ -87,8 +88,8 @@ Status Qsb::connect() {
   return {};
 }
 
-// Stops a running stream and sets the format of the replies. A device that does not answer is reset
-// once, which loses its count.
+// Stops a running stream and sets the format of the replies. If the device does not reply, resets
+// it once; the count of the device is then lost.
 Status Qsb::stop_stream_and_set_format() {
   for (const bool reset : {false, true}) {
     if (reset && !options_.address) {
@@ -97,7 +98,7 @@ Status Qsb::stop_stream_and_set_format() {
       MDOF_TRY(const auto banner, stream_->drain(kBannerWait / 2, kBannerWait));
       (void)banner;
     }
-    // An empty line ends an incomplete line that was sent before.
+    // If an incomplete command was sent before, an empty line ends it.
     MDOF_CHECK(stream_->write(
         "\r\n" + qsb_command('W', qsb::kCommand, 1) + qsb_command('W', qsb::kEor, qsb::kFullLines),
         kAnswer));
@@ -121,7 +122,8 @@ Status Qsb::check_identity() {
                   "; this port belongs to another device; give a port in /dev/serial/by-id");
 }
 
-// A reset clears the count and the settings, so a changed interval shows a reset.
+// A reset clears the count and the settings. Therefore a changed interval shows that the device was
+// reset.
 Status Qsb::watch_for_reset() {
   if (!counted_) return {};
   MDOF_TRY(const QsbReply interval, ask('R', qsb::kInterval, std::nullopt));
@@ -148,7 +150,7 @@ Status Qsb::configure() {
   return {};
 }
 
-// The preset is kept over open(), because the axis may have passed the mark while the driver was
+// open() does not change the preset, because the axis may have passed the mark while the driver was
 // closed.
 Status Qsb::await_mark() {
   if (!options_.channel.index_mm) {
@@ -180,7 +182,8 @@ Result<QsbReply> Qsb::ask(char type, std::uint8_t reg, std::optional<std::uint32
   return *reply;
 }
 
-// Returns the next reply about `reg` and ignores other lines. nullopt: silence.
+// Returns the next reply that contains the register `reg`; ignores other lines. nullopt: no line
+// arrived.
 Result<std::optional<QsbReply>> Qsb::one_reply(std::uint8_t reg, milliseconds timeout) {
   const auto until = steady_clock::now() + timeout;
   for (;;) {
@@ -199,7 +202,8 @@ Result<std::optional<QsbReply>> Qsb::one_reply(std::uint8_t reg, milliseconds ti
 std::optional<std::string> Qsb::next_line() {
   const std::size_t end = received_.find('\n');
   if (end == std::string::npos) {
-    if (received_.size() > kLongestLine) return std::exchange(received_, "");  // malformed
+    // Too long, so the line is malformed.
+    if (received_.size() > kLongestLine) return std::exchange(received_, "");
     return std::nullopt;
   }
   std::string line = received_.substr(0, end);
@@ -222,7 +226,8 @@ Result<ReadState> Qsb::read(SampleBlock& block, milliseconds timeout) {
 }
 
 void Qsb::return_samples(SampleBlock& block) {
-  // Losses and passed marks are counted at the beginning of a block, so they start a new block.
+  // Lost lines and passed marks apply to the beginning of a block. Therefore a sample with a loss
+  // or a mark begins a new block.
   while (!samples_.empty()) {
     const Sample& sample = samples_.front();
     const bool at_mark = sample.marks_passed != marks_passed_;
@@ -261,7 +266,7 @@ Status Qsb::take_line(std::string_view line, std::int64_t received_ns) {
   const auto reply = parse_qsb_line(line);
   if (reply && reply->type == 's' && reply->reg == qsb::kCount && reply->stamp)
     return take_sample(*reply, received_ns);
-  // Reply to switching the index off.
+  // This line is the reply to the command that disables the index.
   if (reply && reply->type == 'w' && reply->reg == qsb::kMdr0) return {};
   return take_malformed();
 }
@@ -276,7 +281,7 @@ Status Qsb::take_malformed() {
 Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
   const std::int64_t stamp = stamp_(*reply.stamp);
   const std::int64_t step = last_stamp_ ? stamp - *last_stamp_ : 0;
-  if (last_stamp_ && step == 0) {  // a repeated tick has no new data
+  if (last_stamp_ && step == 0) {  // a repeated stamp means that the line has no new data
     malformed_in_a_row_ = 0;
     return {};
   }
@@ -303,8 +308,8 @@ Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
   return {};
 }
 
-// A count that is astray is a damaged line. If many lines in a row are astray, the count has a new
-// zero.
+// If one count is astray, its line was damaged. If many successive counts are astray, the count has
+// a new zero.
 Result<IndexMark::State> Qsb::watch_mark(std::int64_t count, std::int64_t received_ns) {
   using State = IndexMark::State;
   const State before = mark_.state();

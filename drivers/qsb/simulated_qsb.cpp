@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::uint32_t kFactoryEor = 0x0B, kNoOutput = 0xFFFF;
 constexpr std::uint32_t kVersionOfTests = 0x00001201;  // serial 00001, QSB-S, firmware 01
-constexpr std::uint32_t kFar = 0x3000'0000;  // neither a motion nor the preset of the mark
+// A count that neither a motion nor the preset of the mark explains.
+constexpr std::uint32_t kFar = 0x3000'0000;
 constexpr const char* kBanner = "QSB-S  0E!\r\n";
 
 std::uint32_t hex(std::string_view text) {
@@ -55,8 +56,9 @@ std::uint32_t SimulatedQsb::count_at(std::int64_t t_ns) {
   return static_cast<std::uint32_t>(std::llround(position - count_from_));
 }
 
-// If the index is configured to load, the counter loads DTR at the mark. With the wrong polarity it
-// loads DTR at every position where A and B are alike (every second count), except at the mark.
+// If the index is set to load, the counter loads the number in DTR at the mark. With the wrong
+// polarity it loads this number at every second count (where A and B are equal), except at the
+// mark.
 void SimulatedQsb::watch_mark(double position) {
   const double from = std::exchange(last_position_, position);
   const bool loads = (registers_[qsb::kMdr0] & 0x30) == qsb::kIndexLoads;
@@ -78,7 +80,7 @@ std::uint32_t SimulatedQsb::read(std::uint8_t reg, std::int64_t now_ns) {
 }
 
 void SimulatedQsb::write(std::uint8_t reg, std::uint32_t data, std::int64_t now_ns) {
-  if (reg == qsb::kMdr0) watch_mark(senses_(0, now_ns));  // with the old setting
+  if (reg == qsb::kMdr0) watch_mark(senses_(0, now_ns));  // uses the setting before this change
   if (reg == qsb::kCommand && data == 1) streaming_ = false;
   if (reg == qsb::kStamp && data == 1) stamp_from_ns_ = now_ns;
   registers_[reg] = data;

@@ -43,7 +43,7 @@ Result<DriverSpec> configure_replay(TomlTable& table, const DriverContext& conte
   const std::string file = table.string("file");
   MDOF_CHECK(table.finish());
   const auto path = std::filesystem::path(context.base_path) / file;
-  std::error_code ec;  // for users, an unreadable path is like a missing file
+  std::error_code ec;  // an unreadable path is treated as a missing file
   if (!std::filesystem::is_regular_file(path, ec)) {
     return bad_input(table.where("file") + ": " + path.string() +
                      " is not a readable file; give the path of a recording or of a probe log");

@@ -22,7 +22,8 @@ bool describes(const RecordingChunk& chunk, const SampleBlock& block) {
          block.lost == chunk.lost;
 }
 
-// In floating point, because time stamps of a damaged file may differ too much for integers.
+// The difference is calculated in floating point, because in a damaged file it may be too large for
+// an integer.
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
   return (static_cast<double>(to_ns) - static_cast<double>(from_ns)) / kNsPerS;
 }
@@ -91,7 +92,7 @@ Status RecordingLog::read_header() {
   MDOF_TRY(header_.request, value("request"));
   MDOF_TRY(const std::string simulated, value("simulated"));
   MDOF_TRY(const std::string sha256, value("sha256"));
-  // Any other text is not a measurement either.
+  // Any text other than "0" means that the recording is simulated.
   header_.simulated = info_.simulated = simulated != "0";
   if (sha256 == sha256_of(header_)) return {};
   return bad_input(
@@ -127,7 +128,8 @@ Status RecordingLog::read_extent() {
   return {};
 }
 
-// From the first chunk of each device. If it is damaged, read() reports the details.
+// Reads the channels from the first chunk of each device. If this chunk is damaged, read() reports
+// the details.
 Status RecordingLog::find_channels() {
   info_.channels.clear();
   MDOF_TRY(Statement rows, connection_->prepare("SELECT min(seq) FROM chunk GROUP BY device "
@@ -217,7 +219,8 @@ std::string RecordingLog::span_of(const RecordingChunk& chunk) const {
   return text;
 }
 
-// Text such as "chunks 1-6, 8-20". It is only needed after an error, so it may be slow.
+// Returns text such as "chunks 1-6, 8-20". It may be slow, because it is called only after an
+// error.
 std::string RecordingLog::undamaged_chunk_text() {
   std::string text;
   std::int64_t first = 0, last = -1;  // range of undamaged chunks
@@ -240,7 +243,8 @@ std::string RecordingLog::undamaged_chunk_text() {
   return text.empty() ? "no chunk" : text;
 }
 
-// The numbers of the chunks that can be listed; a damaged file may end the list early.
+// Returns the numbers of the chunks that can be listed. If the file is damaged, the list may be
+// incomplete.
 std::vector<std::int64_t> RecordingLog::chunk_numbers() {
   std::vector<std::int64_t> numbers;
   auto rows = connection_->prepare("SELECT seq FROM chunk ORDER BY seq");

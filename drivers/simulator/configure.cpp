@@ -20,7 +20,8 @@ Result<DriverSpec> configure_simulator(TomlTable& table, const DriverContext& co
     return std::unique_ptr<Driver>(std::move(simulator));
   };
   spec.source_info = [](const Driver&) { return SourceInfo{}; };
-  MDOF_TRY(const auto tried, spec.make());  // reports errors against the rig at start-up
+  // Finds errors of the options for this rig already at the start.
+  MDOF_TRY(const auto tried, spec.make());
   return spec;
 }
 

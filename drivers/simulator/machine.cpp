@@ -12,7 +12,7 @@
 namespace mdof::drivers {
 namespace {
 
-// Streams of random numbers, distinguished by a word of the Philox counter.
+// Random sequences; each sequence has its own word in the Philox counter.
 enum Stream : std::uint32_t { kValue = 1, kSaturation = 2, kGap = 3 };
 
 Philox draw(std::int64_t seed, Stream stream, std::size_t channel, std::uint64_t index) {
@@ -29,7 +29,7 @@ bool in_burst(const Bursts& bursts, std::int64_t seed, Stream stream, std::size_
   return uniform(random[0], random[1]) < bursts.probability;
 }
 
-// In m or rad; µm and µrad have the same factor.
+// Error in m or rad. The factor from µm or µrad is the same.
 double value_of(const NamedError& error, double travel_m, int direction) {
   const double d_mm = to_mm(travel_m);
   const double wave = sine_of_turns(d_mm / error.period_mm + error.phase_turns);

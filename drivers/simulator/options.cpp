@@ -23,14 +23,15 @@ std::string text_of(double x) {
   return text;
 }
 
-// Overwrites `value` if the key is given; rejects values outside [min, max] and NaN.
+// Sets `value` if the key is given. Rejects NaN and values outside [min, max].
 void read(TomlTable& table, std::string_view key, double& value, double min, double max) {
   value = table.number(key, value);
   if (!(value >= min && value <= max))
     table.reject(key, "must be from " + text_of(min) + " to " + text_of(max));
 }
 
-// Returns true if `key` is `yes`, false if it is `no`, `fallback` if it is missing.
+// Returns true if the value of `key` is `yes`, false if it is `no`, and `fallback` if the key is
+// missing.
 bool read_choice(TomlTable& table, std::string_view key, const char* yes, const char* no,
                  bool fallback) {
   const std::string word = table.string(key, fallback ? yes : no);
@@ -142,7 +143,7 @@ std::string names_of(Axis axis) {
   return list;
 }
 
-// The errors in the order of error_names(); errors that are not given are zero.
+// Returns the errors in the order of error_names(). Errors that are not given are zero.
 Result<std::vector<NamedError>> in_order(const std::vector<NamedError>& given, Axis axis) {
   std::vector<NamedError> ordered(kErrorCount);
   for (const NamedError& error : given) {

@@ -12,7 +12,7 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr std::size_t kBlockScans = 1024;  // in one read
+constexpr std::size_t kBlockScans = 1024;  // most scans in one read
 constexpr std::chrono::milliseconds kLongestWait{3'600'000};
 
 std::string describe(const Rig& rig, const SimulatorOptions& options) {
@@ -74,7 +74,7 @@ Result<ReadState> Simulator::read(SampleBlock& block, std::chrono::milliseconds 
     if (t_ns > due_ns) break;
     const Interval* gone = disconnect_at(t_ns);
     const bool gap = machine_.in_gap(t_ns);
-    // A block ends before an interruption of the scans; the next read begins with it.
+    // A block ends before an interruption of the scans; the next read() begins at the interruption.
     if ((gone || gap || ended(t_ns)) && block.scans() > 0) break;
     if (ended(t_ns)) return ReadState::end;
     if (gone) {
@@ -103,7 +103,7 @@ std::int64_t Simulator::now() const {
   return clock_.now_ns() - *start_ns_;
 }
 
-// Sleeps until a packet is complete or the time-out has elapsed; returns the present time.
+// Sleeps until a packet is complete, or until the time-out. Returns the present time.
 std::int64_t Simulator::wait_for_packet(std::chrono::milliseconds timeout) const {
   const double scans = std::floor(options_.packet_ms * 1e-3 * options_.rate_hz);
   const auto packet = static_cast<std::uint64_t>(std::max(1.0, scans));

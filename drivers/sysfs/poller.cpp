@@ -71,7 +71,8 @@ Result<ReadState> SysfsPoller::read(SampleBlock& block, std::chrono::millisecond
     if (next_ns_ > until_ns) break;
     MDOF_CHECK(poll(block));
     schedule_next(monotonic_ns());
-    // Losses and passed marks are counted at the beginning of a block, so they start a new block.
+    // Lost polls and passed marks apply to the beginning of a block. Therefore a scan after a loss
+    // or a mark begins a new block.
   } while (next_ns_ < std::max(full_ns, block.scans() == 0 ? until_ns : 0) && lost_ == 0 &&
            !passed_mark_);
   return ReadState::more;
@@ -108,11 +109,11 @@ Status SysfsPoller::count_failure(const Error& why) {
                   " readings in a row failed; the last error: " + why.message);
 }
 
-// Schedules the next poll on the even time grid. A poll that is late by less than a period is still
-// made; earlier polls are lost.
+// Schedules the next poll at a multiple of the period. If the poll is late by less than one period,
+// it is still made; polls that are later are lost.
 void SysfsPoller::schedule_next(std::int64_t now_ns) {
   next_ns_ += period_ns_;
-  if (next_ns_ > now_ns - period_ns_) return;  // late, but not lost
+  if (next_ns_ > now_ns - period_ns_) return;  // late, but less than one period
   const std::int64_t missed = (now_ns - next_ns_) / period_ns_;
   lost_ += static_cast<std::uint64_t>(missed);
   next_ns_ += missed * period_ns_;

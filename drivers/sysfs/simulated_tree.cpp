@@ -20,7 +20,7 @@ Result<SimulatedTree> SimulatedTree::make(const std::filesystem::path& folder,
   return tree;
 }
 
-// The rest of a longer old text lies after the first line, which readers ignore.
+// If the old text is longer, its rest remains after the first line; readers ignore it.
 Status SimulatedTree::set(const std::string& file, const std::string& text) const {
   const auto path = folder_ / file;
   std::error_code ignored;

@@ -14,7 +14,7 @@ constexpr std::uint8_t kVendorIn = 0xC0, kVendorOut = 0x40;
 constexpr std::size_t kPacket = 64;
 constexpr std::chrono::seconds kToDrain{1};
 
-// Runs the transfer. On return it has ended, or was cancelled and freed.
+// Runs the transfer. When the function returns, the transfer has ended, or was cancelled and freed.
 Status run(const Connection& connection, Transfers& one, std::chrono::milliseconds timeout) {
   Transfer& transfer = *one.front();
   MDOF_CHECK(transfer.submit());

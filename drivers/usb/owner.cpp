@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Uses readlink(), which programs that simulate a bus can intercept.
+// Uses readlink(), because programs that simulate a bus can intercept this function.
 std::string target_of(const std::string& link) {
   std::array<char, 512> text{};
   const ssize_t n = ::readlink(link.c_str(), text.data(), text.size());

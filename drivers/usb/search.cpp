@@ -49,7 +49,7 @@ std::string ids(const Wanted& wanted) {
 
 }  // namespace
 
-// A context and the matching devices in it; all except one are closed at the end.
+// A libusb context and the matching devices in it. At the end, all devices except one are closed.
 class Search {
  public:
   explicit Search(const Wanted& wanted) : wanted_(wanted) {}
@@ -85,7 +85,8 @@ class Search {
     }
   }
 
-  // Opens the device and claims it, unless its descriptor states another serial number.
+  // Opens the device and claims its interface, unless the descriptor of the device states another
+  // serial number.
   Result<Handle> open(libusb_device* device, std::uint8_t serial_index, const Place& place) {
     Handle handle(std::make_shared<Connection>(), text_of(place));
     Connection& connection = *handle.connection_;
@@ -107,7 +108,7 @@ class Search {
     return handle;
   }
 
-  // "": it cannot be read.
+  // Returns "" if the serial number cannot be read.
   static std::string read_serial(Handle& handle, std::uint8_t index) {
     const auto value = static_cast<std::uint16_t>(LIBUSB_DT_STRING << 8 | index);
     const auto bytes = handle.control(LIBUSB_ENDPOINT_IN, LIBUSB_REQUEST_GET_DESCRIPTOR, value,

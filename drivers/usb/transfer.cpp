@@ -12,7 +12,7 @@ using std::chrono::microseconds;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kToCancel{1};
-constexpr microseconds kInstant{100};  // a shorter wait without result did not really wait
+constexpr microseconds kInstant{100};  // if a wait without a result is shorter, libusb did not wait
 constexpr microseconds kRest{200};
 
 void LIBUSB_CALL on_end(libusb_transfer* raw) {
@@ -72,7 +72,8 @@ std::string Transfer::received() const {
 }
 
 bool cancel_all(const Connection& connection, const Transfers& transfers) {
-  // Cancels the newest first, so that no later transfer starts meanwhile.
+  // Cancels the newest transfer first. Otherwise a later transfer could start while the earlier
+  // transfers are cancelled.
   for (auto each = transfers.rbegin(); each != transfers.rend(); ++each)
     if ((*each)->in_flight) libusb_cancel_transfer((*each)->raw);
   const auto all_ended = [&] {

@@ -50,7 +50,7 @@ std::string table_sha256(const CompensationTable& t) {
 
 namespace {
 
-// No target was read twice by the same approach.
+// Whether no target was measured twice with the same approach.
 bool has_single_readings(const PositioningErrors& along) {
   const auto unknown = [](double u_random) { return std::isnan(u_random); };
   return std::all_of(along.u_forward.begin(), along.u_forward.end(), unknown) &&

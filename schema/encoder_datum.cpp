@@ -8,7 +8,7 @@ namespace {
 
 using Kind = EncoderDatum::Kind;
 
-constexpr int kDigits = 9;  // 1 nm in a metre
+constexpr int kDigits = 9;  // number of significant digits: 1 nm for a position of up to 1 m
 
 constexpr Kind kKinds[] = {Kind::absolute, Kind::none, Kind::configured, Kind::set, Kind::index};
 

@@ -24,8 +24,9 @@ constexpr const char* kPositioningTableSense =
     "correction = factor times the error, added to the command of the axis \"command\" (see "
     "\"correction\" for factor and command)";
 
-// {"EYX_um": {"factor", "command", "reason"}, ...}. The correction is factor times the error, added
-// to the command of the axis "command". factor null: no correction, for the reason given.
+// Writes {"EYX_um": {"factor", "command", "reason"}, ...}. The correction is the factor times the
+// error; it is added to the command of the axis "command". If the factor is null, there is no
+// correction, and "reason" states why.
 void write_corrections(JsonWriter& json, const CompensationTable& t) {
   const CorrectionSigns signs = correction_signs(t.machine, t.axis, t.sides, t.stated.reference);
   json.key("correction").begin_object();
@@ -44,7 +45,7 @@ void write_corrections(JsonWriter& json, const CompensationTable& t) {
   json.end_object();
 }
 
-// Values of one approach of a table.
+// Values of the table for one approach.
 struct Side {
   bool is_forward;
   const std::array<std::vector<double>, 5>&values, &u;
@@ -83,7 +84,7 @@ double plain(double x) {
   return x + 0.0;
 }
 
-// True if there are more than five readings. Five readings leave no residual.
+// True if the point has more than five readings. Five readings have no residual.
 bool redundant(const MeasuredPoint& p) {
   return std::count_if(p.point.probe_m.begin(), p.point.probe_m.end(),
                        [](double m) { return std::isfinite(m); }) > kErrorCount;
@@ -159,7 +160,7 @@ void write_temperature(JsonWriter& json, const std::optional<Temperature>& read)
 
 namespace {
 
-// For an imported run, moves is unknown and travel is known only if the import states it.
+// For an imported run, "moves" is unknown, and "travel" is known only if the import states it.
 void write_sides(JsonWriter& json, const RunHeader& h) {
   json.key("moves");
   is_imported(h) ? json.null() : json.value(h.sides.moves());
@@ -328,7 +329,7 @@ void write_table_members(JsonWriter& json, const CompensationTable& t) {
   for (const auto id : t.runs) json.value(id);
   json.end_array();
   write_reference(json, t);
-  if (t.has_positioning()) {  // positioning does not depend on the moving body and its direction
+  if (t.has_positioning()) {  // positioning does not depend on which body moves
     json.key("moves").null().key("travel").null();
     json.field("positioning_sense", to_string(kTablePositioningSense));
   } else {

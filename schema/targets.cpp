@@ -9,7 +9,7 @@ namespace mdof {
 namespace {
 
 constexpr double kMostTargets = 10'000;
-constexpr double kAlike = 0.01;  // of a period
+constexpr double kAlike = 0.01;  // relative to a period
 
 bool whole_periods(double interval_mm, double period_mm) {
   const double periods = interval_mm / period_mm;
@@ -36,7 +36,8 @@ std::vector<double> spaced_targets_mm(const TargetSpacing& s) {
     const Philox random = philox({i, 0, 0, kPurpose}, static_cast<std::uint64_t>(s.seed));
     const double offset_mm = s.jitter_mm * (2 * uniform(random[0], random[1]) - 1);
     const double even_mm = s.from_mm + i * s.interval_mm, shifted_mm = even_mm + offset_mm;
-    // A shift beyond the ends is mirrored inwards: the machine may have a limit there.
+    // A shift beyond the first or last position is mirrored, because the limit of the axis may be
+    // there.
     const bool is_within = shifted_mm >= s.from_mm && shifted_mm <= s.to_mm;
     targets_mm.push_back(is_within ? shifted_mm : std::min(even_mm - offset_mm, s.to_mm));
   }

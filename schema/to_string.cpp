@@ -1,4 +1,4 @@
-// Enumerations as text.
+// Converts enumerations to text.
 #include "schema/point.h"
 #include "schema/run.h"
 #include "schema/sample.h"

@@ -26,9 +26,9 @@ class Descriptor {
   int descriptor_;
 };
 
-// Opens a regular file, or gives the reason why it cannot be read.
+// Opens a regular file. The error states why the file cannot be read.
 Result<std::unique_ptr<Descriptor>> opened(const std::filesystem::path& file) {
-  // O_NONBLOCK: open() must not wait for a writer of a pipe.
+  // With O_NONBLOCK, open() does not wait for the writer of a pipe.
   auto in = std::make_unique<Descriptor>(
       ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   struct stat status {};
@@ -40,7 +40,7 @@ Result<std::unique_ptr<Descriptor>> opened(const std::filesystem::path& file) {
   return in;
 }
 
-// Reads into `room` and returns the number of bytes, 0 at the end.
+// Reads into `room` and returns the number of bytes; 0 at the end of the file.
 Result<std::size_t> read_some(const Descriptor& in, const std::filesystem::path& file, char* room,
                               std::size_t size) {
   for (;;) {
@@ -55,7 +55,7 @@ Result<std::size_t> read_some(const Descriptor& in, const std::filesystem::path&
 
 Result<std::string> read_text_file(const std::filesystem::path& file, std::size_t limit_bytes) {
   MDOF_TRY(const auto in, opened(file));
-  // Reserves no more than the size of the file, because the caller may keep the text.
+  // limit_bytes are not reserved: most files are much smaller, and the caller may keep the text.
   std::string text;
   std::array<char, 16 * 1024> piece;
   while (text.size() <= limit_bytes) {

@@ -18,7 +18,7 @@ InstructionSet best_of_processor() {
   return InstructionSet::baseline;
 }
 
-// The set named by the environment; nullptr: none.
+// Returns the name in the environment variable; nullptr: no name.
 const char* asked_for() {
   const char* const name = std::getenv(kVariable);
   return name && *name ? name : nullptr;

@@ -13,8 +13,8 @@ void append_number(std::string& text, T x) {
   text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, x).ptr);
 }
 
-// Length of the UTF-8 sequence at the beginning of the text; 0 if invalid. The ranges are those of
-// RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
+// Length of the UTF-8 sequence at the beginning of the text; 0: invalid. The valid ranges are those
+// of RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
 std::size_t utf8_length(std::string_view text) {
   auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   auto within = [&](std::size_t i, int low, int high) {
@@ -35,7 +35,7 @@ std::size_t utf8_length(std::string_view text) {
 }
 
 void append_escaped(std::string& text, char c) {
-  // Pairs: character, letter of its escape.
+  // Pairs of a character and the letter of its escape.
   constexpr std::string_view kShort = "\"\"\\\\\nn\rr\tt";
   for (std::size_t i = 0; i < kShort.size(); i += 2)
     if (kShort[i] == c) {
@@ -108,7 +108,7 @@ JsonWriter& JsonWriter::key(std::string_view name) {
 JsonWriter& JsonWriter::value(double x) {
   if (!std::isfinite(x)) return null();
   separate();
-  append_number(text_, x + 0.0);  // -0 is 0
+  append_number(text_, x + 0.0);  // + 0.0 converts -0 to 0
   return *this;
 }
 

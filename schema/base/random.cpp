@@ -9,10 +9,11 @@
 namespace mdof {
 namespace {
 
-// Two numbers in one register; every x86-64 calculates both at once, other processors one by one.
+// Two numbers in one register. x86-64 processors calculate both at once, other processors one after
+// the other.
 typedef double Pair __attribute__((vector_size(16)));
 
-// c[0] + c[1] x + c[2] x² ...
+// Calculates c[0] + c[1] x + c[2] x² ...
 template <std::size_t n, class Number>
 Number polynomial(const double (&c)[n], Number x) {
   Number sum = Number{} + c[n - 1];
@@ -102,7 +103,8 @@ double gaussian(double p) {
   return q < 0 ? -x : x;
 }
 
-// Calculates the central formula for all values, two at a time, and the tails one by one.
+// Uses the formula for the central range for all values, two at a time. Then recalculates the
+// values in the tails, one by one.
 void gaussians(std::span<double> p) {
   constexpr std::size_t kSome = 64;
   std::array<double, kSome> centre{};

@@ -15,7 +15,8 @@ bool needs_source(const std::string& layer) {
   return layer == "form" || layer == "milling";
 }
 
-// `layer = true`, `layer = "file"`, or a table { from = "file", on = true, compensated = false }.
+// The value is `layer = true`, `layer = "file"`, or a table { from = "file", on = true, compensated
+// = false }.
 void read_layer(TomlTable& layers, PartLayer& layer) {
   const std::string& key = layer.name;
   if (layers.is_table(key)) {
@@ -77,7 +78,7 @@ Result<PartPlan> parse_part_plan(std::string_view text, const std::string& sourc
     if (!layers || !layers->has(name)) continue;
     PartLayer layer{name, {}, true, false, {}};
     read_layer(*layers, layer);
-    // Alternative switch: axes_on = false.
+    // Another form of the switch: axes_on = false.
     const std::string on = std::string(name) + "_on";
     if (layers->has(on)) layer.on = layers->boolean(on);
     plan.layers.push_back(layer);

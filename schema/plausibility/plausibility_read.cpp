@@ -13,12 +13,12 @@ using simdjson::dom::element;
 
 constexpr std::int64_t kMostCount = std::numeric_limits<int>::max();
 
-// An object. `wrong` receives the name of the last member that is missing or has a wrong type.
+// A JSON object. `wrong` is set to the name of the last member that is missing or has a wrong type.
 class Row {
  public:
   Row(element object, std::string& wrong) : object_(object), wrong_(wrong) {}
 
-  // null is read as NaN.
+  // A null is read as NaN.
   double number(const char* key) const {
     const element found = take(key, element());
     double x = std::numeric_limits<double>::quiet_NaN();

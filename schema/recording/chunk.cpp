@@ -24,7 +24,7 @@ std::uint64_t unzigzag(std::uint64_t x) {
 
 // ---- writing ----
 
-// Unsigned arithmetic, because overflow is then defined; the reader reverses it.
+// Uses unsigned arithmetic, because its overflow is defined. The reader reverses the overflow.
 void put_times(std::string& out, const std::vector<std::int64_t>& time_ns) {
   std::uint64_t last = 0, step = 0;
   for (std::size_t i = 0; i < time_ns.size(); ++i) {
@@ -107,7 +107,8 @@ Status get_channels(ByteReader& in, SampleBlock& block) {
 
 Status get_times(ByteReader& in, std::vector<std::int64_t>& time_ns) {
   const std::uint64_t count = in.varint();
-  if (count > in.left()) return damaged("more scans than bytes");  // at least one byte a scan
+  // Each scan needs at least one byte.
+  if (count > in.left()) return damaged("more scans than bytes");
   time_ns.resize(count);
   std::uint64_t last = 0, step = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -205,7 +206,7 @@ Result<std::string> encode_chunk(const SampleBlock& block) {
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
   const std::size_t packed = ZSTD_compress2(context.get(), out.data() + kHeadBytes,
                                             out.size() - kHeadBytes, raw.data(), raw.size());
-  assert(!ZSTD_isError(packed));  // the size is zstd's own bound
+  assert(!ZSTD_isError(packed));  // zstd itself has calculated the room that it needs
   out.resize(kHeadBytes + packed);
   return out;
 }
@@ -215,7 +216,7 @@ Status decode_chunk(std::string_view bytes, SampleBlock& block) {
   const std::size_t size = declared_size(bytes);
   if (size > kMaxChunkBytes) return damaged("the size exceeds the limit");
   const std::string_view frame = bytes.substr(kHeadBytes);
-  // Checked before memory is allocated: the frame must state the same size.
+  // The size is checked before memory is allocated: the zstd frame must state the same size.
   if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != size) return damaged("wrong size");
   std::string raw(size, '\0');
   const std::size_t got = ZSTD_decompress(raw.data(), size, frame.data(), frame.size());

@@ -12,7 +12,7 @@ namespace {
 
 using State = CsvLine::State;
 
-// A quoted field ends after the next quote that is not doubled (RFC 4180).
+// A quoted field ends after a quote that is not doubled (RFC 4180).
 std::size_t end_of_field(std::string_view line, std::size_t begin, bool may_be_quoted) {
   std::size_t from = begin;
   if (may_be_quoted && begin < line.size() && line[begin] == '"')
@@ -42,14 +42,14 @@ bool parse_whole_field(std::string_view field, double& x) {
   return !field.empty() && parse_double(field.data(), end, x) == end;
 }
 
-// A short, printable form of a field for messages.
+// Returns a short, printable form of a field for messages.
 std::string quoted(std::string_view field) {
   std::string text = "\"";
   for (const char c : field.substr(0, 40)) text += c >= ' ' && c < 127 ? c : '?';
   return text + (field.size() > 40 ? "...\"" : "\"");
 }
 
-// Empty: the field is a finite number.
+// Returns the reason why the field is invalid; empty: the field is a finite number.
 std::string reason_against(std::string_view field, bool parsed, double x) {
   if (field.empty()) return "is empty";
   if (!parsed) return quoted(field) + " is not a number";

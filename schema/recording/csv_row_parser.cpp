@@ -20,7 +20,7 @@ namespace {
 static_assert(kCsvMargin >= kColumnMargin && kCsvMargin >= kStopsMargin);
 constexpr std::size_t kBatchRows = 256;
 
-// The bytes that end the fields of a batch of good rows.
+// Returns the bytes that end the fields of a batch of good rows.
 std::string row_stops(std::size_t columns, const std::string& line_end) {
   const std::string row = std::string(columns - 1, ',') + line_end;
   std::string rows;
@@ -119,10 +119,10 @@ void CsvRowParser::mark_missing(std::size_t channel) {
   }
 }
 
-// Reads as many consecutive plain rows as possible. Reads column by column in batches, so that text
-// and stops stay in the nearest cache and numbers of one kind are adjacent.
+// Reads as many successive plain rows as possible. It reads one column after the other, in batches.
+// Text and stops then stay in the fastest cache, and numbers of the same kind follow each other.
 void CsvRowParser::parse_plain_rows() {
-  if (blank_lines_) return;                // the next line reports the blank lines first
+  if (blank_lines_) return;                // the next line first reports the blank lines
   if (header_.has_text_columns()) return;  // a field may be quoted
   const std::size_t columns = header_.columns.size();
   for (;;) {
@@ -140,8 +140,8 @@ void CsvRowParser::parse_plain_rows() {
   }
 }
 
-// Number of the next lines that have the correct number of fields and end in LF, or in CR LF; at
-// most one batch and the free space of the block.
+// Returns the number of the next lines that have the correct number of fields and end in LF (or CR
+// LF, if `crlf`). The number is at most one batch, and at most the free space of the block.
 std::size_t CsvRowParser::plain_rows_ahead(bool crlf) const {
   const std::string& plain = crlf ? plain_crlf_rows_ : plain_rows_;
   const std::size_t stride = plain.size() / kBatchRows;
@@ -153,7 +153,7 @@ std::size_t CsvRowParser::plain_rows_ahead(bool crlf) const {
   return static_cast<std::size_t>(odd - found) / stride;
 }
 
-// Reads all channels of the next rows; returns the number of rows before the first field that is
+// Reads all channels of the next rows. Returns the number of rows before the first field that is
 // not plain.
 std::size_t CsvRowParser::read_columns(std::size_t rows, std::size_t stride) {
   for (std::size_t channel = 0; channel < header_.channels.size(); ++channel) {
@@ -167,8 +167,8 @@ std::size_t CsvRowParser::read_columns(std::size_t rows, std::size_t stride) {
   return rows;
 }
 
-// `read` of `rows` rows are read, and the next field is not a number. A probe that was lost has
-// missing values in many consecutive rows.
+// Call it when `read` of `rows` rows were read and the next field is not a number. If a probe
+// failed, its values are missing in many successive rows.
 std::size_t CsvRowParser::skip_missing_fields(std::size_t channel, const ColumnText& column,
                                               std::size_t rows, std::size_t read) {
   double* const out = block_.value[channel].data() + row_;
@@ -182,7 +182,8 @@ std::size_t CsvRowParser::skip_missing_fields(std::size_t channel, const ColumnT
   return read;
 }
 
-// The same for the times; returns the number of rows before a time that does not increase.
+// As read_columns(), for the times. Returns the number of rows before a time that does not
+// increase.
 std::size_t CsvRowParser::read_times(std::size_t rows, std::size_t stride) {
   std::int64_t* const out = block_.time_ns.data() + row_;
   if (header_.time_column < 0) {
@@ -199,7 +200,7 @@ std::size_t CsvRowParser::read_times(std::size_t rows, std::size_t stride) {
   return rows;
 }
 
-// Parses the line at begin_, of any form.
+// Parses the line at begin_; it may have any form.
 Status CsvRowParser::parse_one_line() {
   const std::size_t end = text_.find('\n', begin_);
   const CsvLine line = parse_csv_line(text_.substr(begin_, end - begin_), header_);
@@ -269,7 +270,7 @@ Status CsvRowParser::count_blank_line(std::size_t bytes) {
                    "empty lines, or record again");
 }
 
-// Reports blank lines that are not at the end of the file.
+// Reports the blank lines if they are not at the end of the file.
 Status CsvRowParser::report_blank_lines() {
   blank_bytes_ = 0;
   for (; blank_lines_ > 0; --blank_lines_)

@@ -33,7 +33,7 @@ std::string where(const CsvHeader& header, std::size_t column) {
          "\": ";
 }
 
-// The channel of a column; nullopt: unknown unit.
+// Returns the channel of a column; nullopt: the unit is unknown.
 std::optional<Channel> channel_of(const std::string& name) {
   static constexpr std::array kRead = {Unit::um, Unit::mm, Unit::volt, Unit::deg_c};
   static constexpr std::array kKept = {"s", "hz", "urad", "deg", "percent", "hPa", "kPa"};
@@ -47,7 +47,7 @@ std::optional<Channel> channel_of(const std::string& name) {
   return std::nullopt;
 }
 
-// Rejects text that is not comma separated; the message names the setting to change.
+// Rejects text whose separator is not a comma. The message states which setting to change.
 Status check_separator(const CsvHeader& header, std::string_view line) {
   if (line.find(',') != line.npos) return {};
   if (line.find(';') != line.npos)
@@ -76,12 +76,13 @@ bool has_time(CsvKind kind) {
   return kind == CsvKind::probe_log || kind == CsvKind::stream;
 }
 
-// Whether `name` is `of`, with or without a unit: "encoder", "encoder_counts".
+// Whether `name` is `of`, with or without a suffix: "encoder", "encoder_counts".
 bool is_named(std::string_view name, std::string_view of) {
   return name == of || (name.starts_with(of) && name.substr(of.size()).starts_with('_'));
 }
 
-// Time and position must have known units; the message suggests the probable intention.
+// Time and position must have known units. The message suggests the name that the user probably
+// meant.
 Status check_unit(const CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (is_named(name, kTimeName) && name != kTimeColumn && has_time(header.kind))

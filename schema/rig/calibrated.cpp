@@ -27,7 +27,7 @@ std::vector<std::string> names_of(TomlTable& rig) {
   return {rig.string("calibration")};
 }
 
-// The data of the rig that a record must match.
+// The data of the rig with which a record must agree.
 struct Fits {
   std::string source, name, axis;
   std::vector<std::string> probes;
@@ -86,15 +86,15 @@ Result<std::string> read_one(const std::filesystem::path& file, const Fits& rig,
   return std::string(parts.front());
 }
 
-// If the offset grows, the reading t = raw - offset decreases by the same amount; corrections by t
-// are shifted accordingly.
+// If the offset increases, the reading t = raw - offset decreases by the same amount. Corrections
+// that are functions of t must be shifted by this amount.
 void move_offset(Calibration& calibration, double offset_um) {
   const double by_um = offset_um - calibration.offset_um;
   calibration.offset_um = offset_um;
   for (auto& [reading_um, correction_um] : calibration.linearity) reading_um -= by_um;
   if (auto& stretch = calibration.calibrated_um)
     *stretch = {(*stretch)[0] - by_um, (*stretch)[1] - by_um};
-  auto& c = calibration.polynomial_um;  // p(t + by), by Horner's rule for each coefficient
+  auto& c = calibration.polynomial_um;  // coefficients of p(t + by), by Horner's rule
   for (std::size_t i = 0; i + 1 < c.size(); ++i)
     for (std::size_t j = c.size() - 1; j-- > i;) c[j] += by_um * c[j + 1];
 }
@@ -121,17 +121,17 @@ void apply(const std::string& record, const CalibratedProbe& found, Probe& probe
     move_offset(calibration, *found.offset_um);
     if (!probe.uncertainty.calibration.known()) probe.uncertainty.calibration = {found.u_offset_m};
   }
-  // Relative to the offset of the record.
+  // The range is relative to the offset of the record.
   if (found.calibrated_um) calibration.calibrated_um = found.calibrated_um;
   if (found.linearity.empty()) return;
   calibration.linearity = found.linearity;
   calibration.polynomial_um.clear();
-  if (!found.calibrated_um)  // a certificate, or a record of an older version
+  if (!found.calibrated_um)  // the record is a certificate or is from an older version
     calibration.calibrated_um = {found.linearity.front()[0], found.linearity.back()[0]};
 }
 
-// Removes covariances that are no longer valid: of positions and directions of earlier records that
-// this record replaces, and of zeros that the rig declares.
+// Removes covariances that are no longer valid: those of positions and directions in earlier
+// records that this record replaces, and those of zeros that the rig declares.
 void erase_invalid_covariances(CalibrationRecord& record, Rig& rig) {
   for (const CalibratedProbe& found : record.probes)
     for (const Probe& probe : rig.probes) {
@@ -220,7 +220,7 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
 
 namespace {
 
-// The file may contain any number.
+// The file may contain any number, so the number is limited.
 int freedom_of(const CalibrationRecord& record) {
   return static_cast<int>(std::clamp<std::int64_t>(record.freedom, 0, 1'000'000));
 }
@@ -243,7 +243,8 @@ Notices calibration_notices(const Rig& rig) {
   return notices;
 }
 
-// The rig is parsed only if it can contain a record, because lists have thousands of runs.
+// The rig is parsed only if its text can contain a record, because lists may contain thousands of
+// runs.
 Notices calibration_notices(std::string_view rig_text) {
   if (rig_text.find("calibration_record") == rig_text.npos) return {};
   const auto rig = parse_rig(rig_text, "rig");

@@ -9,7 +9,8 @@ int sign_of_error(const ChainAxis& measured) {
   return measured.carries_work ? -1 : 1;
 }
 
-// Why straightness at this reference does not apply to the tool; empty: it does.
+// Returns the reason why straightness at this reference does not apply to the tool; empty: it
+// applies.
 std::string reference_point_gap(const ChainAxis& measured, Axis axis, Sides sides,
                                 Reference reference) {
   const bool at_carriage = reference == Reference::carriage;
@@ -28,7 +29,8 @@ std::string reference_point_gap(const ChainAxis& measured, Axis axis, Sides side
          "correct the key moves of the rig; if not, build a table with the reference \"carriage\"";
 }
 
-// Why a rotary axis between the two changes the direction of the correction; empty: none does.
+// Returns the reason why a rotary axis between the two axes changes the direction of the
+// correction; empty: no axis changes it.
 std::string rotary_axis_gap(const Chain& chain, const ChainAxis& measured,
                             const ChainAxis& correcting) {
   const auto [first, last] = std::minmax({&measured, &correcting});

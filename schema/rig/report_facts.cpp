@@ -19,7 +19,7 @@ bool is_country_code(const std::string& code) {
          (" " + std::string(kCountryCodes)).find(" " + code + " ") != std::string::npos;
 }
 
-// Why the value is invalid; empty: it is valid.
+// Returns the reason why the value is invalid; empty: it is valid.
 std::string fault(std::string_view key, const std::string& value) {
   if (key == "country" && !value.empty() && !is_country_code(value))
     return "\"" + value +

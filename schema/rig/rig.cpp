@@ -15,14 +15,14 @@
 namespace mdof {
 namespace {
 
-constexpr double kMostDelay_us = 10e6;  // a longer average is not a reading of one position
+constexpr double kMostDelay_us = 10e6;  // with a longer delay, a reading is not from one position
 
 Vec3 unit_vector(Vec3 v) {
   const double norm = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   return {v[0] / norm, v[1] / norm, v[2] / norm};
 }
 
-// "+Z", "-X", or a vector [x, y, z] of any length.
+// Reads "+Z", "-X", or a vector [x, y, z] of any length.
 Vec3 read_direction(TomlTable& table, std::string_view key) {
   const std::string text = table.string(key);
   if (text.size() == 2 && (text[0] == '+' || text[0] == '-')) {
@@ -158,7 +158,7 @@ TargetPlane read_plane(TomlTable& table) {
   return plane;
 }
 
-// Reads one of two words; the first is the default.
+// Reads one of two words. If the key is missing, the first word applies.
 bool read_choice(TomlTable& table, const char* key, const char* first, const char* second) {
   const std::string word = table.string(key, first);
   if (word != first && word != second)
@@ -213,7 +213,7 @@ void read_artefact(TomlTable& table, Rig& rig) {
   rig.u_artefact_angle_rad = from_urad(u_urad);
 }
 
-// The chain must contain the rig's axis with the same direction of travel.
+// The chain must contain the axis of the rig, with the same direction of travel.
 void check_machine(TomlTable& table, const Rig& rig) {
   if (!rig.machine.known()) return;
   const std::string axis(1, letter(rig.axis));
@@ -226,7 +226,7 @@ void check_machine(TomlTable& table, const Rig& rig) {
                                "correct one of the two values");
 }
 
-constexpr std::size_t kMostProbes = 1000;  // limits the cost of comparing all pairs
+constexpr std::size_t kMostProbes = 1000;  // limits the time for the comparison of all pairs
 
 void reject_doubles(TomlTable& table, const std::vector<Probe>& probes) {
   for (std::size_t i = 0; i < probes.size(); ++i) {
@@ -270,14 +270,14 @@ std::optional<std::size_t> Rig::probe_index(std::string_view id) const {
 
 namespace {
 
-// A key of uncertainty.h: whether it is known for all parts that can have it, and whether it
-// contributes.
+// A key of uncertainty.h: whether it is known for all parts of the rig that can have it, and
+// whether it contributes to u.
 struct DeclaredKey {
   const char* key;
   bool everywhere, somewhere;
 };
 
-// `of(item)` is the declared uncertainty of the item.
+// `of(item)`: the declared uncertainty of the item.
 template <class Items, class Of>
 DeclaredKey declared_state(const char* key, const Items& items, Of of) {
   return {key,

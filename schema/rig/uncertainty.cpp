@@ -13,7 +13,7 @@ namespace {
 struct ShapeName {
   UncertaintyShape shape;
   const char* name;
-  double half_width_by_u;  // 0: no limits
+  double half_width_by_u;  // half width / standard uncertainty; 0: the distribution has no limits
 };
 // JCGM 101 table 1; GUM 4.3.7, 4.3.9.
 const std::array<ShapeName, 4> kShapes = {{

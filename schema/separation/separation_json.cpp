@@ -44,7 +44,7 @@ void write_series(JsonWriter& json, const DeterminedSeries& series, const char* 
   json.end_array().end_object();
 }
 
-// NaN: the places have different values.
+// Returns the value that all positions have; NaN: the positions have different values.
 double common(const Separation& fit, std::vector<double> DeterminedSeries::*of) {
   const double first = (fit.machine.*of).empty() ? std::nan("") : (fit.machine.*of).front();
   for (const DeterminedSeries* series : {&fit.machine, &fit.target})

@@ -15,7 +15,9 @@ namespace {
 using Kind = Distribution::Kind;
 
 constexpr std::size_t kSampleLimit_bytes = std::size_t{16} << 20;
-constexpr double kMostDof = 10'000;  // above this, t equals normal to six digits in its tails
+// With more degrees of freedom, the tails of t equal those of the normal distribution to six
+// digits.
+constexpr double kMostDof = 10'000;
 
 struct KindName {
   const char* name;
@@ -50,7 +52,7 @@ Kind read_kind(TomlTable& table) {
   return Kind::constant;
 }
 
-// Reads low and high, or half_width about the mean.
+// Reads low and high, or half_width on both sides of the mean.
 void read_limits(TomlTable& table, Distribution& d) {
   if (table.has("half_width")) {
     for (const char* key : {"low", "high"})

@@ -61,8 +61,8 @@ namespace {
 using namespace plan_parts;
 using Path = std::filesystem::path;
 
-// Returns the index of the word among the choices. A missing or invalid word gives `fallback`; an
-// invalid word is also rejected.
+// Returns the index of the word at `key` in the list of choices. Returns `fallback` if the word is
+// missing or invalid; an invalid word is also rejected.
 std::size_t read_choice(TomlTable& table, std::string_view key,
                         const std::vector<std::string>& choices, std::size_t fallback) {
   const std::string word = table.string(key, choices[fallback]);

@@ -1,4 +1,4 @@
-// Outputs, precision, indices, tolerances, compared fixture and settings of a plan.
+// Reads outputs, precision, indices, tolerances, the compared fixture and the settings of a plan.
 #include <algorithm>
 #include <set>
 

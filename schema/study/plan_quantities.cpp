@@ -1,4 +1,4 @@
-// Quantities of a plan, including the truth, and their dependence.
+// Reads the quantities of a plan, including the true errors, and the dependence of the quantities.
 #include <algorithm>
 #include <cmath>
 
@@ -18,11 +18,11 @@ namespace {
 using Kind = Distribution::Kind;
 using Path = std::filesystem::path;
 
-// Default values if a plan has no [truth], from the simulations of the paper.
+// Default values from the simulations in the paper, for a plan without [truth].
 constexpr double kTruth_um = 50, kTruth_urad = 1000, kTravel_mm = 60;
 
-// Targets of a name on the rigs of the plan. If no rig has the name, the error is that of the first
-// rig.
+// Returns the targets of a name on the rigs of the plan. If no rig has the name, returns the error
+// for the first rig.
 Result<std::vector<QuantityTarget>> resolve_on_rigs(const StudyPlan& plan,
                                                     const std::string& name) {
   auto targets = resolve_quantity(name, plan.rig);
@@ -56,7 +56,8 @@ void add_usual_range(StudyPlan& plan, const std::string& name, double low, doubl
   plan.quantities.push_back({name, d, plan.source + ": " + name + " (by default)"});
 }
 
-// [truth]: ranges of the five errors, for both axes if there are two rigs, and of the travel.
+// Reads [truth]: the ranges of the five errors and of the travel. If there are two rigs, the ranges
+// of the errors apply to both axes.
 void read_truth(TomlTable& table, StudyPlan& plan) {
   auto truth = table.table("truth");
   if (!truth) return;
@@ -71,7 +72,7 @@ void read_truth(TomlTable& table, StudyPlan& plan) {
   }
 }
 
-// Sets missing values of the truth as in the paper.
+// Sets the values of the truth that are missing to the values in the paper.
 void set_default_truth(StudyPlan& plan, bool said) {
   if (!has_quantity(plan, "travel_mm")) add_usual_range(plan, "travel_mm", 0, kTravel_mm);
   const bool any = std::any_of(plan.quantities.begin(), plan.quantities.end(),
@@ -86,7 +87,8 @@ void set_default_truth(StudyPlan& plan, bool said) {
   }
 }
 
-// A radius or an angle from an axis has no sign; a negative value would only change its side.
+// A radius, or an angle from an axis, has no sign. A negative value would only mean the opposite
+// side.
 bool may_be_negative(Effect effect) {
   return effect != Effect::probe_circle && effect != Effect::probe_tilt;
 }
@@ -124,7 +126,8 @@ Status read_quantity(TomlTable& table, const Path& folder, StudyPlan& plan) {
   return {};
 }
 
-// A random number must not be given twice, by its own name and by a star.
+// The same random number must not be given twice, for example by its own name and by a name with a
+// star.
 void reject_doubles(TomlTable& table, const StudyPlan& plan) {
   std::set<std::string> seen;
   for (const auto& quantity : plan.quantities) {
@@ -147,7 +150,7 @@ const PlannedQuantity* quantity_with(const StudyPlan& plan, const std::string& t
   return nullptr;
 }
 
-// One coefficient for all pairs, or a matrix row by row.
+// Reads one coefficient for all pairs, or a matrix row by row.
 void read_matrix(TomlTable& table, PlannedCorrelation& group) {
   const std::size_t n = group.quantities.size();
   if (table.has("coefficient")) {

@@ -77,7 +77,8 @@ void append_part(std::vector<QuantityTarget>& all, const std::string& prefix, Pa
   }
 }
 
-// All quantities that can vary with this rig, in the order of the list for the user.
+// Returns all quantities that can vary with this rig, in the order in which they are listed for the
+// user.
 std::vector<QuantityTarget> all_targets(const Rig& rig) {
   std::vector<QuantityTarget> all;
   for (std::size_t k = 0; k < rig.probes.size(); ++k) {

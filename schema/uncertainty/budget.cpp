@@ -5,7 +5,7 @@
 
 namespace mdof {
 bool is_noise_only(double u, double u_declared) {
-  constexpr double kVisibleShare = 0.01;  // share of u
+  constexpr double kVisibleShare = 0.01;  // part of u
   return !(u_declared > kVisibleShare * u);
 }
 

@@ -8,7 +8,7 @@
 namespace mdof {
 namespace {
 
-// Noise of 0 means that the readings show none: the value is then unknown.
+// If the noise is 0, the readings show no noise. The uncertainty is then unknown.
 Errors5 known(const Errors5& u_random) {
   Errors5 out{};
   for (std::size_t k = 0; k < kErrorCount; ++k)

@@ -6,7 +6,7 @@
 namespace mdof {
 namespace {
 
-// The first word is part of the interface: the loader of tools/linuxcnc rejects other tables.
+// The first word is part of the interface: tools/linuxcnc loads only tables with this word.
 constexpr const char* kSense =
     "correction: added to the commands of X, Y and Z, so that the tool reaches the commanded "
     "position";
@@ -36,7 +36,8 @@ void write_rotary(JsonWriter& json, const VolumetricTable& t) {
 
 void write_um(JsonWriter& json, const char* key, const Vec3& value_m) {
   json.key(key).begin_object();
-  for (std::size_t k = 0; k < 3; ++k) json.field(kAxesUm[k], to_um(value_m[k]) + 0.0);  // -0 is 0
+  // + 0.0 converts -0 to 0.
+  for (std::size_t k = 0; k < 3; ++k) json.field(kAxesUm[k], to_um(value_m[k]) + 0.0);
   json.end_object();
 }
 
@@ -67,7 +68,7 @@ void write_volumetric_members(JsonWriter& json, const VolumetricTable& t) {
 void write_volumetric_node(JsonWriter& json, const VolumetricTable& t, std::size_t node,
                            bool with_parts) {
   const auto add_um = [&](const Vec3& values) {
-    for (const double x : values) json.value(to_um(x) + 0.0);  // -0 is 0
+    for (const double x : values) json.value(to_um(x) + 0.0);  // + 0.0 converts -0 to 0
   };
   json.begin_array();
   for (const double x : t.command_at(node)) json.value(to_mm(x));

@@ -22,7 +22,7 @@ Vec3 remaining_u(const Vec3& u_m, const Vec3& part_m) {
   Vec3 rest{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double square = u_m[k] * u_m[k] - part_m[k] * part_m[k];
-    rest[k] = square < 0 ? 0 : std::sqrt(square);  // a value below 0 results from rounding
+    rest[k] = square < 0 ? 0 : std::sqrt(square);  // negative only because of rounding
   }
   return rest;
 }
@@ -37,7 +37,7 @@ Vec3 VolumetricTable::u_common_at(std::size_t node) const {
 
 namespace {
 
-// Calls `take` for each number of `noise`, in the order of noise_numbers().
+// Calls `take` for each number in `noise`, in the order of noise_numbers().
 template <class Noise, class Take>
 void for_each_number(Noise& noise, Take take) {
   for (auto& axis : noise)

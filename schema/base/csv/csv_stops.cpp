@@ -9,21 +9,21 @@
 namespace mdof {
 namespace {
 
-constexpr std::size_t kStep = kStopsMargin;  // bytes per iteration
+constexpr std::size_t kStep = kStopsMargin;  // number of bytes in one iteration
 
-// Write position for the next stops. They are written in groups of four; the last group may contain
-// unused entries.
+// Position at which the next stops are written. Stops are written in groups of four; the last group
+// may contain unused positions.
 struct Out {
   std::uint32_t* at;
   char* byte;
 };
 
-// A mask of all 64 bits, or of the first n if fewer bytes are left.
+// Returns a mask of all 64 bits, or of the first n bits if fewer than 64 bytes remain.
 std::uint64_t text_bits_mask(std::size_t n) {
   return n < kStep ? (std::uint64_t{1} << n) - 1 : ~std::uint64_t{0};
 }
 
-// Bit i: byte p[i] is a stop, i < 64.
+// Bit i of the result: the byte p[i] is a stop, i < 64.
 [[gnu::always_inline]] inline std::uint64_t stop_bits(const char* p) {
 #ifdef __SSE2__
   std::uint64_t bits = 0;
@@ -41,7 +41,8 @@ std::uint64_t text_bits_mask(std::size_t n) {
 #endif
 }
 
-// std::popcount(), but without a library call if the processor may have no popcount instruction.
+// As std::popcount(), but without a library call if the compiler cannot assume a popcount
+// instruction.
 template <bool kHasInstruction>
 [[gnu::always_inline]] inline std::uint64_t count_bits(std::uint64_t bits) {
   if constexpr (kHasInstruction) return static_cast<std::uint64_t>(std::popcount(bits));
@@ -50,7 +51,8 @@ template <bool kHasInstruction>
   return ((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56;
 }
 
-// Writes in groups of four, because the end of a loop of unknown length is mispredicted.
+// Writes the stops in groups of four. A loop of unknown length would be slower, because the
+// processor mispredicts its end.
 template <bool kPopcount>
 [[gnu::always_inline]] inline Out append(const char* text, std::size_t begin, std::uint64_t bits,
                                          Out out) {

@@ -30,7 +30,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int fd() const { return fd_; }
-  // 0: not a regular file, or unreadable.
+  // Returns 0 if the file is not regular or is unreadable.
   off_t size() const {
     struct stat now {};
     return fd_ >= 0 && ::fstat(fd_, &now) == 0 && S_ISREG(now.st_mode) ? now.st_size : 0;
@@ -40,7 +40,7 @@ class Descriptor {
   int fd_;
 };
 
-// Files beside a database must not be symbolic links.
+// Opens a companion file of the database. It must not be a symbolic link.
 int open_beside(const fs::path& database, const char* ending) {
   return open_foreign(beside(database, ending), O_NOFOLLOW);
 }
@@ -60,8 +60,8 @@ std::string bytes_at(const Descriptor& file, off_t offset, std::size_t count) {
 constexpr off_t kWalHeader = 32;
 
 // Byte ranges that SQLite locks (os_unix.c). Every reader of the database locks all of
-// kSharedBytes. A checkpoint (-wal into database) locks kCheckpointByte of -shm; a process that has
-// -shm open locks kShmInUseByte.
+// kSharedBytes. A checkpoint moves -wal into the database and locks kCheckpointByte of -shm. A
+// process that has -shm open locks kShmInUseByte.
 struct Range {
   off_t begin, count;
 };
@@ -78,7 +78,7 @@ struct flock lock_on(const Range& range, short type) {
   return lock;
 }
 
-// Locks the range until the descriptor is closed. Succeeds on file systems without locks.
+// Locks the range until the descriptor is closed. Returns true also on file systems without locks.
 bool share(const Descriptor& file, const Range& range) {
   struct flock lock = lock_on(range, F_RDLCK);
   return ::fcntl(file.fd(), F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
@@ -99,7 +99,7 @@ Status copy_bytes(const Descriptor& from, const fs::path& name, const fs::path& 
   return {};
 }
 
-// Allows half of the free space, so that a hostile file cannot fill the disk.
+// Allows half of the free disk space. Without this limit, a manipulated file could fill the disk.
 Status check_room(const fs::path& database, off_t bytes, const fs::path& folder) {
   struct statvfs disk {};
   if (::statvfs(folder.c_str(), &disk) != 0) return failed(folder, "query the free space");
@@ -115,9 +115,9 @@ Status check_room(const fs::path& database, off_t bytes, const fs::path& folder)
 
 enum class Copied { yes, busy };
 
-// The copy is consistent, because the locks prevent writing into the database: committing a
-// rollback transaction needs all shared bytes, a checkpoint needs its own byte. The -wal may grow;
-// a -wal that was restarted during the copy is rejected.
+// The locks prevent writing into the database, so that the copy is consistent: the commit of a
+// rollback transaction needs all shared bytes, and a checkpoint needs its own byte. The -wal may
+// become longer. If the -wal was restarted during the copy, the copy is rejected.
 Result<Copied> copy_once(const fs::path& database, const fs::path& to) {
   const Descriptor file(open_foreign(database, 0));
   const Descriptor shm(open_beside(database, "-shm"));
@@ -143,8 +143,9 @@ fs::path beside(const fs::path& database, const char* ending) {
   return (ec ? database : real).string() + ending;
 }
 
-// A super-journal's name is at the end of the journal: length of the name (4 bytes), checksum of
-// the name (4), magic number of a journal (8).
+// The name of a super-journal is near the end of the journal. The journal ends with the length of
+// the name (4 bytes), the checksum of the name (4 bytes) and the magic number of a journal (8
+// bytes).
 Status check_journal(const fs::path& database) {
   constexpr std::string_view kMagic{"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8};
   const fs::path name = beside(database, "-journal");
@@ -182,7 +183,7 @@ bool is_open_for_writing(const struct stat& file) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator("/proc/self/fd", ec)) {
     const int fd = std::atoi(entry.path().filename().c_str());
-    // stat() by name, because another thread may own the descriptor and close it meanwhile.
+    // Uses stat() with the name, because another thread may own the descriptor and may close it.
     struct stat mine {};
     if (::stat(entry.path().c_str(), &mine) != 0 || mine.st_dev != file.st_dev ||
         mine.st_ino != file.st_ino)
@@ -190,7 +191,7 @@ bool is_open_for_writing(const struct stat& file) {
     const int flags = ::fcntl(fd, F_GETFL);
     if (flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && !(flags & O_APPEND)) return true;
   }
-  return bool(ec);  // if unknown, assume that it is open
+  return bool(ec);  // if the result is unknown, the file counts as open
 }
 
 bool is_open_for_writing(const fs::path& file) {
@@ -199,7 +200,7 @@ bool is_open_for_writing(const fs::path& file) {
 }
 
 int open_foreign(const fs::path& file, int flags) {
-  // Closing a descriptor opened with O_PATH drops no lock.
+  // A descriptor that was opened with O_PATH removes no lock when it is closed.
   const Descriptor name(::open(file.c_str(), O_PATH | O_CLOEXEC | flags));
   struct stat now {};
   if (name.fd() < 0 || ::fstat(name.fd(), &now) != 0) return -1;

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kShmRegion = 32 * 1024;  // bytes that SQLite maps at once
+constexpr int kShmRegion = 32 * 1024;  // number of bytes that SQLite maps at a time
 
-// Regions of -shm files that SQLite has mapped. A signal handler reads them, so they need neither
-// locks nor allocation.
+// Regions of -shm files that SQLite has mapped. A signal handler reads this list. Therefore the
+// list uses neither locks nor memory allocation.
 std::array<std::atomic<void*>, 4096> mapped;
 std::atomic<bool> shm_was_truncated{false};
 static_assert(std::atomic<void*>::is_always_lock_free);
@@ -36,8 +36,9 @@ void note_mapped(void* region) {
   }
 }
 
-// Replaces the region by bytes 0xff: no checksum of a header matches and no search in a hash table
-// ends (SQLITE_CORRUPT). The replacement is one step, so that no thread sees an empty table.
+// Replaces the region by bytes 0xff. No checksum of a header is then correct, and no search in a
+// hash table ends, so that SQLite reports SQLITE_CORRUPT. The replacement is one step; therefore no
+// thread reads an empty table.
 void replace_by_invalid_bytes(void* region) {
   void* damage =
       ::mmap(nullptr, kShmRegion, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -54,7 +55,8 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
     return region && at >= region && at < region + kShmRegion;
   };
   if (std::none_of(mapped.begin(), mapped.end(), holds)) {
-    ::signal(signal, SIG_DFL);  // another fault: the signal occurs again and ends the process
+    // This is another fault: the signal occurs again and ends the process.
+    ::signal(signal, SIG_DFL);
     return;
   }
   shm_was_truncated = true;
@@ -63,8 +65,8 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
   errno = before;
 }
 
-sqlite3_io_methods watching_methods;               // the real methods, except for xShmMap
-const sqlite3_io_methods* real_methods = nullptr;  // for a database on an ordinary disk
+sqlite3_io_methods watching_methods;               // the original methods, except xShmMap
+const sqlite3_io_methods* real_methods = nullptr;  // original methods for a database on a disk
 
 int map_and_record(sqlite3_file* file, int page, int size, int extend, void volatile** region) {
   const int code = real_methods->xShmMap(file, page, size, extend, region);
@@ -88,14 +90,14 @@ int open_guarded(sqlite3_vfs*, const char* name, sqlite3_file* file, int flags, 
   return code;
 }
 
-// State of the -wal index: number of committed frames and page size.
+// State of the -wal: number of committed frames and page size.
 struct WalIndex {
   std::uint32_t frames = 0, page_bytes = 0;
   bool operator==(const WalIndex&) const = default;
 };
 
-// Reads the header at the beginning of -shm, https://www.sqlite.org/walformat.html. False: not
-// mapped.
+// Reads the header at the beginning of -shm, https://www.sqlite.org/walformat.html. Returns false
+// if -shm is not mapped.
 bool read_index(sqlite3* database, WalIndex& index) {
   sqlite3_file* file = nullptr;
   void volatile* region = nullptr;
@@ -112,7 +114,7 @@ bool read_index(sqlite3* database, WalIndex& index) {
   return true;
 }
 
-// Smallest valid size of the -wal.
+// Smallest valid size of the -wal file.
 off_t bytes_of(const WalIndex& index) {
   constexpr off_t kHeader = 32, kFrameHeader = 24;
   if (index.frames == 0) return 0;
@@ -179,8 +181,8 @@ const std::string& JournalWatch::fault() {
   return fault_;
 }
 
-// Another program may have moved the whole -wal into the database and emptied it; the index then
-// shows it.
+// Another program may have moved all of the -wal into the database and emptied the -wal. The index
+// then shows this.
 bool JournalWatch::is_cut(off_t bytes) {
   WalIndex before, after;
   while (read_index(database_, before) && bytes < bytes_of(before)) {
@@ -195,7 +197,7 @@ bool JournalWatch::is_kept() {
   return fault().empty() || moved_;
 }
 
-// Closing the connection then neither moves nor deletes the current -wal.
+// After this call, closing the connection neither moves nor deletes the current -wal.
 void JournalWatch::disable_checkpoint_on_close() {
   sqlite3_db_config(database_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
 }
@@ -209,7 +211,7 @@ void JournalWatch::note(std::string what, bool foreign_wal) {
   if (!moved_) return lose(std::move(what));
   fault_ = std::move(what) + "; all data stored before this change are in the database file";
   if (!foreign_wal) return;
-  // SQLite would read the foreign -wal when the database is next opened.
+  // Otherwise SQLite would read the foreign -wal when the database is opened next.
   std::error_code ec;
   const fs::path aside = wal_.string() + ".foreign";
   fs::rename(wal_, aside, ec);

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(kColumnMargin >= kScanMargin);
 
-// Reads a field that is not plain, for example one with an exponent.
+// Reads a field of another form, for example with an exponent.
 [[gnu::noinline, gnu::cold]] bool read_any_number(const char* p, const char* end, double& x) {
   return p != end && parse_double(p, end, x) == end && std::isfinite(x);
 }
@@ -47,8 +47,8 @@ ColumnText after(const ColumnText& column, std::size_t rows) {
   return {column.text, column.stop + rows * column.stride, column.stride};
 }
 
-// Reads several fields at a time while they are plain. Reads eight fields one by one if some are
-// not plain, and also the last few.
+// Reads several fields at a time while all are plain. If one of eight fields is not plain, and for
+// the last fields, it reads them one after the other.
 template <class T, class ReadPlain>
 std::size_t read_groups(ReadPlain* read_plain, const ColumnText& column, std::size_t n, T* out) {
   std::size_t j = 0;

@@ -49,7 +49,7 @@ constexpr PlaceTable kInversePower = make_table(kLargestExactPower, 0, [](int di
 constexpr PlaceTable kNanoseconds =
     make_table(9, std::uint64_t{1} << 63, [](int digits) { return kPowersOfTen[9 - digits]; });
 
-// No gather instructions: on many processors they are slower than this.
+// Does not use gather instructions: on many processors they are slower than this function.
 HWY_INLINE Longs look_up(const PlaceTable& table, Longs place) {
 #if HWY_TARGET == HWY_AVX2
   alignas(32) std::uint64_t i[4];
@@ -142,8 +142,8 @@ struct ToNanoseconds {
   }
 };
 
-// Fields of one column mostly have one width: after the first wide group, all further groups are
-// read as wide.
+// Most columns contain fields of one width. After the first wide group, all further groups are read
+// as wide groups.
 template <class Convert>
 HWY_INLINE std::size_t read_groups(const ColumnText& column, std::size_t n,
                                    typename Convert::Out* out) {

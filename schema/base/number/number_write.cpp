@@ -1,5 +1,6 @@
-// Numbers as text with 17 significant digits. schema/base/number/number_round.h finds the digits of
-// one number, number_digits.h those of eight at a time; this file arranges them.
+// Writes numbers as text with 17 significant digits. schema/base/number/number_round.h finds the
+// digits of one number, number_digits.h the digits of eight numbers at a time. This file writes
+// them as text.
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -27,12 +28,12 @@ void store8(char* out, uint64_t v) {
   std::memcpy(out, &v, 8);
 }
 
-// The 17 digits of a number: one, eight, eight. The eights are bytes 0 ... 9, the first digit
-// lowest.
+// The 17 digits of a number in groups of one, eight and eight. A group of eight consists of bytes 0
+// ... 9; the first digit is in the lowest byte.
 struct Digits {
   uint64_t first, upper, lower;
 
-  // Number of digits up to the last that is not 0.
+  // Number of digits up to the last digit that is not 0.
   int significant() const { return (lower ? 17 : 9) - std::countl_zero(lower ? lower : upper) / 8; }
   void store_rest(char* out) const {
     store8(out, upper | kZeros);
@@ -45,8 +46,8 @@ struct Sixteen {
 };
 
 #ifdef __SSE2__
-// Two numbers below 10^8 as digits: halves, quarters, eighths by multiplication with a reciprocal,
-// in all lanes at once.
+// Converts two numbers below 10^8 to digits. The numbers are divided into halves, quarters and
+// eighths by multiplication with a reciprocal, in all lanes at once.
 Sixteen sixteen_digits(uint64_t first, uint64_t second) {
   const __m128i v = _mm_set_epi64x(static_cast<long long>(second), static_cast<long long>(first));
   const __m128i upper4 = _mm_srli_epi64(_mm_mul_epu32(v, _mm_set1_epi64x(0xd1b71759)), 45);

@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostNames = 100;  // limit of names tried; ended programs can leave temporary files
+// Number of names that are tried, because programs that have ended may have left temporary files.
+constexpr int kMostNames = 100;
 
 tl::unexpected<Error> not_written(const fs::path& path, int error) {
   return io_error(path.string() + ": cannot be written: " + std::strerror(error) +
@@ -33,7 +34,7 @@ bool is_direct(const struct stat& status) {
   return S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode);
 }
 
-// The first bytes of a regular file; empty: the file is empty or unreadable.
+// Returns the first bytes of a regular file; empty: the file is empty or unreadable.
 std::string beginning(const fs::path& path) {
   std::array<char, 4096> bytes;
   struct stat status {};
@@ -44,8 +45,8 @@ std::string beginning(const fs::path& path) {
   return {bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0))};
 }
 
-// Databases, their logs, recordings and compressed files have control characters near the
-// beginning.
+// Returns false for databases, their logs, recordings and compressed files: they have control
+// characters near the beginning.
 bool is_text(std::string_view bytes) {
   return std::none_of(bytes.begin(), bytes.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r';
@@ -62,7 +63,8 @@ tl::unexpected<Error> not_replaced(const fs::path& path, const std::string& why)
                                     "; give another file, or delete this one first");
 }
 
-// Status of an existing file; nullopt: no such file. Error: the file must not be replaced.
+// Returns the status of an existing file; nullopt: no such file. Error: the file exists and must
+// not be replaced.
 Result<std::optional<struct stat>> existing_file(const fs::path& path, Existing existing) {
   struct stat itself {
   }, target{};
@@ -99,7 +101,7 @@ Status write_all(int descriptor, std::string_view text, const fs::path& path) {
 Status flush_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const bool flushed = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL ||
-                                           errno == ENOTSUP);  // nothing to flush
+                                           errno == ENOTSUP);  // no data to flush
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (flushed) return {};
@@ -125,7 +127,7 @@ Result<std::size_t> OutputFiles::add(const fs::path& path) {
   file.replaces = before.has_value();
   if (before && is_direct(*before)) {
     file.stage = Stage::direct;
-    // O_NONBLOCK: open() must not wait for a reader of a pipe.
+    // With O_NONBLOCK, open() does not wait for the reader of a pipe.
     file.descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (file.descriptor < 0 && errno == ENXIO)
       return io_error(path.string() +
@@ -144,7 +146,7 @@ Result<std::size_t> OutputFiles::add(const fs::path& path) {
         ::open(file.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   }
   if (file.descriptor < 0) return not_written(path, errno);
-  if (before) {  // only root can restore the owner
+  if (before) {  // only root can set the owner of the old file
     const bool is_given = ::fchown(file.descriptor, before->st_uid, before->st_gid) == 0;
     ::fchmod(file.descriptor, before->st_mode & (is_given ? 0777 : 0755));
   }
@@ -182,13 +184,13 @@ Status OutputFiles::rename(File& file) {
     file.stage = file.replaces ? Stage::exchanged : Stage::created;
     return {};
   }
-  // Some file systems support neither exchange nor no-replace.
+  // Some file systems support neither an exchange nor a rename that does not replace.
   if ((errno != EINVAL && errno != ENOSYS) || !rename_with(0)) return not_written(file.path, errno);
   file.stage = file.replaces ? Stage::replaced : Stage::created;
   return {};
 }
 
-// Undoes the renames made before the error.
+// Reverses the renames that were made before the error.
 Error OutputFiles::undone(Error error) {
   for (File& file : files_) {
     if (file.stage == Stage::created) ::unlink(file.path.c_str());

@@ -38,7 +38,7 @@ bool is_printable(std::uint32_t code) {
   return !(code >= 0x202A && code <= 0x202E) && !(code >= 0x2066 && code <= 0x2069);
 }
 
-// Fast check that applies to nearly all texts: no byte needs a closer examination.
+// Fast check that succeeds for nearly all texts: no byte needs a closer check.
 bool is_plain(std::string_view text) {
   bool plain = true;
   for (const char c : text) plain &= (c >= 0x20 && c != 0x7F) || c == '\n' || c == '\t';
@@ -79,7 +79,7 @@ std::string printable(std::string_view utf8) {
 
 std::string printable_json(std::string_view utf8) {
   return replaced(utf8, [](const Character& c) {
-    std::array<char, 8> text{};  // all these characters have codes of four digits
+    std::array<char, 8> text{};  // the codes of all these characters have four digits
     std::snprintf(text.data(), text.size(), "\\u%04x", c.valid ? c.code & 0xFFFF : kReplacement);
     return std::string(text.data());
   });

@@ -21,10 +21,10 @@ struct Session {
   fs::path file;
   sqlite3* database = nullptr;
   std::map<std::string, sqlite3_stmt*, std::less<>> statements;
-  std::optional<PrivateCopy> copy;  // the database that is open; `file` is its origin
+  std::optional<PrivateCopy> copy;  // the database that is open; `file` is the original file
   std::optional<JournalWatch> watch;
   mutable std::string damage;
-  int descriptor = -1;  // descriptor read by open_descriptors(); else -1
+  int descriptor = -1;  // the descriptor that open_descriptors() received; otherwise -1
 
   ~Session() {
     for (const auto& [text, statement] : statements) sqlite3_finalize(statement);
@@ -82,14 +82,15 @@ tl::unexpected<Error> error_of(const Session& session, std::string_view doing) {
   return io_error(text + " (SQLite error " + std::to_string(extended) + ")");
 }
 
-// How a database is read. Reading a foreign file must not change it or the files beside it. (With a
-// -journal beside it, SQLite would write, and delete the file that the journal names.)
+// How a database is read. Reading a file of another program must change neither the file nor its
+// companion files. If there is a -journal file, SQLite would write, and would delete the file whose
+// name is in the journal.
 enum class Reading { shared, unchanging, copied };
 
-// In WAL mode a reader needs the -shm file and creates it if it is missing. If the folder is
-// read-only and the -wal file is empty, the database cannot change while it is read.
+// In WAL mode a reader needs the -shm file, and makes it if it does not exist. If the folder is
+// read-only and the -wal file is empty, the database cannot change during reading.
 Reading read_open_mode(const fs::path& file, OpenMode mode) {
-  // A file of this process: its locks must remain.
+  // This process has the file open; the locks of the file must remain.
   if (is_open_for_writing(file)) return Reading::shared;
   if (has_journal(file)) return Reading::copied;
   const bool foreign = mode == OpenMode::snapshot;
@@ -159,7 +160,7 @@ Statement& Statement::bind(double x) {
 }
 
 Statement& Statement::bind(std::string_view text) {
-  // A null pointer would bind NULL instead of an empty text.
+  // With a null pointer, SQLite would store NULL and not an empty text.
   const char* data = text.data() ? text.data() : "";
   sqlite3_bind_text64(statement_, next_parameter_++, data, text.size(), SQLITE_TRANSIENT,
                       SQLITE_UTF8);
@@ -269,7 +270,8 @@ Result<Connection> Connection::open(const fs::path& file, OpenMode mode, int bus
     MDOF_TRY(PrivateCopy copy, PrivateCopy::make(file, busy_timeout_ms));
     session->copy.emplace(std::move(copy));
     name = session->copy->file().string();
-    flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX;  // to roll back, or to read the -wal
+    // Needed to roll back a transaction, or to read the -wal file.
+    flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX;
   }
   if (sqlite3_open_v2(name.c_str(), &session->database, flags, nullptr) != SQLITE_OK)
     return error_of(*session, "open");
@@ -288,7 +290,7 @@ Result<Connection> Connection::open_descriptors(const fs::path& name, int databa
     return error_of(*session, "open");
   sqlite3_extended_result_codes(session->database, 1);
   Connection connection(std::move(session));
-  // Keeps the index of the -wal and temporary tables in memory.
+  // Keeps the index of the -wal file and temporary tables in memory.
   MDOF_CHECK(connection.execute("PRAGMA locking_mode = EXCLUSIVE; PRAGMA temp_store = MEMORY"));
   return connection;
 }
@@ -375,8 +377,8 @@ Status Transaction::commit() {
     return error;
   }
   Session& session = *std::exchange(session_, nullptr);
-  // Check before the commit is acknowledged: data in a deleted -wal are lost when this process
-  // ends.
+  // The check is before the commit is acknowledged: if -wal was deleted, its data are lost when
+  // this process ends.
   if (session.watch && !session.watch->is_kept()) return io_error(session.watch->fault());
   return {};
 }

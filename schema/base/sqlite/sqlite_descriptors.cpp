@@ -13,7 +13,7 @@ namespace mdof::sqlite {
 namespace {
 
 struct OpenFile {
-  sqlite3_file base;  // must be first: SQLite casts between the two
+  sqlite3_file base;  // must be the first member: SQLite converts pointers between the two types
   int descriptor;     // -1: an empty file
 };
 
@@ -25,7 +25,7 @@ int close_file(sqlite3_file*) {
   return SQLITE_OK;
 }
 
-// Bytes beyond the end read as zeros.
+// Bytes after the end of the file are read as zeros.
 int read_file(sqlite3_file* file, void* to, int count, sqlite3_int64 offset) {
   auto* const bytes = static_cast<char*>(to);
   const auto wanted = static_cast<std::size_t>(std::max(count, 0));
@@ -71,7 +71,7 @@ int zero(sqlite3_file*) {
 
 const sqlite3_io_methods kMethods = [] {
   sqlite3_io_methods m{};
-  m.iVersion = 1;  // without shared memory
+  m.iVersion = 1;  // version 1 has no shared memory
   m.xClose = close_file;
   m.xRead = read_file;
   m.xWrite = refuse_write;
@@ -87,7 +87,7 @@ const sqlite3_io_methods kMethods = [] {
   return m;
 }();
 
-// Parses "DATABASE,WAL", with or without a following "-wal".
+// Parses "DATABASE,WAL". The text may end in "-wal".
 struct Named {
   int database = -1, wal = -1;
 };
@@ -126,7 +126,8 @@ int as_it_is(sqlite3_vfs*, const char* name, int size, char* out) {
 
 const char* descriptors_vfs() {
   static const char* const name = [] {
-    static sqlite3_vfs vfs = *sqlite3_vfs_find("unix");  // for its clock and random numbers
+    // The clock and the random numbers of this VFS are used.
+    static sqlite3_vfs vfs = *sqlite3_vfs_find("unix");
     vfs.zName = "mdof-descriptors";
     vfs.szOsFile = sizeof(OpenFile);
     vfs.pNext = nullptr;

@@ -6,8 +6,8 @@
 namespace mdof {
 namespace {
 
-// Scans a document as the parser does. For a text that is not TOML, the result may be wrong beyond
-// the place where the parser stops.
+// Reads a document in the same way as the parser. If the text is not TOML, the result may be wrong
+// after the position at which the parser stops.
 class DepthScan {
  public:
   DepthScan(std::string_view text, std::size_t bound) : text_(text), bound_(bound) {}
@@ -32,7 +32,7 @@ class DepthScan {
     if (c == ',' || (c == '\n' && open_.empty())) dots_ = 0;
   }
 
-  // The contents belong to the key before the bracket.
+  // The contents of a bracket belong to the key before the bracket.
   void open() {
     open_.push_back(dots_);
     outer_dots_ += dots_;
@@ -56,18 +56,19 @@ class DepthScan {
     const std::string_view three = quote == '"' ? R"(""")" : "'''";
     if (!is_next(three)) return skip_to_end(text_.substr(at_, 1), quote == '"', "\n");
     skip_to_end(three, quote == '"', {});
-    // Up to two quotes belong to the text.
+    // Up to two more quotes belong to the text.
     for (int more = 0; more < 2 && is_next(three.substr(0, 1)); ++more) ++at_;
   }
 
-  // Skips from the opening quotes to the end of the closing ones, or to `end` if they are missing.
+  // Moves from the opening quotes to the end of the closing quotes; if they are missing, to `end`.
   void skip_to_end(std::string_view quotes, bool escapes, std::string_view end) {
     for (at_ += quotes.size(); at_ < text_.size() && !is_next(quotes); ++at_) {
       if (!end.empty() && is_next(end)) return;
       if (text_[at_] == '\n') ++line_;
       if (escapes && text_[at_] == '\\') skip_escaped();
     }
-    at_ = std::min(at_ + quotes.size(), text_.size());  // an unterminated text takes the rest
+    // A text without closing quotes extends to the end.
+    at_ = std::min(at_ + quotes.size(), text_.size());
   }
 
   void skip_escaped() {
@@ -78,9 +79,9 @@ class DepthScan {
   std::string_view text_;
   std::size_t bound_;
   std::size_t at_ = 0, line_ = 1;
-  // Dots of the current key; dots of the keys before all open brackets.
+  // Number of dots in the current key; number of dots in the keys before all open brackets.
   std::size_t dots_ = 0, outer_dots_ = 0;
-  std::vector<std::size_t> open_;  // dots before each open bracket
+  std::vector<std::size_t> open_;  // number of dots before each open bracket
 };
 
 }  // namespace

@@ -18,16 +18,18 @@ struct TomlTable::Document {
   std::optional<Error> error;
 };
 
-// A table of the tree with the keys read so far and the sub-tables returned to callers.
+// A table of the tree, with the keys that were read and the sub-tables that were returned to
+// callers.
 struct TomlTable::Node {
   const toml::table* table = nullptr;
   std::string path;  // "probe[2]."
   std::set<std::string, std::less<>> asked;
-  std::set<std::string, std::less<>> queried_keys;  // by has(): for hints, not read yet
+  // Keys that has() was called for; used in hints, they do not count as read.
+  std::set<std::string, std::less<>> queried_keys;
   std::vector<std::shared_ptr<Node>> children;
   std::map<const toml::table*, std::shared_ptr<Node>> child_of;
 
-  // The same node for all callers: each may know some of its keys.
+  // All callers get the same node, because each caller may read other keys of it.
   std::shared_ptr<Node> child(const toml::table* of, std::string its_path) {
     auto& known = child_of[of];
     if (known) return known;
@@ -115,7 +117,7 @@ void TomlTable::reject(std::string_view key, const std::string& why, Remedy reme
     document_->error = Error{ErrorCode::bad_input, where(key) + ": " + why, remedy, remedy_for};
 }
 
-// A key that was not read may be a misspelling of the missing one.
+// A key that was not read may be a misspelt form of the missing key.
 void TomlTable::missing(std::string_view key, const char* form) {
   std::vector<std::string> others;
   for (const auto& [name, value] : *node_->table) {

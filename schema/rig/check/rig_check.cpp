@@ -12,17 +12,17 @@
 namespace mdof {
 namespace {
 
-// A number outside `possible` is wrong; a number outside `usual` may be right.
+// A number outside `possible` is wrong. A number outside `usual` may be correct.
 struct Bounds {
   double least_possible, least_usual, most_usual, most_possible;
 };
-constexpr double kMost_m = 0.5;  // largest distance of a probe or plane from its origin
-constexpr Bounds kExtent_mm = {0.1, 1, 500, 500};     // largest distance of two probes
-constexpr Bounds kRange_um = {1, 5, 20e3, 100e3};     // capacitive: 10 µm to 10 mm
+constexpr double kMost_m = 0.5;  // largest distance between a probe or plane and the origin
+constexpr Bounds kExtent_mm = {0.1, 1, 500, 500};     // largest distance between two probes
+constexpr Bounds kRange_um = {1, 5, 20e3, 100e3};     // capacitance probes have 10 µm to 10 mm
 constexpr Bounds kFull_V = {1e-3, 0.05, 100, 1000};   // full range in volts, from um_per_V
-constexpr Bounds kShare = {0, 0, 0.1, 1};             // a correction, as a share of the range
+constexpr Bounds kShare = {0, 0, 0.1, 1};             // size of a correction, relative to the range
 constexpr Bounds kFlatness_um = {0, 0, 100, 10e3};    // heights of a target plane
-constexpr Bounds kArtefact_urad = {0, 0, 10e3, 1e5};  // of a square
+constexpr Bounds kArtefact_urad = {0, 0, 10e3, 1e5};  // angle error of a square
 
 struct Finding {
   bool impossible;
@@ -35,7 +35,8 @@ std::string text_of(double x) {
   return text.data();
 }
 
-// "rig.toml:12: probe.range_um: ". Parses the rig again, which happens only for a finding.
+// Returns "rig.toml:12: probe.range_um: ". It parses the rig again; this happens only if there is
+// an error or a notice.
 std::string place(const Rig& rig, const char* table, std::size_t index, const char* key) {
   auto root = TomlTable::parse(rig.text, rig.source);
   if (!root) return rig.source + ": " + key + ": ";
@@ -132,7 +133,7 @@ void Check::check_distances() {
       a = j, b = i;
     }
   }
-  if (extent_m == 0) return;  // all probes at one point: the solver reports it better
+  if (extent_m == 0) return;  // all probes are at one point; the message of the solver is clearer
   within(kExtent_mm, to_mm(extent_m), "probe", b, "position_mm",
          " mm is an unusual distance between two probes (\"" + rig_.probes[a].id + "\" and \"" +
              rig_.probes[b].id + "\"); give positions in mm, not " +

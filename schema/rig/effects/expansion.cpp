@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kReference_C = 20;    // ISO 1
 constexpr double kMostAbove_K = 100;   // higher temperatures are typing errors
-constexpr double kMostPpmPerK = 1000;  // ten times that of plastics
+constexpr double kMostPpmPerK = 1000;  // ten times the expansion of plastics
 
 ThermalExpansion expansion_of(TomlTable& table, const std::string& body) {
   const std::string key = body + "_ppm_per_K", u_key = "u_" + key;
@@ -20,7 +20,8 @@ ThermalExpansion expansion_of(TomlTable& table, const std::string& body) {
   return {ppm * 1e-6, u_ppm * 1e-6};
 }
 
-// The coefficient is required if a temperature has an effect, and is read whenever it is given.
+// The coefficient is required if a temperature has an effect. If the coefficient is given, it is
+// always read.
 bool requires_expansion(TomlTable& table, const std::string& body, bool counts) {
   return counts || table.has(body + "_ppm_per_K") || table.has("u_" + body + "_ppm_per_K");
 }

@@ -12,8 +12,10 @@ namespace mdof {
 namespace {
 
 constexpr double kMostRadius_mm = 50, kMostStandoff_um = 1e5, kMostTiltFactor = 100;
-constexpr int kCorrectionSamples = 200;  // points at which a correction is checked over the range
-constexpr double kRangeCovered = 0.999;  // a reading beyond this share is at the end of the range
+// Number of points of the range at which a correction is checked.
+constexpr int kCorrectionSamples = 200;
+// A reading beyond this part of the range is at the end of the range.
+constexpr double kRangeCovered = 0.999;
 
 double positive(TomlTable& table, const char* key, double most) {
   if (!table.has(key)) return 0;
@@ -86,7 +88,8 @@ bool rises(const Calibration& c, const std::array<double, 2>& range) {
   return true;
 }
 
-// A requested correction must exist, be a function of the reading, and cover all possible readings.
+// A requested correction must exist, must be a function of the reading, and must include all
+// possible readings.
 void check_linearity(TomlTable& table, const Probe& probe) {
   const Calibration& c = probe.calibration;
   const char* key = c.polynomial_um.empty() ? "linearity" : "polynomial_um";
@@ -147,7 +150,8 @@ bool declares_any_effect(const RigPhysics& physics) {
          });
 }
 
-// u of the corrections from certificates, read from the records that follow the rig.
+// Standard uncertainties of the corrections from certificates. They are in the records after the
+// text of the rig.
 void apply_certificate_uncertainties(TomlTable& table, const Rig& rig, RigPhysics& physics) {
   for (TomlTable& record : table.tables("calibration_record"))
     for (TomlTable& probe : record.tables("probe")) {
@@ -211,7 +215,7 @@ double linearity_um(const Calibration& c, double reading_um) {
     return sum;
   }
   const auto& table = c.linearity;
-  if (table.empty() || std::isnan(reading_um)) return 0.0;  // NaN cannot be looked up
+  if (table.empty() || std::isnan(reading_um)) return 0.0;  // NaN cannot be found in a table
   if (reading_um <= table.front()[0]) return table.front()[1];
   if (reading_um >= table.back()[0]) return table.back()[1];
   const auto above =

@@ -1,4 +1,4 @@
-// Undeclared keys for the effects on a rig's probes.
+// Finds the keys for effects on the probes that a rig does not declare.
 #include <algorithm>
 
 #include "schema/rig/effects/physics.h"
@@ -18,7 +18,7 @@ bool has_removed_linearity(const RigPhysics& physics) {
   });
 }
 
-// Conditions of a run that only its log contains are not stored with the rig.
+// Conditions that are only in the log of a run are not stored with the rig.
 void add_undeclared_air(const RigPhysics& physics, std::vector<std::string>& keys) {
   for (std::size_t q = 0; q < kAirQuantities; ++q) {
     const std::string key = air_quantities()[q].key;

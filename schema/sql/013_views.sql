@@ -1,8 +1,9 @@
--- Views for people with SQL, pandas or Grafana: schema/sql/README.md lists their columns. Names and units do not
--- change; a later step may add columns.
+-- Views for people who use SQL, pandas or Grafana. schema/sql/README.md lists their columns. The names and units of
+-- columns do not change; a later step may add columns.
 --
--- Uncertainties of the errors of a run's points, as stated when the run was stored. Only for these views: mdof itself
--- calculates them again each time. Not part of the result and of its hash; runs from before this step have none.
+-- Uncertainties of the errors of a run's points, as they were when the run was stored. They are only for the views
+-- below: mdof itself always calculates them again. They are not part of the result and of its hash. Runs from before
+-- this step have none.
 CREATE TABLE run_uncertainty (
   run INTEGER PRIMARY KEY REFERENCES run (id),
   noise_only INTEGER NOT NULL CHECK (noise_only IN (0, 1)),
@@ -27,8 +28,8 @@ BEGIN SELECT raise(ABORT, 'point_uncertainty is append only'); END;
 CREATE TRIGGER point_uncertainty_no_delete BEFORE DELETE ON point_uncertainty
 BEGIN SELECT raise(ABORT, 'point_uncertainty is append only'); END;
 
--- A notice is doubtful unless it has the severity information; before notices had codes, it was a
--- text.
+-- A notice is doubtful unless its severity is "information". Older notices were texts and had no code; such a text
+-- may begin with "information: ".
 CREATE VIEW v_runs AS
 SELECT run.id AS run, run.axis, coalesce(e.state, 'open') AS state, run.simulated,
        coalesce(e.state = 'partial' OR EXISTS (
@@ -54,7 +55,7 @@ SELECT p.run, run.axis, p.row, p.target, 1e3 * p.target_m AS target_mm, p.repeti
        1e3 * p.position_m AS position_mm, p.begin_ns, p.end_ns, p.samples, p.flags, p.reason
 FROM run JOIN point AS p ON p.id BETWEEN run.id << 32 AND (run.id << 32) + 4294967295;
 
--- Column of v_point for each error of an axis, and its sign there (schema/axis.h).
+-- For each error of an axis: its column in v_point, and the sign of the error in this column (schema/axis.h).
 CREATE VIEW v_error_name (axis, place, error, local, sign) AS
 VALUES ('X', 0, 'EYX', 'dy', 1), ('X', 1, 'EZX', 'dz', 1), ('X', 2, 'EAX', 'ex', 1), ('X', 3, 'EBX', 'ey', 1),
        ('X', 4, 'ECX', 'ez', 1),
@@ -81,9 +82,9 @@ FROM (SELECT p.run, p.axis, p.row, p.target, 1e3 * point.target_m AS target_mm, 
       JOIN v_error_name AS n ON n.axis = p.axis
       LEFT JOIN point_uncertainty AS u ON u.run = p.run AND u.row = p.row);
 
--- One row for each table, position, approach and error. The numbers of a table are one BLOB of doubles, series after
--- series (001, 011). `h` is a double in hexadecimal, its lowest byte first: sign and exponent are in the last four
--- digits, and 0 is the only number with exponent 0 here.
+-- One row for each table, position, approach and error. The numbers of a table are one BLOB of doubles, one series
+-- after the other (001_runs.sql, 011_imported.sql). `h` is a double in hexadecimal, its lowest byte first. Its last
+-- four digits contain sign and exponent; here, 0 is the only number with the exponent 0.
 CREATE VIEW v_table_numbers AS
 WITH RECURSIVE
 counts AS (SELECT id, length(position_m) / 8 AS n, length(errors_m_rad) / length(position_m) AS series

@@ -1,4 +1,4 @@
--- Reason of an activation or a deactivation, as the user gave it.
+-- Reason of an activation or a deactivation, as the user has stated it.
 CREATE TABLE deed_reason (
   deed INTEGER PRIMARY KEY REFERENCES deed (id),
   text TEXT NOT NULL

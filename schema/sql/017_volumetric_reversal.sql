@@ -1,3 +1,3 @@
--- Part of the corrections that remains because of the approaches (schema/volumetric/volumetric_table.h, reversal_m): 3
--- doubles; NULL for an older table.
+-- The part of the corrections that remains because the errors depend on the approach (reversal_m in
+-- schema/volumetric/volumetric_table.h): 3 doubles; NULL for an older table.
 ALTER TABLE volumetric_table ADD COLUMN reversal_m BLOB;

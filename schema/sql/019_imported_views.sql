@@ -1,5 +1,6 @@
--- The moving body, its direction and the number of lost scans are unknown for an imported run; its travel is that of
--- the import. It has no errors at the fixture, so v_errors has no rows for it.
+-- For an imported run, the moving body, its direction and the number of lost scans are unknown. Its travel is the
+-- travel that was stated at the import. An imported run has no errors at the fixture, so v_errors contains no rows
+-- for it.
 DROP VIEW v_runs;
 CREATE VIEW v_runs AS
 SELECT run.id AS run, run.axis, coalesce(e.state, 'open') AS state, run.simulated,

@@ -1,3 +1,3 @@
--- 1: u of all errors that a volumetric table corrects contains only noise and repeatability; 0: noise_only states it
--- for some errors; NULL for an older table, for which it is unknown.
+-- 1: u of all errors that the volumetric table corrects contains only noise and repeatability; 0: the column
+-- noise_only states this for some errors; NULL: unknown, because the table is older than this column.
 ALTER TABLE volumetric_table ADD COLUMN noise_only_all INTEGER CHECK (noise_only_all IN (0, 1));

@@ -1,11 +1,11 @@
--- Runs and their origin. Append only: rows are never changed or deleted (the triggers at the end
--- ensure this), and a correction is a new row that supersedes an old one.
+-- Runs and their origin. Append only: rows are never changed or deleted; the triggers at the end ensure this. A
+-- correction is a new row that supersedes an old row.
 --
--- The name of a column ends in its unit. Values are SI doubles, stored bit for bit: their type is ANY,
--- because REAL would convert -0.0 to 0.0. An unknown value is NULL. A column of bytes with doubles
--- holds them as 8-byte little-endian IEEE 754, one after the other.
+-- The name of a column ends in its unit. Values are SI doubles and are stored bit for bit. Their type is ANY, because
+-- REAL would convert -0.0 to 0.0. An unknown value is NULL. A BLOB column of doubles contains 8-byte little-endian
+-- IEEE 754 numbers, one after the other.
 
--- Texts that many runs share: rigs, configurations, options.
+-- Texts that several runs use: rigs, configurations, options.
 CREATE TABLE document (
   id INTEGER PRIMARY KEY,
   sha256 TEXT NOT NULL UNIQUE,
@@ -35,10 +35,10 @@ CREATE TABLE run (
   software_version TEXT NOT NULL
 ) STRICT;
 
--- One row for each point. dy_m ... ez_rad are the errors in the axis' local frame (the views
--- v_points_x, _y, _z give their ISO 230-1 names in µm and µrad); NULL, with a reason, if they could
--- not be solved. The key is one integer, composed of run and row. New rows are therefore appended at
--- the end of the tree, which makes storing fast, and the rows of a run are a range of keys.
+-- One row for each point. dy_m ... ez_rad are the errors in the local frame of the axis. The views v_points_x, _y, _z
+-- show them with their ISO 230-1 names, in µm and µrad. They are NULL, with a reason, if the errors could not be
+-- solved. The key is one integer, made from run and row. Therefore new rows are appended at the end of the tree,
+-- which makes storing fast, and the rows of a run are a range of keys.
 CREATE TABLE point (
   id INTEGER PRIMARY KEY CHECK (id = (run << 32) + row),
   run INTEGER NOT NULL REFERENCES run (id),
@@ -90,7 +90,7 @@ CREATE TABLE angle (
   PRIMARY KEY (run, row)
 ) STRICT, WITHOUT ROWID;
 
--- Closes a run. A run without this row is being measured, or was interrupted.
+-- The end of a run. A run without this row is being measured, or was interrupted.
 CREATE TABLE run_end (
   run INTEGER PRIMARY KEY REFERENCES run (id),
   state TEXT NOT NULL CHECK (state IN ('complete', 'aborted', 'failed')),
@@ -136,7 +136,7 @@ CREATE TABLE compensation_source (
   PRIMARY KEY (compensation_table, row)
 ) STRICT, WITHOUT ROWID;
 
--- The active table of an axis is that of the highest generation of the axis.
+-- The active table of an axis is the table with the highest generation for this axis.
 CREATE TABLE activation (
   generation INTEGER PRIMARY KEY,
   axis TEXT NOT NULL CHECK (axis IN ('X', 'Y', 'Z')),
@@ -193,7 +193,7 @@ BEGIN SELECT raise(ABORT, 'activation is append only'); END;
 CREATE TRIGGER activation_no_delete BEFORE DELETE ON activation
 BEGIN SELECT raise(ABORT, 'activation is append only'); END;
 
--- For SQL users and notebooks: one row for each point, ISO 230-1 names, µm and µrad.
+-- For SQL users and notebooks: one row for each point, with ISO 230-1 names, in µm and µrad.
 CREATE VIEW v_points_x AS
 SELECT run.id AS run, p.row, p.target, p.repetition, p.direction, 1e3 * p.position_m AS position_mm,
        1e6 * dy_m AS EYX_um,

@@ -1,5 +1,5 @@
--- Sensitivity studies: request, results, and state of an unfinished study. Requests and results are
--- append only; an interrupted result is superseded by a later row.
+-- Sensitivity studies: their requests, their results, and the state of unfinished studies. Requests and results are
+-- append only; a later row supersedes an interrupted result.
 
 CREATE TABLE study (
   id INTEGER PRIMARY KEY,
@@ -14,7 +14,7 @@ CREATE TABLE study (
   software_version TEXT NOT NULL
 ) STRICT;
 
--- Results each time the study ended; the row with the highest id is valid.
+-- Results. One row is added each time the study ends; the row with the highest id is valid.
 CREATE TABLE study_result (
   id INTEGER PRIMARY KEY,
   study INTEGER NOT NULL REFERENCES study (id),
@@ -28,8 +28,8 @@ CREATE TABLE study_result (
 ) STRICT;
 CREATE INDEX study_result_by_study ON study_result (study, id);
 
--- State of the work, from which it can be continued. It is not a result: it is replaced while the
--- study runs and deleted when the study is complete.
+-- State of an unfinished study, from which the study can be continued. It is not a result: it is replaced while the
+-- study runs, and deleted when the study is complete.
 CREATE TABLE study_checkpoint (
   study INTEGER PRIMARY KEY REFERENCES study (id),
   trials INTEGER NOT NULL,

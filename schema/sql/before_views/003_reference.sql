@@ -1,13 +1,13 @@
--- Reference point of results, moving body and its direction (schema/rig/reference.h, sides.h,
--- chain.h). Older results were stated at the carriage, with a target that moves in the + direction.
+-- Reference point of the results, moving body and its direction (schema/rig/reference.h, sides.h, chain.h). Results
+-- from before this step are stated at the carriage; their target moves in the + direction.
 
 ALTER TABLE run ADD COLUMN moves TEXT NOT NULL DEFAULT 'target' CHECK (moves IN ('target', 'fixture'));
 ALTER TABLE run ADD COLUMN travel TEXT NOT NULL DEFAULT '+' CHECK (travel IN ('+', '-'));
--- Reference of the rows in point, straightness and angle.
+-- Reference point of the rows in point, straightness and angle.
 ALTER TABLE run ADD COLUMN reference TEXT NOT NULL DEFAULT 'carriage'
   CHECK (reference IN ('fixture', 'carriage'));
 
--- Before this step, u_EC0Y_rad held the value that is now form_rad: how well a line describes the
+-- Before this step, u_EC0Y_rad contained the value that is now in form_rad: it states how well a line describes the
 -- axes.
 ALTER TABLE squareness ADD COLUMN form_rad ANY;
 ALTER TABLE squareness ADD COLUMN u_artefact_rad ANY;
@@ -22,9 +22,9 @@ ALTER TABLE compensation_table ADD COLUMN point_m BLOB;  -- 3 doubles; NULL in a
 ALTER TABLE compensation_table ADD COLUMN chain TEXT NOT NULL DEFAULT '';         -- not known
 ALTER TABLE compensation_table ADD COLUMN chain_travel TEXT NOT NULL DEFAULT '';  -- "X+ Y- Z+"
 
--- For SQL users and notebooks: one row for each point, ISO 230-1 names of the moving body, µm and µrad,
--- at the fixture. For a run that was stated at the carriage this is a first-order value: 0.1 nm at 1
--- mrad and 100 mm.
+-- For SQL users and notebooks: one row for each point, at the fixture, with ISO 230-1 names of the moving body, in µm
+-- and µrad. For a run that is stated at the carriage, the values are a first-order approximation: the error is 0.1 nm
+-- at 1 mrad and 100 mm.
 DROP VIEW v_points_x;
 DROP VIEW v_points_y;
 DROP VIEW v_points_z;

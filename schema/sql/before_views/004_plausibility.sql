@@ -1,6 +1,6 @@
--- Overall figures of a run: number of visits, omitted stops, readings of encoder and probes. For
--- people; not part of the result and of its hash. One JSON object for each run, as
--- schema/plausibility/plausibility_json.h writes it; runs stored before this step have none.
+-- Overall figures of a run: number of visits, omitted stops, readings of encoder and probes. They are for people, and
+-- are not part of the result and of its hash. There is one JSON object for each run
+-- (schema/plausibility/plausibility_json.h); runs from before this step have none.
 CREATE TABLE run_plausibility (
   run INTEGER PRIMARY KEY REFERENCES run (id),
   json TEXT NOT NULL

@@ -1,5 +1,5 @@
--- A run that ended before all requested targets were measured is `partial`. SQLite can change the
--- CHECK of a column only by creating the table again; no other table refers to this one.
+-- The state of a run that ended before all requested targets were measured is `partial`. SQLite can change the CHECK
+-- of a column only if the table is made again; no other table refers to this table.
 
 CREATE TABLE run_end_new (
   run INTEGER PRIMARY KEY REFERENCES run (id),

@@ -1,5 +1,5 @@
--- A table can be deactivated. Activations and deactivations share one sequence of generations: the
--- row with the highest generation of an axis in either table is valid. Append only.
+-- A table can be deactivated. Activations and deactivations of an axis are numbered together (generation). The row
+-- with the highest generation of the axis, in either table, is valid. Append only.
 CREATE TABLE deactivation (
   generation INTEGER PRIMARY KEY,
   axis TEXT NOT NULL CHECK (axis IN ('X', 'Y', 'Z')),

@@ -1,4 +1,4 @@
--- For runs whose log had a column temperature_C: its values from the first scan to the last.
+-- For runs whose log has a column temperature_C: figures of its values between the first and the last scan.
 CREATE TABLE run_temperature (
   run INTEGER PRIMARY KEY REFERENCES run (id),
   mean_C ANY NOT NULL,

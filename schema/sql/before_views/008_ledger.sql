@@ -1,7 +1,7 @@
--- Every fact that a result, a table or its activation depends on has a link in one chain of hashes,
--- made in the transaction that stored the fact (daemon/store/ledger.h defines the bytes). Every
--- change, removal or reordering of a fact is detected. Facts from before this step are linked in their
--- state at this step.
+-- A chain of hashes. Each fact on which a result, a table or its activation depends has one link in the chain. The
+-- link is made in the transaction that stores the fact (daemon/store/ledger.h defines the bytes). The chain detects
+-- every change, removal or reordering of a fact. Facts from before this step are linked with the contents that they
+-- have at this step.
 CREATE TABLE ledger (
   id INTEGER PRIMARY KEY,   -- 1, 2, ... without a gap
   fact TEXT NOT NULL,       -- run, run_end, squareness, compensation_table, activation, deactivation

@@ -1,6 +1,6 @@
--- Recorded actions: a row for each requested change of state, stored in the transaction of the change itself and linked
--- in the ledger. uid, gid and pid are those of the requesting process, as the kernel reports them; user is the name of
--- the uid at that time. Changes from before this step have no row.
+-- Recorded actions: one row for each requested change of state. The row is stored in the transaction of the change
+-- and linked in the ledger. uid, gid and pid are those of the requesting process, as the kernel reports them; user is
+-- the name of the uid at that time. Changes from before this step have no row.
 CREATE TABLE deed (
   id INTEGER PRIMARY KEY,
   name TEXT NOT NULL,     -- run.start, run.resume, run.stop, run.abort, run.replay, squareness.fit,

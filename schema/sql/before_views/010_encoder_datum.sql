@@ -1,7 +1,8 @@
--- Settings of encoder.set: position of the axis, and the offset added to its encoder since then. A setting is valid
--- while the daemon runs and the encoder's device has power; after a restart the last row of an axis shows the lost
--- setting. Linked in the ledger, with its own action. For this SQLite creates the table of actions again: the CHECK of
--- a column cannot be changed in another way, and no table refers to it.
+-- Settings of encoder.set: the position of the axis, and the offset that is added to its encoder from then on. A
+-- setting is valid while the daemon runs and the encoder's device has power. After a restart, the last row of an axis
+-- shows the lost setting. Each setting is linked in the ledger and has its own recorded action. Therefore the table
+-- of actions is made again with a new CHECK: SQLite cannot change the CHECK of a column in another way, and no table
+-- refers to this table.
 CREATE TABLE encoder_datum (
   id INTEGER PRIMARY KEY,
   axis TEXT NOT NULL CHECK (axis IN ('X', 'Y', 'Z')),

@@ -1,5 +1,5 @@
--- Tables of corrections over a plane or a volume (schema/volumetric/volumetric_table.h), and the active one. They are
--- numbered together with compensation_table. Columns of doubles as in 001.
+-- Tables of corrections for a plane or a volume (schema/volumetric/volumetric_table.h), and the active table. The ids
+-- of these tables and of compensation_table are counted together. Columns of doubles: as in 001_runs.sql.
 CREATE TABLE volumetric_table (
   id INTEGER PRIMARY KEY,
   machine TEXT NOT NULL,       -- its name
@@ -33,8 +33,8 @@ CREATE TABLE volumetric_source (
   PRIMARY KEY (volumetric_table, row)
 ) STRICT, WITHOUT ROWID;
 
--- Generations are counted together with activation and deactivation. The last row is valid; if it has no table, none is
--- active.
+-- The generations are counted together with those of activation and deactivation. The last row is valid. If it has no
+-- table, no table is active.
 CREATE TABLE volumetric_activation (
   generation INTEGER PRIMARY KEY,
   volumetric_table INTEGER REFERENCES volumetric_table (id),
@@ -55,7 +55,7 @@ BEGIN SELECT raise(ABORT, 'volumetric_activation is append only'); END;
 CREATE TRIGGER volumetric_activation_no_delete BEFORE DELETE ON volumetric_activation
 BEGIN SELECT raise(ABORT, 'volumetric_activation is append only'); END;
 
--- The CHECK of a column cannot be changed in another way, and no table refers to this one.
+-- SQLite cannot change the CHECK of a column in another way, and no table refers to this table.
 CREATE TABLE deed_new (
   id INTEGER PRIMARY KEY,
   name TEXT NOT NULL,     -- run.start, run.resume, run.stop, run.abort, run.replay, squareness.fit,

@@ -52,7 +52,7 @@ Status read_further_channels(std::vector<FurtherAxis> axes, const ChannelKeys& m
 using ChannelPart = std::map<std::string, std::string>;
 std::vector<Channel> channels_for_axis(std::vector<Channel> channels, const ChannelPart& part);
 
-// For DriverSpec::channels.
+// Ids of the channels, for DriverSpec::channels.
 std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels);
 
 // Whether the encoder `id` is connected to one of the inputs `counters`. Only an encoder at a
@@ -72,7 +72,7 @@ std::map<std::string, EncoderOrigin> further_encoders(const std::vector<ChannelI
 // Returns the error that the device has no such input. The message lists the inputs of the device.
 tl::unexpected<Error> no_such_input(const ChannelInput& channel,
                                     const std::vector<std::string>& inputs);
-// Error if um_per_count is 0; a counting encoder needs it.
+// Error: um_per_count is 0, but a counting encoder needs it.
 Status check_um_per_count(const ChannelInput& channel);
 
 }  // namespace mdof::drivers

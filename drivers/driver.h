@@ -22,7 +22,7 @@ struct DeviceInfo {
   std::string driver;             // name in registry.cpp: "qsb"; for "replay": "csv" or "recording"
   std::string description;        // one line of text for users
   std::vector<Channel> channels;  // empty until open() if only the device itself knows its channels
-  double rate_hz = 0;             // scans a second; 0: not known
+  double rate_hz = 0;             // scans per second; 0: not known
   bool simulated = false;  // true: there is no real machine; every result is marked as simulated
   std::optional<ClockState> clock;  // set if the device counts its samples or sends time stamps
   // Reason why an incremental encoder has lost its datum after the driver first opened it: the
@@ -53,7 +53,7 @@ enum class ReadState {
   end,   // the source (a file) has ended; no more scans follow
 };
 
-// Thread-bound: created, used and destroyed on the thread of its reader.
+// Thread-bound: the thread that reads the driver creates, uses and destroys it.
 class Driver {
  public:
   virtual ~Driver() = default;  // releases the device; never throws

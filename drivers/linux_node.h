@@ -11,8 +11,8 @@ namespace mdof::drivers {
 
 // The device file of a USB device that the driver opens.
 enum class UsbNode {
-  bus,     // /dev/bus/usb/001/007, by libusb
-  hidraw,  // /dev/hidraw0, by hidapi
+  bus,     // /dev/bus/usb/001/007, opened by libusb
+  hidraw,  // /dev/hidraw0, opened by hidapi
   tty,     // /dev/ttyUSB0
 };
 

@@ -1,4 +1,4 @@
-// All drivers, by their names in the configuration: one row each in registry.cpp.
+// All drivers with their names in the configuration. Each driver has one row in registry.cpp.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,9 @@ struct SimulatedKind {
 
 // All facts about a driver that other folders need.
 struct DriverRow {
-  const char* name;     // in the configuration
-  const char* folder;   // in drivers/
-  const char* devices;  // one line: the devices and their connection
+  const char* name;     // name in the configuration
+  const char* folder;   // folder in drivers/
+  const char* devices;  // one line of text: the devices and their connection
   Result<DriverSpec> (*configure)(TomlTable&, const DriverContext&);
   // nullopt: the device is in the network, or it is a file or a script.
   std::optional<LinuxNode> node = std::nullopt;

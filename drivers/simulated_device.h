@@ -46,9 +46,9 @@ class SimulatedDevice {
   // Whether the device closes this connection after the bytes that exchange() returned are sent.
   virtual bool hangs_up(std::size_t /*port*/, int /*client*/) { return false; }
 
-  // The USB side of the device; nullptr: it is not a USB device.
+  // The USB interface of the device; nullptr: the device has no USB.
   virtual usb::SimulatedUsb* on_usb() { return nullptr; }
-  // Called about every millisecond, even without clients.
+  // Called about every millisecond, even if no client is connected.
   virtual void turn(std::int64_t /*now_ns*/) {}
 };
 

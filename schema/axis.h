@@ -1,8 +1,9 @@
-// The machine axis, its local frame and the ISO 230-1 names of its errors.
+// A machine axis, its local frame, and the ISO 230-1 names of its errors.
 //
-// Local frame of an axis: x along the motion, z "up" (normal of the top target plane), y = z × x.
-//   X: local (x, y, z) = (+X, +Y, +Z)      Y: (+Y, -X, +Z)      Z: (+Z, +X, +Y), the cyclic turn
-// Five errors in the local frame: δy, δz, εx, εy, εz. Their ISO names by axis:
+// Local frame of an axis: x is along the motion, z is "up" (normal of the top target plane), y = z
+// × x. The local axes (x, y, z) are these machine axes:
+//   X: (+X, +Y, +Z)      Y: (+Y, -X, +Z)      Z: (+Z, +X, +Y), a cyclic permutation
+// The five errors in the local frame are δy, δz, εx, εy, εz. Their ISO names for each axis:
 //   X: EYX = δy   EZX = δz   EAX = εx   EBX = εy   ECX = εz
 //   Y: EXY = -δy  EZY = δz   EAY = -εy  EBY = εx   ECY = εz
 //   Z: EXZ = δy   EYZ = δz   EAZ = εy   EBZ = εz   ECZ = εx

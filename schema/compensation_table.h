@@ -61,8 +61,8 @@ struct CompensationTable {
   // is found from the points of the runs and not stored.
   bool visited_once = false;
   std::string created_utc;
-  std::string sha256;  // table_sha256() or a value of an earlier version; checked by the ledger of
-                       // the store
+  // table_sha256(), or a value of an earlier version. The ledger of the store checks it.
+  std::string sha256;
 
   bool has_declared() const { return !u_declared.front().empty(); }
   bool has_positioning() const { return !positioning.forward.empty(); }
@@ -85,14 +85,19 @@ struct CompensationTable {
   }
 };
 
-// SHA-256 of the contents of the table, independent of any text format. Bytes hashed (i, d, s:
-// schema/base/canonical.h):
-//   s "mdof table 2", s axis, i simulated, i slope_removed, i number of runs, i each run,
-//   s moves, s travel, s chain, s travels of the chain ("" "": unknown), s reference, d point_m[3],
-//   i n, d position_m[n], then in the order of the members i n, d each series: forward[5],
-//   reverse[5], u_forward[5], u_reverse[5], u_declared[5], and the series of positioning: forward,
-//   reverse, u_forward, u_reverse, u_declared; n = 0 for a series that the table does not have.
-// Tables of earlier versions have the hash of the JSON that was written at that time.
+// SHA-256 of the contents of the table, independent of any text format. These bytes are hashed, in
+// this order (i, d, s: schema/base/canonical.h):
+//   s "mdof table 2", s axis
+//   i simulated, i slope_removed
+//   i number of runs, i each run
+//   s moves, s travel
+//   s chain, s travels of the chain ("" "": unknown)
+//   s reference, d point_m[3]
+//   i n, d position_m[n]
+//   for each of these series i n, d the n values (n = 0: the table does not have the series):
+//     forward[5], reverse[5], u_forward[5], u_reverse[5], u_declared[5]
+//     of positioning: forward, reverse, u_forward, u_reverse, u_declared
+// The hash in a table of an earlier version is the hash of the JSON that this version wrote.
 std::string table_sha256(const CompensationTable& table);
 
 // The contributions that u of the table includes.

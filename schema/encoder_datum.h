@@ -40,7 +40,7 @@ std::string datum_text(const EncoderDatum& datum);
 
 // A position that was set with encoder.set, as stored in the database.
 struct DatumSetting {
-  std::int64_t id = 0;  // 0 until stored
+  std::int64_t id = 0;  // 0: not stored yet
   Axis axis = Axis::x;
   std::string device;     // device of the encoder
   double before_m = 0;    // position of the axis before the setting

@@ -13,7 +13,7 @@
 
 namespace mdof {
 
-// Robust averages of a dwell.
+// Averages over a dwell, calculated robustly.
 struct Point {
   std::int64_t begin_ns = 0, end_ns = 0;  // times of the first and the last averaged sample
   double position_m = 0;                  // mean position of the encoder
@@ -21,7 +21,7 @@ struct Point {
   std::vector<double> probe_m;    // mean displacement of each probe; NaN: no value
   std::vector<double> probe_u_m;  // standard uncertainty of the mean (type A)
   std::uint64_t samples = 0;      // number of scans in the dwell
-  std::vector<PointFlag> flags;   // each at most once
+  std::vector<PointFlag> flags;   // each flag at most once
 
   // The following members are for checks of a whole run. They are not stored and are not part of
   // the result.
@@ -42,8 +42,9 @@ struct AxisErrors {
   bool valid = false;
   std::string reason = "not solved";  // reason if !valid
   Errors5 local{};                    // δy, δz, εx, εy, εz in the axis' local frame; m, rad
-  Covariance5 covariance{};           // of `local`
-  double residual_m = 0;  // rms residual of the readings against the model (0 for five probes)
+  Covariance5 covariance{};           // covariance of `local`
+  // Root mean square of the residuals of the readings from the model; 0 for five probes.
+  double residual_m = 0;
 };
 
 // One row of a run: a point, its target and run, and its errors.

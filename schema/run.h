@@ -25,7 +25,7 @@ struct Provenance {
   std::string model;
   std::string software_version;
   std::string options_json;   // detection options as one JSON object
-  std::string configuration;  // mdofd.toml for a live run, else empty
+  std::string configuration;  // text of mdofd.toml for a live run; otherwise empty
 };
 
 // partial: the run ended before all requested targets were measured, or most points could not be
@@ -45,7 +45,8 @@ struct StraightnessFigure {
   // Standard uncertainty of the fitted slope, calculated from the residuals. It states how well a
   // line describes the axis; it does not state how well the slope is known.
   double form_rad = 0;
-  double straightness_least_squares_m = 0, straightness_end_point_m = 0;  // peak to valley
+  // Peak to valley, for each of the two lines.
+  double straightness_least_squares_m = 0, straightness_end_point_m = 0;
   // Positions of the largest and smallest residual from the least-squares line.
   double peak_position_m = 0, valley_position_m = 0;
 };

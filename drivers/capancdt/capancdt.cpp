@@ -141,7 +141,7 @@ Status Capancdt::update_clock(std::int64_t received_ns, bool all) {
   if (s.waiting.empty() || (!all && s.newest_frame)) return {};
   const PlacedPacket& last = s.waiting.back();
   const std::int64_t newest = last.first_frame + last.packet.frames() - 1;
-  if (newest == s.newest_frame) return {};  // only a part of a packet arrived
+  if (newest == s.newest_frame) return {};  // only a part of a new packet has arrived
   s.newest_frame = newest;
   s.first_ns = s.first_ns.value_or(received_ns);
   s.warm = s.warm || nanoseconds(received_ns - *s.first_ns) >= options_.warm_up;

@@ -51,7 +51,7 @@ class Capancdt final : public Driver {
     FrameCounter counter;
     DeviceClock clock;
     RateWatch rate;
-    std::deque<PlacedPacket> waiting;  // numbered, but not yet in a block
+    std::deque<PlacedPacket> waiting;  // packets that are numbered but not returned yet
     std::chrono::steady_clock::time_point last_packet_time;
     std::optional<std::int64_t> newest_frame;  // newest frame whose time was added to the clock
     // Host time at which the first frame was added to the clock.

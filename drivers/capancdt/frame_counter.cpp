@@ -67,7 +67,8 @@ double FrameCounter::frames(std::uint64_t counted, const Packet& before) const {
 Status FrameCounter::hold(Packet packet, std::deque<PlacedPacket>& placed) {
   if (!held_.empty()) vote(held_.back(), packet);
   held_.push_back(std::move(packet));
-  const auto best = std::max_element(votes_.begin(), votes_.end());  // the first of equal maxima
+  // If several are equal, the first.
+  const auto best = std::max_element(votes_.begin(), votes_.end());
   if (*best < kVotes) {
     if (held_.size() < kMostHeld) return {};
     return io_error(

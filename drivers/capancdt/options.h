@@ -35,9 +35,10 @@ struct Options {
   std::int32_t guard_counts = 16;  // a reading at most this far from 0 or 0xFFFFFF is over range
   struct Channel {
     ChannelInput input;
-    int number = 0;             // 1 ... 32
-    double range_um = 0;        // 0: use the range that the controller states
-    bool rig_corrects = false;  // the rig has a linearity or polynomial for this channel
+    int number = 0;       // 1 ... 32
+    double range_um = 0;  // 0: use the range that the controller states
+    // True: the rig has a linearity table or a polynomial for this channel.
+    bool rig_corrects = false;
   };
   std::vector<Channel> channels;
   double settle_s = 0;  // longest permitted duration of the filter; 0: not known

@@ -26,7 +26,7 @@ class SimulatedCapancdt final : public SimulatedDevice {
   // immediately, and the reply contains the command again.
   enum class Echo {
     line,   // the command, then the reply, which contains the command
-    reply,  // the command once: its echo is the beginning of the reply
+    reply,  // the command once; its echo is the beginning of the reply
     mixed,  // the reply comes before the last characters of the echo
     none,
   };
@@ -71,7 +71,7 @@ class SimulatedCapancdt final : public SimulatedDevice {
 
   SimulatedCapancdt(Senses senses, Options options);
 
-  std::vector<Port> ports() const override;  // command, data
+  std::vector<Port> ports() const override;  // port 0: command; port 1: data
   void opened(std::size_t port, int client, std::int64_t now_ns) override;
   void closed(std::size_t port, int client) override;
   std::string exchange(std::size_t port, int client, std::string_view received,

@@ -61,7 +61,7 @@ class CsvStream final : public Driver {
 
  private:
   struct Row {
-    std::int64_t time_ns;  // time of the host
+    std::int64_t time_ns;  // time of the host's clock
     std::vector<double> values;
     std::uint64_t lost;
     bool suspect, unplaced;  // unplaced: only the position of the encoder is suspect

@@ -39,7 +39,7 @@ Result<Pipe> make_pipe(const std::string& name) {
   return pipe;
 }
 
-// Descriptors, folder and signals of the program when it starts.
+// Descriptors, folder and signals with which the program starts.
 class SpawnSettings {
  public:
   SpawnSettings(const std::string& folder, int output, int errors) {

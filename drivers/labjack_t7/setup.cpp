@@ -84,7 +84,7 @@ namespace {
 using FlashWords = std::array<std::uint16_t, 4 * kFlashNumbers>;
 
 Result<FlashWords> read_constants(Registers& registers) {
-  FlashWords words{};  // of two reads
+  FlashWords words{};  // registers of two blocks
   for (int block = 0; block < 2; ++block) {
     constexpr std::size_t kRead = 2 * kFlashNumbers;
     MDOF_CHECK(registers.write(reg::flash_pointer, flash_address(block)));

@@ -60,7 +60,7 @@ class LabjackU6 final : public Driver {
   std::optional<usb::Handle> handle_;
   std::optional<usb::InStream> stream_;
   PacketLine line_;
-  std::array<AinCalibration, 4> calibrations_;  // by gain
+  std::array<AinCalibration, 4> calibrations_;  // for the gains 0 ... 3
 
   DeviceClock clock_;  // a tick is a scan
   // Host time when it arrived; before the first transfer, the time of the start.

@@ -140,7 +140,7 @@ std::string encode(const StreamData& packet);
 // `bytes`: one packet with `samples` samples. Errors: a wrong length, type or checksum.
 Result<StreamData> decode(std::string_view bytes, std::size_t samples);
 
-// Numbers the scans of the packets.
+// Numbers the scans in the packets. Scans that the device dropped are counted too.
 class PacketLine {
  public:
   explicit PacketLine(std::size_t words_per_scan) : line_(words_per_scan) {}

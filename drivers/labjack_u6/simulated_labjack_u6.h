@@ -20,7 +20,7 @@ class SimulatedLabjackU6 final : public usb::SimulatedUsb {
  public:
   // Possible faults. A member `..._at` is the number of a stream packet, from 0; -1: never.
   struct Faults {
-    bool deaf = false;            // every command gets the reply B8 B8
+    bool deaf = false;            // every command is answered with B8 B8
     bool wrong_checksum = false;  // every reply has a wrong checksum
     // Three packets have error 59, then a packet with error 60 reports `dropped` scans.
     int recovery_at = -1;

@@ -1,4 +1,5 @@
-// Counts of a Linux counter device (Documentation/ABI/testing/sysfs-bus-counter of the kernel).
+// Rules for the counts of a Linux counter device (Documentation/ABI/testing/sysfs-bus-counter of
+// the kernel).
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,7 @@ inline constexpr std::size_t kSerialBytes = 8;
 // --- Ranges --------------------------------------------------------------------------------------
 
 struct Range {
-  double volts;  // the range is ± volts
+  double volts;  // the range is -volts ... +volts
   std::uint8_t code;
 };
 inline constexpr std::array<Range, 4> kRanges{{{10, 0}, {5, 1}, {2, 3}, {1, 5}}};

@@ -18,7 +18,7 @@ namespace mdof::drivers::pokeys57u {
 
 struct Input {
   Channel channel;
-  std::string name;       // "encoder1" ... "encoder25", "ultrafast", "analogue1" ... "analogue7"
+  std::string name;  // one of "encoder1" ... "encoder25", "ultrafast", "analogue1" ... "analogue7"
   std::size_t index = 0;  // index of the counter; for an analogue input, kCounters + its index
   double um_per_count = 0;
   // Bits of EncoderOption that the driver sets; nullopt: the driver changes no option.

@@ -24,7 +24,7 @@ struct QsbOptions {
   std::string port;                 // device file of the serial port; empty: use `address`
   std::optional<Endpoint> address;  // address of a TCP bridge
   SerialSettings line{.baud = 230'400};
-  std::uint32_t counting = 3;   // 1, 2, 3: x1, x2, x4
+  std::uint32_t counting = 3;   // 1: x1, 2: x2, 3: x4
   std::uint32_t interval = 1;   // number of ticks between two lines
   std::string serial;           // serial number of the device; empty: any device
   ChannelInput channel;         // its input is "count"
@@ -106,7 +106,8 @@ class Qsb final : public Driver {
   IndexMark mark_{32};
   bool awaits_new_mark_ = true;  // the count has a new zero, so the mark must be awaited
   std::int64_t at_mark_since_ns_ = 0;
-  int marks_found_ = 0, marks_passed_ = 0;  // in received samples; in returned samples
+  // Passed marks in the received samples; in the returned samples.
+  int marks_found_ = 0, marks_passed_ = 0;
   std::uint64_t malformed_ = 0;
   int malformed_in_a_row_ = 0;
 };

@@ -13,7 +13,7 @@
 
 namespace mdof::drivers {
 
-// `senses`: input 0, counts. One client at a time.
+// `senses`: input 0, in counts. Only one client may be connected at a time.
 class SimulatedQsb final : public SimulatedDevice {
  public:
   // Possible faults. The lines of a stream are numbered from 0 at each S command; -1: never.
@@ -22,7 +22,7 @@ class SimulatedQsb final : public SimulatedDevice {
     int reset_at = -1;              // a banner is sent instead of this line, and the count restarts
     int cut_at = -1;                // only half of this line is sent, without a line end
     int jump_at = -1;               // from this line on the stamp is higher by jump_ticks
-    std::uint32_t jump_ticks = 10;  // ticks of the jump
+    std::uint32_t jump_ticks = 10;  // the difference of the stamp
     int silent_from = -1;
     bool rubbish = false;  // no line of the stream contains a valid digit
     int refuse = -1;       // register whose reply is e

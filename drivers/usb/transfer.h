@@ -45,7 +45,7 @@ struct Transfer {
   Status submit();
   std::string received() const;  // data of an IN transfer
 
-  libusb_transfer* raw;  // nullptr: no memory
+  libusb_transfer* raw;  // nullptr: there is no memory for it
   std::vector<unsigned char> buffer;
   bool in_flight = false;
   std::int64_t done_ns = 0;  // time at which the end of the transfer was detected

@@ -1,4 +1,4 @@
-// Initialisation of a thread.
+// Prepares a new thread.
 #pragma once
 
 #include <pthread.h>

@@ -14,7 +14,7 @@ namespace mdof {
 using PowerTable = fast_float::powers;
 __extension__ using Uint128 = unsigned __int128;
 
-// Range of exponents decided here: 1e-98 < 2^-325 and 2^24 > 1e7.
+// Range of exponents for which round_to_17() is used: 1e-98 < 2^-325 and 2^24 > 1e7.
 inline constexpr int kDoubleBias = 1023, kLeastExponent = -325, kMostExponent = 23;
 inline constexpr int kMostPlainExponent = 6;  // largest exponent printed without "e": ddddddd.ddd
 inline constexpr std::uint64_t kMost17Digits = 99'999'999'999'999'999;
@@ -35,7 +35,7 @@ inline int floor_log10_of_power_of_two(int e) {
 
 // x = digits · 10^(exponent - 16)
 struct Decimal17 {
-  std::uint64_t digits = 0;  // 17 of them, or 10^17; 0: not decided
+  std::uint64_t digits = 0;  // 17 digits, or 10^17; 0: the rounding is not certain
   int exponent = 0;
 };
 
@@ -55,7 +55,8 @@ inline Decimal17 round_to_17(std::uint64_t m, int e) {
   const int shift = 62 - e - floor_log2_of_power_of_ten(q);
   const std::uint64_t fraction =
       high << (64 - shift) | static_cast<std::uint64_t>(product) >> shift;
-  if (fraction - ((std::uint64_t{1} << 63) - 3) <= 6) return {};  // too near to a half, or a tie
+  // Too near to one half, or exactly one half.
+  if (fraction - ((std::uint64_t{1} << 63) - 3) <= 6) return {};
   return {(high >> shift) + (fraction >> 63), k};
 }
 

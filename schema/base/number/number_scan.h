@@ -37,7 +37,7 @@ inline constexpr std::uint64_t kPowersOfTen[] = {1,
                                                  10'000'000'000'000'000,
                                                  100'000'000'000'000'000,
                                                  1'000'000'000'000'000'000};
-// The same powers as doubles, and all further powers that are exact.
+// The same powers of ten as doubles, and all larger powers that a double represents exactly.
 inline constexpr int kLargestExactPower = 22;
 inline constexpr double kExactPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                           1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
@@ -57,13 +57,14 @@ inline __m128i load16(const void* p) {
   return _mm_loadu_si128(static_cast<const __m128i*>(p));
 }
 
-// Bit i: byte i of the vector is c. (Also the fast way to compare one byte: the setcc of *p == c
-// writes a part of a register, and must wait for the last result in that register.)
+// Bit i of the result: byte i of the vector is c. (This is also the fast way to compare a single
+// byte: for *p == c the compiler uses setcc, which writes only a part of a register and must wait
+// for the previous result in that register.)
 inline unsigned equal(__m128i text, char c) {
   return static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(text, _mm_set1_epi8(c))));
 }
 
-// A mask of the last n bytes of a vector, 0 <= n <= 16.
+// Returns a mask of the last n bytes of a vector, 0 <= n <= 16.
 inline __m128i last(std::size_t n) {
   alignas(32) static constexpr signed char kMask[32] = {0,  0,  0,  0,  0,  0,  0,  0,  //
                                                         0,  0,  0,  0,  0,  0,  0,  0,  //
@@ -72,8 +73,9 @@ inline __m128i last(std::size_t n) {
   return load16(kMask + n);
 }
 
-// Sixteen characters as four numbers of four digits. All but the last n count as '0'. If one of the
-// n is not a digit, a byte of `wrong` has its top bit set.
+// Converts sixteen characters to four numbers of four digits. Only the last n characters are used;
+// the others count as '0'. If one of the n characters is not a digit, the top bit of a byte in
+// `wrong` is set.
 inline __m128i four_digits_each(__m128i text, std::size_t n, __m128i& wrong) {
   const __m128i d = _mm_and_si128(_mm_sub_epi8(text, _mm_set1_epi8('0')), last(n));
   wrong = _mm_adds_epu8(d, _mm_set1_epi8(127 - 9));
@@ -82,7 +84,8 @@ inline __m128i four_digits_each(__m128i text, std::size_t n, __m128i& wrong) {
   return _mm_madd_epi16(twos, _mm_set1_epi32(1 << 16 | 100));
 }
 
-// Two times four numbers of four digits to two times two numbers of eight digits.
+// Converts two vectors of four numbers with four digits to one vector of four numbers with eight
+// digits.
 inline __m128i eight_digits_each(__m128i first, __m128i second) {
   return _mm_madd_epi16(_mm_packs_epi32(first, second), _mm_set1_epi32(1 << 16 | 10000));
 }
@@ -98,7 +101,8 @@ inline bool sixteen_digits(__m128i text, std::size_t n, std::uint64_t& value) {
   return _mm_movemask_epi8(wrong) == 0;
 }
 
-// Up to 16 characters: the digits before the point are shifted by one, so that all are contiguous.
+// Reads up to 16 characters. The digits before the decimal point are moved by one byte, so that all
+// digits are contiguous.
 inline bool scan_short(const char* p, const char* end, std::size_t point, ScannedNumber& number) {
   const std::size_t size = static_cast<std::size_t>(end - p);
   const __m128i text = load16(end - 16);
@@ -114,7 +118,8 @@ inline bool scan_short(const char* p, const char* end, std::size_t point, Scanne
   return n != 0 && sixteen_digits(in_a_row, n, number.mantissa);
 }
 
-// Up to 8 digits before the point and 16 after it at once, two more after it one by one; 19 in all.
+// Reads up to 8 digits before the decimal point and 16 digits after it at once, then up to two more
+// digits one by one. The number may have 19 digits in all.
 inline bool scan_long(const char* p, const char* end, std::size_t point, ScannedNumber& number) {
   const std::size_t whole = point - number.negative;
   const std::size_t fraction = static_cast<std::size_t>(end - p) - point - 1;
@@ -141,7 +146,7 @@ inline bool scan_long(const char* p, const char* end, std::size_t point, Scanned
 
 }  // namespace detail
 
-// The field [p, end) as a plain number. Reads up to kScanMargin bytes before p and after p.
+// Reads the field [p, end) as a plain number. Reads up to kScanMargin bytes before p and after p.
 inline bool scan_number(const char* p, const char* end, ScannedNumber& number) {
   const std::size_t size = static_cast<std::size_t>(end - p);
   if (size - 1 > 20) return false;
@@ -158,7 +163,7 @@ inline bool scan_number(const char*, const char*, ScannedNumber&) {
 }
 #endif
 
-// The double nearest to a scanned number.
+// Returns the double that is nearest to a scanned number.
 inline double to_double(const ScannedNumber& number) {
   const std::uint64_t sign = static_cast<std::uint64_t>(number.negative) << 63;
   if (number.mantissa < 1'000'000'000'000'000) {

@@ -1,7 +1,8 @@
-// Fields of text [-]ddd.ddd as mantissas, as many at a time as a vector has 64-bit lanes. Written
-// once with Highway for vectors of 32 and of 64 bytes: number_columns_vector.cpp includes this file
-// once for each. A vector is processed in blocks of 16 bytes. The block of a field holds its last
-// 16 characters; long fields have a second block with the 16 characters before these.
+// Reads fields of the form [-]ddd.ddd as mantissas, as many fields at a time as a vector has 64-bit
+// lanes. The code uses Highway and is compiled for vectors of 32 and of 64 bytes:
+// number_columns_vector.cpp includes this file once for each size. A vector consists of blocks of
+// 16 bytes. The first block of a field contains its last 16 characters; a long field has a second
+// block with the 16 characters before them.
 #if defined(MDOF_PLAIN_FIELDS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MDOF_PLAIN_FIELDS_INL_H
 #undef MDOF_PLAIN_FIELDS_INL_H
@@ -37,8 +38,9 @@ using Longs = hn::Vec<decltype(d64)>;
 constexpr std::size_t kFields = HWY_LANES(std::uint64_t);
 constexpr std::size_t kBlocksOfVector = kFields / 2;
 
-// Place of the point of a field and its sign: 2 (32 + i) + sign if the point is character i of the
-// last 32; only the sign if there is no point.
+// `seen` encodes the position of the decimal point in a field, and its sign. If the point is
+// character i of the last 32 characters, the value is 2 (32 + i) + sign. If there is no point, the
+// value is the sign.
 constexpr std::uint8_t kFirstPlace = 64;
 HWY_INLINE Longs place_of_point(Longs seen) {  // i; 0: no point
   return hn::And(hn::ShiftRight<1>(seen), hn::Set(d64, 31));
@@ -49,12 +51,12 @@ struct Plain {
   Longs odd;  // any bit set: a field is not plain
 };
 
-// A table for one block, used for all blocks.
+// A table for one block; all blocks use the same table.
 using Table = std::array<std::uint8_t, 16>;
 HWY_INLINE Bytes in_all_blocks(const Table& table) {
   return hn::LoadDup128(d8, table.data());
 }
-// Bytes of block k of a field that encode the place of a point.
+// Block k of a field: for each byte, the code of a decimal point at this position.
 template <int k>
 HWY_INLINE Bytes places() {
   static constexpr Table kPlaces = [] {
@@ -65,8 +67,9 @@ HWY_INLINE Bytes places() {
   }();
   return in_all_blocks(kPlaces);
 }
-// The character c at all allowed places. The last character of a field must be a digit, and a point
-// at place 0 could not be distinguished from no point. (No field has a byte 255.)
+// The character c at all positions where it is allowed; 255 elsewhere (no field contains a byte
+// 255). The last character of a field must be a digit. A point at position 0 is not allowed,
+// because it could not be distinguished from no point.
 template <int k>
 HWY_INLINE Bytes allowed(char c) {
   static constexpr Table kNever = [] {
@@ -77,21 +80,21 @@ HWY_INLINE Bytes allowed(char c) {
   return hn::Or(in_all_blocks(kNever), hn::Set(d8, static_cast<std::uint8_t>(c)));
 }
 
-// 32 bytes from kLast + n on: the last n of them are 255, n <= 32.
+// The 32 bytes from kLast + n on: the last n of these bytes are 255, n <= 32.
 constexpr std::array<std::uint8_t, 64> kLast = [] {
   std::array<std::uint8_t, 64> last{};
   for (std::size_t i = 32; i < last.size(); ++i) last[i] = 255;
   return last;
 }();
 
-// The fields of one vector: every second field of a group.
+// The ends of the fields in one vector. A vector contains every second field of a group.
 struct Ends {
   const std::uint8_t* text[kBlocksOfVector];  // end of each field
   const std::uint8_t* last[kBlocksOfVector];  // kLast + size
 };
 
-// Finds the ends of the fields first, first + 2, ... False: one is empty or has more than 16
-// kBlocks characters.
+// Finds the ends of the fields first, first + 2, ... Returns false if a field is empty or has more
+// than 16 kBlocks characters.
 template <int kBlocks>
 HWY_INLINE bool find_ends(const ColumnText& column, std::size_t first, Ends& ends) {
   const auto* const text = reinterpret_cast<const std::uint8_t*>(column.text);

@@ -103,15 +103,21 @@ Vec3 remaining_u(const Vec3& u_m, const Vec3& part_m);
 std::vector<double> noise_numbers(const VolumetricTable& table);
 bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
 
-// SHA-256 of the contents of the table. Bytes hashed (schema/base/canonical.h):
-//   s "mdof volumetric table 1" (2 with u_independent_m, 3 with noise), s name, s chain, s travels,
-//   s description, i number of runs, i each run, i simulated, i noise_only (0: none, 1: some, 2:
-//   all), s approach, d tool_m[3], d rotary_rad[3], then for X, Y, Z i n, d command_m[n], d
-//   correction_m[nodes][3], d u_m[nodes][3], d u_independent_m[nodes][3] (2, 3), d noise (3;
-//   noise_numbers()), d interpolation_m[3], d place_left_m, d turn_left_rad, then for not_measured,
-//   u_not_declared, beyond_tables i n, s each. If reversal_m is not 0, ", reversal" is appended to
-//   the first s and d reversal_m[3] follows; if there are doubtful notices, ", doubtful" is
-//   appended to the first s and s notices_json() is the last value.
+// SHA-256 of the contents of the table. These bytes are hashed, in this order (i, d, s:
+// schema/base/canonical.h):
+//   s "mdof volumetric table 1"; 2 and not 1 with u_independent_m, 3 with noise; ", reversal" is
+//     appended if reversal_m is not 0, then ", doubtful" if there are doubtful notices
+//   s name, s chain, s travels, s description
+//   i number of runs, i each run
+//   i simulated, i noise_only (0: none, 1: some, 2: all), s approach
+//   d tool_m[3], d rotary_rad[3]
+//   for X, Y and Z: i n, d command_m[n]
+//   d correction_m[nodes][3], d u_m[nodes][3], d u_independent_m[nodes][3] (2, 3)
+//   d noise (3; noise_numbers())
+//   d interpolation_m[3], d place_left_m, d turn_left_rad
+//   for not_measured, u_not_declared and beyond_tables: i n, s each name
+//   d reversal_m[3], if it is not 0
+//   s notices_json() of the doubtful notices, if there are any
 std::string volumetric_sha256(const VolumetricTable& table);
 
 // Text for people, one sentence without a full stop: the contributions that u includes.

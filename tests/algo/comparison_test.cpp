@@ -8,7 +8,8 @@
 namespace mdof::algo {
 namespace {
 
-// Outputs that the test gives for each trial; NaN: not solved.
+// An experiment whose outputs are the values of the test, one a trial; NaN: the trial is not
+// solved.
 class Given : public Experiment {
  public:
   Given(std::string key, std::vector<double> values)
@@ -34,8 +35,8 @@ std::vector<ComparedOutput> compared(const Given& ours, const Given& other) {
   return sums.result();
 }
 
-// 1, 2, 3, 4 have variance 5/3. 2, 0, 2, 8 have mean 3, squares 1 + 9 + 1 + 25 = 36 and variance
-// 12.
+// The values 1, 2, 3, 4 have the variance 5/3. The values 2, 0, 2, 8 have the mean 3 and the
+// variance 12: the sum of squares 36 = 1 + 9 + 1 + 25, divided by 3.
 TEST(ComparisonByHand, FourTrials) {
   const auto result = compared({"EYX_um", {1, 2, 3, 4}}, {"EYX_um", {2, 0, 2, 8}});
   ASSERT_EQ(result.size(), 1u);
@@ -43,9 +44,11 @@ TEST(ComparisonByHand, FourTrials) {
   EXPECT_NEAR(result[0].sd_this, std::sqrt(5.0 / 3), 1e-12);
   EXPECT_NEAR(result[0].sd_other, std::sqrt(12.0), 1e-12);
   EXPECT_NEAR(result[0].ratio, std::sqrt(12 * 3 / 5.0), 1e-12);
-  // Sums of squares: in the first block 2.25 + 0.25 (this) and 1 + 9 (other), in the second 2.5 and
-  // 1 + 25. Divided by the variances, other minus this: 10/12 - 2.5 × 3/5 = -2/3 and 26/12 - 3/2 =
-  // 2/3. Standard error: ratio/2 √(2 × 2 × 4/9)/4 = ratio/6.
+  // Each sum of squares is divided by the variance of its experiment; the difference is other minus
+  // this.
+  // First block, sums 2.25 + 0.25 (this) and 1 + 9 (other): 10/12 - 2.5 × 3/5 = -2/3.
+  // Second block, sums 2.5 (this) and 1 + 25 (other): 26/12 - 2.5 × 3/5 = 2/3.
+  // Standard error of the ratio: ratio/2 √(2 × 2 × 4/9)/4 = ratio/6.
   EXPECT_NEAR(result[0].ratio_se, result[0].ratio / 6, 1e-12);
 }
 
@@ -57,7 +60,8 @@ TEST(ComparisonByHand, TrialUnsolvedByOneIsExcludedFromBoth) {
   EXPECT_NEAR(result[0].sd_other, std::sqrt(18.0), 1e-12);
 }
 
-// Both solve the second block only: 2 and 4, 1 and 5 have variances 2 and 8.
+// Both experiments solve the second block only. Their values 2, 4 and 1, 5 have the variances 2 and
+// 8.
 TEST(ComparisonByHand, UnsolvedBlockDoesNotHideOtherBlocks) {
   const double nan = std::nan("");
   const auto result = compared({"EYX_um", {nan, nan, 2, 4}}, {"EYX_um", {nan, nan, 1, 5}});

@@ -1,4 +1,5 @@
-// Default values of requests: the numbers in the manual and in the papers that the headers cite.
+// The default values of requests equal the numbers in the manual and in the papers that the headers
+// cite.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -32,7 +33,8 @@ bool is_within_limits(bool angle, double at_m, double value) {
   return check_limits("EYX", angle, {0, at_m}, {0, value}, TableLimits{}).has_value();
 }
 
-// Limits: 1 mm and 50 µm/mm for lengths, 10 mrad and 0.5 mrad/mm for angles.
+// A table is accepted up to 1 mm and 50 µm/mm if its values are lengths, and up to 10 mrad and 0.5
+// mrad/mm if they are angles.
 TEST(DocumentedDefaults, ApplyToTableLimits) {
   EXPECT_TRUE(is_within_limits(false, 1, 0.99e-3));
   EXPECT_FALSE(is_within_limits(false, 1, 1.01e-3));

@@ -1,5 +1,6 @@
-// Height maps, fixtures, means, tables and the aligner against models that share no code with them:
-// sums of tent functions, bisection along the line of a probe, values calculated by hand.
+// Compares height maps, fixtures, means, tables and the aligner with models that share no code with
+// them. The models use sums of tent functions, bisection along the line of a probe, and values
+// calculated by hand.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -35,7 +36,7 @@ double model_height(const HeightMap& map, double first_m, double second_m) {
   return sum;
 }
 
-// Uneven nodes, a different number in each direction, slopes of about 1e-4.
+// A map with uneven nodes, a different number of nodes in each direction, and slopes of about 1e-4.
 HeightMap random_map(std::mt19937_64& engine) {
   std::uniform_real_distribution<> unit(0, 1);
   HeightMap map;
@@ -64,8 +65,8 @@ double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Transforms a point p from frame M to frame C: Rᵀ (p - t). R = Rz Ry Rx is undone as three
-// rotations, one after the other.
+// Transforms a point p from frame M to frame C: Rᵀ (p - t). R = Rz Ry Rx; the three rotations are
+// inverted one after the other.
 Vector to_carriage(Vector p, double travel_m, const Errors5& e) {
   p = {p[0] - travel_m, p[1] - e[0], p[2] - e[1]};
   const auto turn = [&p](std::size_t a, std::size_t b, double angle) {
@@ -79,8 +80,8 @@ Vector to_carriage(Vector p, double travel_m, const Errors5& e) {
   return p;
 }
 
-// Distance along the line of the probe to the surface z = h(x, y) or y = side + h(x, z), by
-// bisection.
+// Distance along the line of the probe to the surface, found by bisection. The surface is z = h(x,
+// y) if `top`, otherwise y = side + h(x, z).
 double model_reading(const FixtureProbe& probe, bool top, double travel_m, const Errors5& e) {
   const auto above = [&](double s) {
     Vector p;
@@ -100,7 +101,8 @@ double model_reading(const FixtureProbe& probe, bool top, double travel_m, const
   return 0.5 * (low + high);
 }
 
-// Two probes point against their axis, two are oblique; both planes have a random height map.
+// Two probes point in the negative direction of an axis and two are oblique. Both planes have a
+// random height map.
 TEST(OutsideTruth, ReadingsOfARandomTargetMatchBisection) {
   std::mt19937_64 engine(2);
   std::uniform_real_distribution<> unit(-1, 1);
@@ -126,7 +128,7 @@ TEST(OutsideTruth, ReadingsOfARandomTargetMatchBisection) {
   }
 }
 
-// A hill of 1 µm under probe P1 alone: the surface is 1 µm nearer along +Z.
+// The top plane has a hill of 1 µm under probe P1 alone, so the surface is 1 µm nearer along +Z.
 TEST(OutsideTruth, HillGivesPositiveReading) {
   Rig rig = test::rig_oblique();
   for (auto& plane : rig.planes)
@@ -138,9 +140,9 @@ TEST(OutsideTruth, HillGivesPositiveReading) {
   EXPECT_NEAR(readings(1), 0, 1e-12);
 }
 
-// Fixtures that differ from the default, with D not at x = 0, against the same bisection. The exact
-// model differs from a true rotation in second order: by 31 nm at 1 mrad, by a hundredth of that at
-// 0.1 mrad.
+// Compares fixtures that differ from the default fixture with the same bisection; probe D is not at
+// x = 0. The exact model differs from a true rotation in second order: by 31 nm at 1 mrad, by 0.31
+// nm at 0.1 mrad.
 TEST(OutsideTruth, ExactModelHoldsForOtherFixtures) {
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<> unit(-1, 1);
@@ -180,8 +182,8 @@ MeasuredPoint point(int target, int run, int direction, double position_m, doubl
   return p;
 }
 
-// 1, 2 and 4 have mean 7/3, Σ(x - mean)² = 14/3 and standard deviation of the mean √(14/3 / 2 / 3)
-// = √(7/9).
+// The values 1, 2 and 4 have the mean 7/3 and Σ(x - mean)² = 14/3. The standard deviation of their
+// mean is √(14/3 / 2 / 3) = √(7/9).
 TEST(OutsideTruth, MeanAndItsUncertaintyByHand) {
   const MovingAxis moving{Axis::x, {}};
   const auto of = [&](double u) {
@@ -197,14 +199,14 @@ TEST(OutsideTruth, MeanAndItsUncertaintyByHand) {
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_NEAR(std::abs(quiet[0].named[k]), 7.0 / 3, 1e-14);
     EXPECT_NEAR(quiet[0].u[k], std::sqrt(7.0 / 9), 1e-14);
-    EXPECT_NEAR(of(3)[0].u[k], std::sqrt(3.0), 1e-14);  // u = 3 of each value: 3/√3
+    EXPECT_NEAR(of(3)[0].u[k], std::sqrt(3.0), 1e-14);  // each value has u = 3, the mean 3/√3
     EXPECT_NEAR(of(0.1)[0].u[k], std::sqrt(7.0 / 9), 1e-14);
   }
 }
 
-// A curve at uneven positions: linear between its points, linear across a missing value, constant
-// beyond its ends. u is interpolated linearly, too; the uncertainty of the interpolation is added
-// in quadrature.
+// A curve at uneven positions. It is linear between its points and across a missing value, and
+// constant beyond its ends. u is interpolated linearly, too. The uncertainty of the interpolation
+// is added in quadrature.
 TEST(OutsideTruth, TableIsLinearBetweenItsPoints) {
   CompensationTable table;
   table.position_m = {0, 1, 3, 4, 8};
@@ -237,8 +239,8 @@ TEST(OutsideTruth, TableIsLinearBetweenItsPoints) {
   }
 }
 
-// Three devices with different, uneven time stamps: the position and the readings of each frame
-// equal the linear interpolation of the sent samples.
+// Three devices have different, uneven time stamps. The position and the readings of each frame
+// equal the linear interpolation of the samples that the test sends.
 TEST(OutsideTruth, FramesOfSeveralDevicesAreInterpolated) {
   std::mt19937_64 engine(4);
   std::uniform_real_distribution<> unit(0, 1);

@@ -1,4 +1,4 @@
-// Without readings, with one reading or with constant readings each result is 0, or "not found".
+// Each result is 0 or "not found" if there are no readings, one reading or constant readings.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -73,7 +73,7 @@ TEST(ResultsOfNothing, PathWithoutLowPassOmitsNothing) {
   EXPECT_EQ(path.turns(), 2u);
   EXPECT_EQ(path.left_out().pv, 0);
   EXPECT_EQ(path.left_out().rms, 0);
-  EXPECT_EQ(path.undulations(0.5), 1u);  // however small
+  EXPECT_EQ(path.undulations(0.5), 1u);  // one undulation, however small its amplitude is
 }
 
 TEST(ResultsOfNothing, TwoPointsLeaveNoResidual) {
@@ -117,7 +117,8 @@ TEST(ResultsOfNothing, ZeroToleranceKeepsAllPoints) {
   EXPECT_EQ(all->largest_deviation, 0);
 }
 
-// Each place is visited once, so a drift cannot be distinguished from the form of the axis.
+// The axis visits each place once. Such visits do not distinguish a drift from the form of the
+// axis.
 TEST(ResultsOfNothing, SingleVisitsShowNoDrift) {
   const DriftOfRun none({});
   EXPECT_EQ(none.found().length_s, 0);
@@ -160,7 +161,7 @@ TEST(ResultsOfNothing, RuleWithoutBlocksIsNotSettled) {
   EXPECT_FALSE(rule->unsettled_output());
 }
 
-// A single turn cannot show a drift. Without a radius there is no angle.
+// A single turn cannot show a drift. A radius of 0 has no angle.
 TEST(ResultsOfNothing, OneTurnShowsNoDrift) {
   CircleReadings readings;
   for (int k = 0; k < 36; ++k) {

@@ -1,4 +1,4 @@
-// Rigs for tests, in the TOML that a user writes.
+// Rigs for tests. Their text is TOML, the format of a user's rig file.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Contribution of the interpolation to u between the targets of a table. The truth is an axis with
-// random waves, which the table contains at its targets only.
+// Contribution of the interpolation to u between the targets of a table. The true axis has random
+// waves; the table contains their values at the targets only.
 #include "algo/compensation/between_targets.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ constexpr double kStep_m = 10e-3;
 using RandomAxis = std::function<double(double x_m)>;
 using Draw = std::function<RandomAxis(std::mt19937_64&)>;
 
-// Eight waves whose lengths lie between `shortest` and `longest` steps of the table.
+// An axis with eight waves; their lengths are between `shortest` and `longest` steps of the table.
 Draw waves(double shortest, double longest) {
   return [=](std::mt19937_64& random) -> RandomAxis {
     struct Wave {
@@ -46,7 +46,7 @@ Draw waves(double shortest, double longest) {
   };
 }
 
-// A long bend, and a ball screw with a pitch of 3 to 8 steps.
+// An axis with a long bend and the error of a ball screw; the pitch of the screw is 3 to 8 steps.
 Draw screw() {
   return [](std::mt19937_64& random) -> RandomAxis {
     const RandomAxis bend = waves(15, 60)(random);
@@ -59,7 +59,7 @@ Draw screw() {
   };
 }
 
-// A uniform cubic B-spline of random control points, `apart` steps from each other.
+// An axis with a uniform cubic B-spline; its random control points are `apart` steps apart.
 Draw spline(double apart) {
   return [=](std::mt19937_64& random) -> RandomAxis {
     std::normal_distribution<double> normal(0, 1e-6);
@@ -96,9 +96,10 @@ CompensationTable table_of(const RandomAxis& axis, std::size_t targets, double n
 }
 
 struct Coverage {
-  double at_targets = 0, between = 0, without = 0;  // %; without: with u of the targets alone
+  // In %; `without`: with the u of the targets alone.
+  double at_targets = 0, between = 0, without = 0;
   double rms = 0;                  // root mean square of error / u between the targets
-  double ratio_percentile_95 = 0;  // 95 % of error / u between the targets are smaller
+  double ratio_percentile_95 = 0;  // 95th percentile of error / u between the targets
 };
 
 Coverage coverage(const Draw& draw, std::size_t targets, double noise_m) {
@@ -128,8 +129,8 @@ Coverage coverage(const Draw& draw, std::size_t targets, double noise_m) {
           std::sqrt(square), sizes[kTables * 95 / 100]};
 }
 
-// u is the root mean square of the errors. The errors of a few waves are bounded, so intervals of
-// 1.96 u contain more than 95 % of them.
+// u is the root mean square of the errors. The error of a few waves is bounded, so intervals of
+// ±1.96 u contain more than 95 % of the errors.
 TEST(BetweenTargets, AnIntervalHoldsTheTruthOfARandomAxis) {
   const struct {
     const char* name;
@@ -154,7 +155,7 @@ TEST(BetweenTargets, AnIntervalHoldsTheTruthOfARandomAxis) {
     EXPECT_LE(found.at_targets, 96.5);
     EXPECT_GE(found.between, 92.5);
     EXPECT_LE(found.between, 99.5);
-    EXPECT_LT(found.without, 60);  // the control
+    EXPECT_LT(found.without, 60);  // control: without the contribution of the interpolation
     EXPECT_GT(found.rms, 0.9);
     EXPECT_LT(found.rms, 1.06);
   }
@@ -171,7 +172,8 @@ CompensationTable bare(const std::vector<double>& values, double u) {
   return table;
 }
 
-// y = c x² has the second derivative 2 c: the parabola is c s (1 - s) h² away from its chord.
+// y = c x² has the second derivative 2 c. At the fraction s of a step h, the distance between the
+// parabola and its chord is c s (1 - s) h².
 TEST(BetweenTargets, ParabolaGivesTheDistanceFromTheChord) {
   constexpr double c = 2e-3;
   std::vector<double> values;
@@ -199,10 +201,10 @@ TEST(BetweenTargets, IsZeroAtTargetsAndNeverReducesU) {
     }
   }
   EXPECT_EQ(table_at(table, 1, TableSide::forward).u_interpolation[0],
-            0);  // constant beyond the end
+            0);  // the last value applies beyond the end
 }
 
-// Noise is not curvature: its part of the second differences is subtracted.
+// Noise is not curvature. The contribution of the noise to the second differences is subtracted.
 TEST(BetweenTargets, NoiseIsSubtractedFromCurvature) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal(0, 1e-8);

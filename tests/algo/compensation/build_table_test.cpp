@@ -1,4 +1,4 @@
-// Tables of runs with errors by hand: a parabola, a line, a reversal.
+// Tables of runs whose errors are known: a parabola, a line, a reversal.
 #include <gtest/gtest.h>
 
 #include "algo/compensation/compensation.h"
@@ -9,8 +9,10 @@ namespace {
 
 constexpr double kReversal_m = 0.4e-6, kReversal_rad = 3e-6, kScatter_m = 20e-9;
 
-// Targets 0, 10 … 40 mm, twice in each direction. EYX = 1 µm + 5e-5 x + 4e-3/m x² ± reversal, ECX =
-// 1e-3 x ± reversal, EZX = 0 with ± 20 nm from repeat to repeat.
+// Targets 0, 10 … 40 mm, with two visits in each direction.
+// EYX = 1 µm + 5e-5 x + 4e-3/m x² ± reversal
+// ECX = 1e-3 x ± reversal
+// EZX = +20 nm in the first visits, -20 nm in the second visits
 Run run_by_hand(std::int64_t id, double away_m = 0) {
   Run run;
   run.header.id = id;
@@ -53,7 +55,8 @@ std::string refusal(const std::vector<Run>& runs) {
   return table ? "" : table.error().message;
 }
 
-// With equal steps a parabola minus its least-squares line is c ((x - middle)² - mean of it).
+// If the targets have equal distances, a parabola c x² minus its least-squares line is c ((x -
+// middle)² - mean of (x - middle)²).
 TEST(BuildTable, RefersStraightnessToLineAndAnglesToStart) {
   const auto about_line = built({run_by_hand(1)}, true), kept = built({run_by_hand(1)}, false);
   ASSERT_EQ(about_line.position_m.size(), 5U);
@@ -69,8 +72,8 @@ TEST(BuildTable, RefersStraightnessToLineAndAnglesToStart) {
       EXPECT_NEAR(table->forward[4][i], 1e-3 * x + kReversal_rad, 1e-14);
       EXPECT_NEAR(table->reverse[4][i], 1e-3 * x - kReversal_rad, 1e-14);
     }
-    // The two repeats differ by 40 nm, equally at all targets: u of a value as measured is 20 nm.
-    // About the line u is 0, because the line moves with the values.
+    // The two visits differ by 40 nm, equally at all targets, so u of a value as measured is 20 nm.
+    // About the line, u is 0, because the line moves with the values.
     for (const auto* u : {&kept.u_forward, &kept.u_reverse})
       EXPECT_NEAR((*u)[1][i], kScatter_m, 1e-14);
     for (const auto* u : {&about_line.u_forward, &about_line.u_reverse})
@@ -90,7 +93,7 @@ TEST(BuildTable, TakesRunsAndSimulatedFlagFromItsRuns) {
   }
 }
 
-// Targets of two runs are the same within 2 % of the step, 0.2 mm.
+// Targets of two runs are the same target if their distance is at most 2 % of the step, 0.2 mm.
 TEST(BuildTable, MergesTargetsWithinTheWindow) {
   EXPECT_EQ(refusal({run_by_hand(1), run_by_hand(2, 0.19e-3)}), "");
   EXPECT_NE(refusal({run_by_hand(1), run_by_hand(2, 0.21e-3)})

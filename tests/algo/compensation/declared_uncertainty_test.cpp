@@ -1,5 +1,5 @@
-// Declared uncertainties of rigs, propagated to the values of a table. Without angles, EYX at the
-// fixture is the reading of probe D: a table of EYX follows the errors of D one to one.
+// Tests how the declared uncertainties of rigs affect the values of a table. Without angles, EYX at
+// the fixture is the reading of probe D, so an error of D changes EYX by the same amount.
 #include "algo/compensation/declared_uncertainty.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ Run bent(const Rig& rig, std::int64_t id) {
   synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
   Run run = synthetic.measure();
   run.header.id = id;
-  for (MeasuredPoint& p : run.points) {  // one run an hour, so that runs share no reading
+  for (MeasuredPoint& p : run.points) {  // one run an hour, so no two runs have a reading in common
     p.point.begin_ns += id * 3'600'000'000'000;
     p.point.end_ns += id * 3'600'000'000'000;
   }
@@ -55,11 +55,12 @@ TEST(DeclaredUncertainty, OffsetCancelsAboutALineOnly) {
   for (std::size_t i = 0; i < about_line.position_m.size(); ++i) {
     EXPECT_NEAR(about_line.u_declared[0][i], 0, 1e-13);
     EXPECT_NEAR(as_measured.u_declared[0][i], 0.1e-6, 1e-13);
-    EXPECT_NEAR(as_measured.u_declared[4][i], 0, 1e-11);  // referred to the first target
+    // The angle is relative to the first target.
+    EXPECT_NEAR(as_measured.u_declared[4][i], 0, 1e-11);
   }
 }
 
-// A scale error of D changes the table by the same fraction.
+// A scale error of D changes EYX in the table by the same fraction.
 TEST(DeclaredUncertainty, ScaleErrorIsProportionalToTheValue) {
   const auto table = table_of({rig_x_with("D", "u_sensitivity_ppm = 1000")});
   double most = 0;
@@ -70,8 +71,8 @@ TEST(DeclaredUncertainty, ScaleErrorIsProportionalToTheValue) {
   EXPECT_GT(most, 1e-10);
 }
 
-// The table has one u for both approaches, the larger one: on the way back D reads 1 µm more, or
-// less.
+// The value has one u, the larger u of both approaches. In reverse D reads 1 µm more or less than
+// forward.
 TEST(DeclaredUncertainty, UsesTheApproachWithTheLargerU) {
   const Rig rig = rig_x_with("D", "u_sensitivity_ppm = 1000");
   for (const double more_m : {1e-6, -1e-6}) {
@@ -94,15 +95,15 @@ TEST(DeclaredUncertainty, UsesTheApproachWithTheLargerU) {
   }
 }
 
-// Two runs with the same fixture have the same error; with two fixtures, one of which is exact,
-// half of it remains.
+// Two runs with the same fixture have the same error of D. With two fixtures, one of which is
+// exact, half of this error remains in the mean.
 TEST(DeclaredUncertainty, MoreRunsOfOneFixtureDoNotReduceIt) {
   const Rig rig = rig_x_with("D", "u_calibration_um = 0.1"), exact = rig_x_with("", "");
   EXPECT_NEAR(table_of({rig, rig}, false).u_declared[0][3], 0.1e-6, 1e-13);
   EXPECT_NEAR(table_of({rig, exact}, false).u_declared[0][3], 0.05e-6, 1e-13);
 }
 
-// Two runs whose targets differ by some micrometres measure the same surface.
+// The targets of two runs differ by some micrometres; the runs still measure the same surface.
 TEST(DeclaredUncertainty, RunsOverOnePlaneShareItsFlatness) {
   const Rig rig = rig_x_with("", "",
                              "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"

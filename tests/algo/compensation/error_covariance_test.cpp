@@ -1,7 +1,11 @@
-// Covariance of the errors from one set of probes. By hand, for the default fixture (B and C at y =
-// 10 and -10 mm, A at x = 10, D at z = 20, E at x = 10 beside it), with equal noise s of all
-// probes: EAX = (B - C) / 20 mm, EYX = D + 20 mm EAX, ECX = (E - D) / 10 mm, EZX = (B + C) / 2, EBX
-// = (EZX - A) / 10 mm.
+// Covariance of the errors that one set of probes measures. Calculated by hand for the default
+// fixture with the same noise of all probes: B and C are at y = 10 and -10 mm, A at x = 10 mm, D at
+// z = 20 mm, E at x = 10 mm beside D.
+// EAX = (B - C) / 20 mm
+// EYX = D + 20 mm EAX
+// ECX = (E - D) / 10 mm
+// EZX = (B + C) / 2
+// EBX = (EZX - A) / 10 mm
 #include "algo/compensation/error_covariance.h"
 
 #include <gtest/gtest.h>
@@ -26,13 +30,13 @@ struct Case {
     return covariances.noise[row][kl] +
            (covariances.declared.empty() ? 0 : covariances.declared[row][kl]);
   }
-  // Correlation coefficient.
+  // Correlation coefficient of the errors k and l in a row of the table.
   double of(std::size_t k, std::size_t l, std::size_t row) const {
     return covariance(k, l, row) / std::sqrt(covariance(k, k, row) * covariance(l, l, row));
   }
 };
 
-// EYX is a parabola. `noise`: u of all values by noise.
+// EYX is a parabola. `noise`: u of all values by noise, m or rad.
 Case make_error_case(const Rig& rig, double noise) {
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
@@ -51,8 +55,8 @@ Case make_error_case(const Rig& rig, double noise) {
 TEST(ErrorCovariance, EqualNoiseGivesTheFixtureCorrelations) {
   const Case c = make_error_case(test::rig_x_with("", ""), 1e-9);
   const std::size_t row = 2;
-  // Straightness is as measured and angles refer to the first target: this reduces the correlation
-  // between straightness and angles by 1/sqrt(2).
+  // The straightness errors are as measured, but the angles are relative to the first target. This
+  // reduces the correlation between both by the factor 1/sqrt(2).
   EXPECT_NEAR(c.of(kEYXIndex, kEAXIndex, row), 1 / std::sqrt(3.0), 1e-3);
   EXPECT_NEAR(c.of(kEYXIndex, kECXIndex, row), -1 / std::sqrt(12.0), 1e-3);
   EXPECT_NEAR(c.of(kEZXIndex, kEBXIndex, row), 1 / std::sqrt(6.0), 1e-3);
@@ -65,10 +69,11 @@ TEST(ErrorCovariance, EqualNoiseGivesTheFixtureCorrelations) {
         EXPECT_NEAR(c.covariance(k, l, row), 1e-18, 1e-27);
       }
     }
-  EXPECT_EQ(c.of(kEYXIndex, kEAXIndex, 0), 0);  // the angle is 0 by definition
+  EXPECT_EQ(c.of(kEYXIndex, kEAXIndex, 0), 0);  // at the first target the angle is 0
 }
 
-// A scale error s of D changes EYX by s D and ECX by -s (D - D0) / 10 mm. At x = 10 mm both cancel.
+// A scale error s of D changes EYX by s D and ECX by -s (D - D0) / 10 mm. A tool at x = 10 mm is
+// not affected, because both changes cancel there.
 TEST(ErrorCovariance, ErrorOfOneProbeCorrelatesTheErrors) {
   const Case c = make_error_case(test::rig_x_with("D", "u_sensitivity_ppm = 1000"), 0);
   const std::size_t last = c.table.position_m.size() - 1;
@@ -83,7 +88,7 @@ TEST(ErrorCovariance, ErrorOfOneProbeCorrelatesTheErrors) {
   EXPECT_NEAR(u(c.covariances), 0, 1e-3 * alone);
 }
 
-// The same correlation if all targets were approached in reverse only.
+// The correlation is the same if all targets were approached in reverse only.
 TEST(ErrorCovariance, UsesTheOnlyMeasuredApproach) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 1000");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
@@ -102,8 +107,9 @@ TEST(ErrorCovariance, UsesTheOnlyMeasuredApproach) {
       1e-9);
 }
 
-// The target rotates about Z with the square of the travel; in the second run E reads 1000 ppm too
-// much. The angle is 0 in the middle of the travel, so the scale of E has no effect there.
+// The yaw of the target is proportional to the square of the travel. For the table `off` E
+// reads 1000 ppm too much. The angle is set to 0 in the middle of the travel, so the scale of E has
+// no effect there.
 TEST(ErrorCovariance, UsesTheZeroPositionOfAngles) {
   const Rig rig = test::rig_x_with("E", "u_sensitivity_ppm = 1000");
   const auto tables = [&](double off, const TableOptions& options) {

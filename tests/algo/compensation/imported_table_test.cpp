@@ -11,7 +11,8 @@
 namespace mdof::algo {
 namespace {
 
-// Positioning of X at 0, 10 and 20 mm, `repeats` readings from each direction.
+// A run with the positioning error of X at 0, 10 and 20 mm and `repeats` readings in each
+// direction.
 Run imported(std::int64_t id, int repeats, double declared_m = 0) {
   mdof::Run run;
   run.header.id = id;
@@ -44,7 +45,8 @@ TEST(ImportedTable, MeansAndTheirUncertaintyByHand) {
   ASSERT_EQ(table->position_m.size(), 3U);
   const PositioningErrors& along = table->positioning;
   for (std::size_t i = 0; i < 3; ++i) {
-    // 0, 0.01, 0.02 and 0 µm: mean 0.0075, s 0.009574, s/√4.
+    // Four readings of 0, 0.01, 0.02 and 0 µm more: their mean is 0.0075 µm, s = 0.009574 µm, u =
+    // s/√4.
     EXPECT_NEAR(along.forward[i], 1e-6 * (static_cast<double>(i) + 0.1075), 1e-18);
     EXPECT_NEAR(along.reverse[i], 1e-6 * (static_cast<double>(i) - 0.0925), 1e-18);
     EXPECT_NEAR(along.u_forward[i], 0.0047871e-6, 1e-12);
@@ -105,7 +107,7 @@ TEST(ImportedTable, RefusesIncompatibleRuns) {
   EXPECT_NE(refusal({other}).find("has one target"), std::string::npos);
 }
 
-// Targets that differ by less than 0.1 µm, in either direction, are the same.
+// Two targets are the same target if they differ by less than 0.1 µm in either direction.
 TEST(ImportedTable, MergesTargetsWithinTenthOfAMicrometre) {
   const mdof::Run first = imported(1, 2);
   for (const double off_m : {0.099e-6, -0.099e-6}) {
@@ -146,8 +148,8 @@ TEST(ImportedTable, FindsTheNearestTarget) {
             (std::vector<double>{0, 10e-3, 10.0002e-3}));
 }
 
-// If the table of the machine moves back as the command increases (`against`), imported runs must
-// have the travel "-", else "+".
+// If the body moves in the negative direction when the command increases (`against`), imported runs
+// must state the travel "-", otherwise the travel "+".
 TEST(ImportedTable, RefusesTravelThatContradictsTheMachine) {
   const auto built = [](const char* options, std::optional<bool> against) {
     mdof::Run run = imported(7, 1);
@@ -169,8 +171,8 @@ TEST(ImportedTable, RefusesTravelThatContradictsTheMachine) {
   }
 }
 
-// With the sense "body" the readings change their sign if the table moves back; with the sense of
-// the command they never do.
+// With the sense "body" the readings change their sign if the body moves against the command. With
+// the sense of the command the sign never changes.
 TEST(ImportedTable, TravelInvertsTheSenseOfTheBody) {
   const auto built = [](const char* options, std::optional<bool> against = std::nullopt) {
     mdof::Run run = imported(7, 1);
@@ -192,11 +194,12 @@ TEST(ImportedTable, TravelInvertsTheSenseOfTheBody) {
             std::string::npos);
 }
 
-// Two targets are enough, and so are two readings: 3.1 and 3.5 µm have s = 0.4/√2 and u = 0.2 µm.
+// Two targets are enough, and so are two readings of a target: 3.1 and 3.5 µm have s = 0.4/√2 µm
+// and u = 0.2 µm.
 TEST(ImportedTable, TwoReadingsAtTwoTargetsAreEnough) {
   mdof::Run run = imported(1, 2, 0.3e-6);
   std::erase_if(run.points, [](const MeasuredPoint& p) { return p.target_m > 15e-3; });
-  run.points[1].point.probe_m = {3.1e-6};  // the second target, forward, first and second time
+  run.points[1].point.probe_m = {3.1e-6};  // first and second reading of the second target, forward
   run.points[5].point.probe_m = {3.5e-6};
   const auto table = build_positioning_table({run});
   ASSERT_TRUE(table) << table.error().message;

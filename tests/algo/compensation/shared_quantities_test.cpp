@@ -1,6 +1,6 @@
-// u of the position of a tool on two axes that were measured with the same probes. Truth: the
-// tables from readings of a probe with a scale error, and the tool position that the model of the
-// machine calculates from them.
+// u of the position of a tool if the same probes measured two axes. Expected: tables are built from
+// readings of a probe with a scale error, and the machine model calculates the tool position from
+// these tables.
 #include "algo/compensation/shared_quantities.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 const Eigen::Vector3d kToolPlace_m(5e-3, -3e-3, -30e-3);
 constexpr std::size_t kRow = 6;
 
-// The same fixture for both axes; the local frame of Y is x = +Y, y = -X.
+// A rig with the same fixture for X or Y. A run along Y has the local axes x = +Y and y = -X.
 Rig axis_rig(Axis axis, const std::string& certificate) {
   const bool y = axis == Axis::y;
   std::string toml = std::string("name = \"test\"\naxis = \"") + letter(axis) + "\"\n";
@@ -42,7 +42,7 @@ Rig axis_rig(Axis axis, const std::string& certificate) {
   return parse_rig(toml, "rig.toml").value();
 }
 
-// B reads too much by the fraction `off`.
+// Builds a table; the readings of B are too large by the fraction `off`.
 BuiltFrom built(Axis axis, double off, const std::string& certificate = "1") {
   const Rig rig = axis_rig(axis, certificate);
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
@@ -82,7 +82,7 @@ Machine both_axes(const std::vector<BuiltFrom>& tables) {
         for (std::size_t k = 0; k < kErrorCount; ++k)
           at[std::string_view("XYZABC").find(error_names(tables[t].table.axis)[k].name[1])] =
               quantity.by_table[t][row][k];
-        all.declared[row] = {};  // nothing else is declared, and there is no noise
+        all.declared[row] = {};  // no other declared uncertainties, and no noise
       }
     }
   return machine;
@@ -109,8 +109,8 @@ TEST(SharedQuantities, CommonProbeMovesTheToolThroughBothAxes) {
   const Eigen::Vector3d u = tool_error(machine, at, MachineApproach::forward).u.head<3>();
   const auto budget =
       budget_model(machine, at, MachineApproach::forward, BudgetStage::measured).value();
-  const auto causes =
-      machine_causes(machine, {Eigen::Vector3d(at[0], at[1], 0)}).axes;  // of a part
+  // Causes of u at one point of a part.
+  const auto causes = machine_causes(machine, {Eigen::Vector3d(at[0], at[1], 0)}).axes;
   for (int c = 0; c < 3; ++c) {
     ASSERT_GT(moved(c), 1e-10);
     EXPECT_NEAR(u(c), moved(c), 2e-3 * moved(c)) << c;
@@ -119,7 +119,7 @@ TEST(SharedQuantities, CommonProbeMovesTheToolThroughBothAxes) {
     for (const PartCause& cause : causes) square += cause.u_m[0](c) * cause.u_m[0](c);
     EXPECT_NEAR(std::sqrt(square), moved(c), 2e-3 * moved(c)) << c;
   }
-  // Control: treated as two independent probes.
+  // Control: the probe is treated as two independent probes.
   for (std::size_t t = 0; t < tables.size(); ++t) {
     const auto alone =
         error_covariances(tables[t].table, tables[t].rigs, tables[t].runs, tables[t].options);

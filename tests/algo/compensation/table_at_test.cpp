@@ -8,7 +8,7 @@
 namespace mdof::algo {
 namespace {
 
-// The first error has values at 0, 10 and 40 mm; the other errors are 0.
+// A table with EYX at 0, 10 and 40 mm; the other errors are 0.
 CompensationTable table_by_hand() {
   CompensationTable table;
   table.position_m = {0, 10e-3, 40e-3};
@@ -41,7 +41,7 @@ TEST(TableAt, IsLinearBetweenTargetsAndConstantOutside) {
   }
 }
 
-// The last value applies at the last target and at the next floating-point number on either side.
+// At the last target, and at the next floating-point number on either side, the last value applies.
 TEST(TableAt, GivesTheValueOfTheLastTarget) {
   const CompensationTable table = table_by_hand();
   const double last_m = table.position_m.back();
@@ -72,7 +72,7 @@ TEST(TableAt, MissingValueIsBridgedByItsNeighbours) {
     EXPECT_NEAR(table_at(table, at_m, TableSide::forward).error[0], expected, 1e-18) << at_m;
   EXPECT_FALSE(table_at(table, 5e-3, TableSide::forward).inside);
   EXPECT_TRUE(table_at(table, 15e-3, TableSide::forward).inside);
-  table.forward[0].assign(4, kNaN);  // the other approach is given, with inside = false
+  table.forward[0].assign(4, kNaN);  // the values of the other approach are used; inside = false
   EXPECT_EQ(table_at(table, 15e-3, TableSide::mean).error[0], 0);
   EXPECT_FALSE(table_at(table, 15e-3, TableSide::mean).inside);
   table.forward[0] = {1e-6, kNaN, kNaN, kNaN};
@@ -95,8 +95,9 @@ CompensationTable table_with_u() {
   return table;
 }
 
-// This holds for the declared and for the random part. The error is 0 everywhere, so the
-// interpolation adds nothing. The larger u of both targets would jump beside a target.
+// u is linear between targets for the declared part and for the random part. The error is 0
+// everywhere, so the interpolation adds nothing. The larger u of the two targets would have a jump
+// beside a target.
 TEST(TableAt, UIsLinearBetweenTargets) {
   const CompensationTable table = table_with_u();
   ASSERT_TRUE(table.has_declared());
@@ -121,7 +122,7 @@ TEST(TableAt, UIsContinuousAtTargets) {
           << target_m;
 }
 
-// Variance of (1 - s) a + s b: GUM 5.2.2.
+// Variance of (1 - s) a + s b by GUM 5.2.2.
 TEST(TableAt, UIsSufficientForAnyCorrelation) {
   CompensationTable table = table_with_u();
   for (auto& column : table.u_declared) column.clear();

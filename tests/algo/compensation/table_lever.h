@@ -1,5 +1,5 @@
-// Effect of a table on a point beside the fixture: the errors with their levers, by the vectors of
-// a small rotation; u by the model of the machine, tool_error().
+// Effect of the errors in a table on a point beside the fixture. The displacement is calculated by
+// the vectors of a small rotation, its u by the machine model, tool_error().
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,8 +11,7 @@
 
 namespace mdof::test {
 
-// Displacement of the point of the body at `point_m` by the errors of a row: shift + rotation x
-// arm.
+// Displacement of a point of the body by the errors in one row: shift + rotation x arm.
 inline Eigen::Vector3d moved_by(const CompensationTable& table, std::size_t row,
                                 const Eigen::Vector3d& point_m) {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
@@ -23,8 +22,8 @@ inline Eigen::Vector3d moved_by(const CompensationTable& table, std::size_t row,
   return shift + turn.cross(point_m);
 }
 
-// A machine with one axis, which carries the tool at `point_m`; the errors of the table are at the
-// fixture. `covariances`: empty: each error has its own u only.
+// A machine with one axis that carries the tool at `point_m`; the errors of the table apply at the
+// fixture. If `covariances` is empty, each error has its own u and no covariances.
 inline Machine machine_of(const CompensationTable& table, const Eigen::Vector3d& point_m,
                           const algo::ErrorCovariances& covariances) {
   Machine machine;

@@ -39,7 +39,7 @@ TEST(TableLimits, ReportsPositionLimitAndRemedy) {
   expect_message_contains(refusal(false, {0, 1e302, 0}), {"at 10 mm", "the limit"});
   expect_message_contains(refusal(false, {0, std::numeric_limits<double>::infinity(), 0}),
                           {"at 10 mm"});
-  // Across a missing value.
+  // The slope limit also applies between the neighbours of a missing value.
   expect_message_contains(refusal(true, {-9e-3, kNaN, 9.9e-3 + 3e-3}), {"the limit"});
 }
 
@@ -78,7 +78,7 @@ TEST(TableLimits, ApplyToEachErrorAndApproach) {
                           {"EXX reverse: changes by 60 um/mm"});
 }
 
-// Each option changes its own limit only, for lengths and angles alike.
+// Each option changes one limit only, for lengths and for angles.
 TEST(TableLimits, AreInMicrometresAndMicrometresPerMillimetre) {
   const TableLimits usual;
   const double um = 20, slope = 80;

@@ -1,5 +1,5 @@
-// Stated u of tables compared with the spread of their errors. The noise is drawn for each reading
-// and for each pass, where all targets share it.
+// The stated u of tables is compared with the spread of their errors. The noise is drawn for each
+// reading; the level and the slope are drawn for each pass and are the same at all its targets.
 #include "algo/compensation/table_uncertainty.h"
 
 #include <gtest/gtest.h>
@@ -23,9 +23,9 @@ struct Spread {
   double ratio() const { return std::sqrt(u_square / square); }
 };
 
-// Root mean square of u divided by that of the error, for EYX and ECX at each target of many tables
-// of an axis without errors. Each pass of nine targets has its own level, common to probes D and E,
-// and its own yaw.
+// Root mean square of u divided by the root mean square of the error, for EYX and ECX. The values
+// are taken at each target of many tables of an axis without errors. Each pass of nine targets has
+// its own yaw, and its own level of probes D and E.
 std::map<std::string, Spread> spreads(double level_m, double slope_m, bool remove_slope) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(17);
@@ -60,8 +60,8 @@ std::map<std::string, Spread> spreads(double level_m, double slope_m, bool remov
   return all;
 }
 
-// 500 values. Without a level u exceeds the spread by 6 to 10 %, because u uses the larger of noise
-// and scatter and replaces a negative estimate of a variance by 0.
+// 500 values at each target. Without a level, u exceeds the spread by 6 to 10 %: u uses the larger
+// of noise and scatter, and replaces a negative estimate of a variance by 0.
 TEST(TableUncertainty, IsTheSpreadOfItsErrors) {
   for (const double level_m : {0.0, 200e-9})
     for (const bool remove_slope : {true, false})
@@ -70,8 +70,8 @@ TEST(TableUncertainty, IsTheSpreadOfItsErrors) {
             << name << ", level " << level_m << " " << remove_slope;
 }
 
-// By hand: at the first of five equidistant targets the line has the weights 3/5, 2/5, 1/5, 0,
-// -1/5.
+// Calculated by hand: five targets have equal distances. At the first target the least-squares line
+// is the sum of their values with the weights 3/5, 2/5, 1/5, 0, -1/5.
 TEST(TableUncertainty, ReferencesAreWeightsOfTheMeans) {
   const Reference end = line_at({0, 1, 2, 3, 4}, 0), beyond = line_at({0, 1, 2}, 4);
   const double expected[] = {0.6, 0.4, 0.2, 0, -0.2};
@@ -79,7 +79,8 @@ TEST(TableUncertainty, ReferencesAreWeightsOfTheMeans) {
   EXPECT_NEAR(beyond[0] * 7 + beyond[1] * 9 + beyond[2] * 11, 15, 1e-12);
   EXPECT_EQ(interpolation_at({1, 2, 4}, 1), (Reference{1, 0, 0}));
   EXPECT_EQ(interpolation_at({1, 2, 4}, 2.5), (Reference{0, 0.75, 0.25}));
-  EXPECT_EQ(interpolation_at({1, 2, 4}, 0), (Reference{1, 0, 0}));  // constant beyond the ends
+  // Beyond the ends the end value applies.
+  EXPECT_EQ(interpolation_at({1, 2, 4}, 0), (Reference{1, 0, 0}));
   EXPECT_EQ(interpolation_at({1, 2, 4}, 9), (Reference{0, 0, 1}));
   EXPECT_EQ(as_measured(2), (Reference{0, 0}));
 }

@@ -1,4 +1,4 @@
-// Thinning compared with all possible choices of points, and the inputs that it refuses.
+// Thinning is compared with all possible choices of points. Invalid input must be refused.
 #include "algo/compensation/thinning.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 
 using ManyColumns = std::vector<std::vector<double>>;
 
-// Largest deviation of an omitted point from the lines between the chosen points; bit i of `chosen`
-// selects point i.
+// Largest deviation of an omitted point from the straight lines between the chosen points. Bit i of
+// `chosen` selects point i.
 double worst_deviation_of_points(const std::vector<double>& x, const ManyColumns& columns,
                                  unsigned chosen) {
   double worst = 0;

@@ -1,5 +1,5 @@
-// Repeatability of the values of a table, and curvatures between its targets, for a few values
-// calculated by hand.
+// Repeatability of the values of a table and curvatures between its targets, for a few values that
+// are calculated by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,9 +13,12 @@
 namespace mdof::algo {
 namespace {
 
-// Two runs of three targets in both directions. In the first run the forward values are higher by 3
-// plus 1, 0, -1 and the reverse values by 5 plus 2, -1, -1; in the second run they are lower by the
-// same amounts. Reverse is 7 lower than forward. Error k is k + 1 times this value.
+// Two runs of three targets in both directions.
+// Forward values of run 1 minus their means: 3 + 1, 3 + 0, 3 - 1.
+// Reverse values of run 1 minus their means: 5 + 2, 5 - 1, 5 - 1.
+// In run 2 these differences have the opposite signs. The means are 7 lower in reverse than
+// forward.
+// Error k has k + 1 times these values.
 std::vector<MeasuredPoint> table_visits() {
   const double shift[] = {3, 5}, off[2][3] = {{1, 0, -1}, {2, -1, -1}};
   std::vector<MeasuredPoint> points;
@@ -46,14 +49,15 @@ SeriesOfErrors expected_series_u(const std::vector<MeasuredPoint>& points, Appro
                            references);
 }
 
-// Each direction has 6 visits of 3 targets and 1 pass beside the first: 2 degrees of freedom. The
-// variance of a visit is 4/2 forward and 12/2 reverse; a mean of two visits has half of it. The
-// level of a pass has the variance 2 * 9 and 2 * 25, less a third of the variance of a visit; its
-// mean has half of that.
+// Each direction has 6 visits, 3 means of targets, and 1 pass relative to the other pass: 2 degrees
+// of freedom. The variance of a visit is 4/2 forward and 12/2 reverse; the mean of two visits has
+// half of this variance. The level of a pass has the variance 2 * 9 forward and 2 * 25 reverse,
+// less a third of the variance of a visit. The mean of two levels has half of this variance.
 constexpr double kMeanVarianceForward = 1, kMeanVarianceReverse = 3;
 constexpr double kLevelForward = (18 - 2 / 3.) / 2, kLevelReverse = (50 - 6 / 3.) / 2;
-// Half of forward minus reverse is -1.5, -0.5, -1 in the first run, -1 on average, and +1 in the
-// second: variance 2, less (3.5/3 - 1)/2 from the visits; the mean of both runs has half of it.
+// Half of (forward minus reverse) deviates from its mean by -1.5, -0.5, -1 in run 1, on average by
+// -1, and in run 2 by +1. This is a variance of 2, less (3.5/3 - 1)/2 from the visits; the mean of
+// both runs has half of it.
 constexpr double kApart = (2 - (3.5 / 3 - 1) / 2) / 2;
 
 void expect_u(const SeriesOfErrors& u, const std::vector<double>& variances) {
@@ -73,7 +77,8 @@ TEST(TableUncertaintyByHand, ValuesAsMeasured) {
   expect_u(expected_series_u(table_visits(), Approach::reverse, none), {reverse, reverse, reverse});
 }
 
-// The mean of both directions at the start has half of each.
+// The reference is the mean of both directions at the start. Each direction contributes a quarter
+// of the variance of its mean.
 TEST(TableUncertaintyByHand, ValuesReferredToTheStart) {
   const std::vector<Reference> from_start(3, Reference{1, 0, 0});
   const double start_variance = (kMeanVarianceForward + kMeanVarianceReverse) / 4;
@@ -84,8 +89,9 @@ TEST(TableUncertaintyByHand, ValuesReferredToTheStart) {
            {start_variance + kApart, later(kMeanVarianceReverse), later(kMeanVarianceReverse)});
 }
 
-// Each visit twice: twice the squares and 12 - 3 - 1 degrees of freedom give half the variance; a
-// mean of four visits has a quarter of it. The difference of the directions is unchanged.
+// Each visit is entered twice. The sum of squares doubles and the degrees of
+// freedom are 12 - 3 - 1, so the variance of a visit is half as large; the mean of four visits has
+// a quarter of it. The variance of the half difference of the directions is unchanged.
 TEST(TableUncertaintyByHand, VisitsOfARunAreAveraged) {
   auto points = table_visits();
   const auto once = points;
@@ -98,7 +104,8 @@ TEST(TableUncertaintyByHand, VisitsOfARunAreAveraged) {
             forward + start_variance + kApart});
 }
 
-// The line has the weights 5/6, 1/3 and -1/6 at the first target, 1/3 each in the middle.
+// At the first target the line has the weights 5/6, 1/3 and -1/6, in the middle 1/3 for each
+// target.
 TEST(TableUncertaintyByHand, ValuesReferredToTheLine) {
   const std::vector<double> x = {0, 1, 2};
   const std::vector<Reference> line = {line_at(x, 0), line_at(x, 1), line_at(x, 2)};
@@ -117,8 +124,8 @@ TEST(TableUncertaintyByHand, ValuesReferredToTheLine) {
   expect_u(expected_series_u(table_visits(), Approach::forward, line), variances);
 }
 
-// With one direction only, the mean is that of this direction, and there is no difference of
-// directions.
+// All visits have one direction. The mean is the mean of this direction, and there is no difference
+// of directions.
 TEST(TableUncertaintyByHand, OneDirectionOnly) {
   auto points = table_visits();
   std::erase_if(points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
@@ -131,7 +138,7 @@ TEST(TableUncertaintyByHand, OneDirectionOnly) {
     for (const double u : of_error) EXPECT_TRUE(std::isnan(u));
 }
 
-// A single run shows neither scatter nor level.
+// A single run shows neither the scatter of visits nor the level of passes.
 TEST(TableUncertaintyByHand, SingleRunHasItsNoiseOnly) {
   auto points = table_visits();
   points.resize(6);
@@ -148,8 +155,8 @@ TEST(TableUncertaintyByHand, SingleRunHasItsNoiseOnly) {
 constexpr double kMissingTableValue = std::numeric_limits<double>::quiet_NaN();
 using Series = std::vector<double>;
 
-// Square of the second derivative of the parabola through three values, by divided differences,
-// less the contribution of their u.
+// Square of the second derivative of the parabola through three values by divided differences, less
+// the contribution of the u of the values.
 double squared_curvature(const Series& x, const Series& y, const Series& u, std::size_t a,
                          std::size_t b, std::size_t c) {
   const auto bend = [&](double ya, double yb, double yc) {
@@ -165,7 +172,8 @@ double mean_squared_curvature(const Series& x, const Series& y, const Series& u,
     sum += squared_curvature(x, y, u, i - step, i, i + step);
   return std::max(0.0, sum / n);
 }
-// Between values i and i + 1, by algo/README.md: the values i - 1 to i + 2 are the nearest.
+// Expected curvature between the values i and i + 1 by algo/README.md, from the values i - 1 to i +
+// 2.
 double expected_curvature(const Series& x, const Series& y, const Series& u, std::size_t i,
                           double R) {
   double near = 0, n = 0;
@@ -180,9 +188,10 @@ double expected_curvature(const Series& x, const Series& y, const Series& u, std
 TEST(CurvaturesByHand, ThreeValues) {
   const Series found = curvatures({0, 1, 3}, {0, 1, 0}, {0.3, 0.3, 0.6});
   ASSERT_EQ(found.size(), 2u);
-  // The second difference is -1; u contributes (2/3 of 0.3)² + 0.3² + (1/3 of 0.6)².
+  // The second difference is -1. The u of the values contributes (2/3 of 0.3)² + 0.3² + (1/3 of
+  // 0.6)² to its square.
   for (const double c : found) EXPECT_NEAR(c, 4 * std::sqrt(1 - 0.17), 1e-12);
-  // If noise explains the whole second difference, the curvature is 0.
+  // If the noise explains the whole second difference, the curvature is 0.
   for (const double c : curvatures({0, 1, 3}, {0, 1, 0}, {0, 1.1, 0})) EXPECT_EQ(c, 0);
   for (const double c : curvatures({0, 1}, {0, 1}, {0, 0})) EXPECT_TRUE(std::isnan(c));
   EXPECT_TRUE(curvatures({}, {}, {}).empty());
@@ -202,11 +211,12 @@ TEST(CurvaturesByHand, FewValuesGiveTheFactorFourOrTwo) {
   }
 }
 
-// R follows from the ratio q of the curvature over one step to the curvature over two steps.
+// The factor R follows from q, the ratio of the curvature over one step to the curvature over two
+// steps.
 TEST(CurvaturesByHand, FactorFollowsTheRoughness) {
   const Series u(9, 0.01);
   const Series smooth = {0, 1, 4, 9, 16, 25, 36, 49, 64},  // q = 1
-      wavy = {0, 1, 1.2, 0.5, -1, -2, -1.5, 0.3, 2},       // between
+      wavy = {0, 1, 1.2, 0.5, -1, -2, -1.5, 0.3, 2},       // q between 1 and 2.2
       rough = {0, 1, -1, 1.5, -1, 1, -2, 1, -1};           // q above 2.2
   Series x;
   for (int i = 0; i < 9; ++i) x.push_back(i + 0.1 * (i % 2));
@@ -223,7 +233,7 @@ TEST(CurvaturesByHand, FactorFollowsTheRoughness) {
   }
   EXPECT_LT(least, 1.1);
   EXPECT_GT(most, 1.5);
-  // The curvature over two steps is 0: the roughness has its maximum.
+  // The curvature over two steps is 0, so R has its maximum.
   const Series zigzag = {0, 1, 0, 1, 0, 1, 0, 1, 0};
   Series even;
   for (int i = 0; i < 9; ++i) even.push_back(i);
@@ -231,14 +241,15 @@ TEST(CurvaturesByHand, FactorFollowsTheRoughness) {
   for (const double c : curvatures(even, Series(9, 3.0), Series(9, 0.1))) EXPECT_EQ(c, 0);
 }
 
-// Missing values are skipped: the interval between their neighbours counts as one step.
+// Missing values are skipped. The interval between the neighbours of a missing value counts as one
+// step.
 TEST(CurvaturesByHand, MissingValuesAreSkipped) {
   const Series x = {0, 1, 3, 4, 6, 7, 9}, u = {0.1, kMissingTableValue, 0.1, 0.3, 0.2, 0.1, 0.2};
   const Series y = {kMissingTableValue, 2, 1, kMissingTableValue, -1, 3, kMissingTableValue};
   const Series found = curvatures(x, y, u);
   ASSERT_EQ(found.size(), 6u);
   const Series xs = {1, 3, 6, 7}, ys = {2, 1, -1, 3}, us = {0, 0.1, 0.2, 0.1};
-  const std::size_t between[] = {0, 0, 1, 1, 2, 3};  // 3: after the last value
+  const std::size_t between[] = {0, 0, 1, 1, 2, 3};  // 3: after the last value that exists
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_NEAR(found[i], expected_curvature(xs, ys, us, between[i], 4), 1e-12) << i;
 }

@@ -1,5 +1,6 @@
-// The effect of a calibration record's matrix on the errors, compared with fixtures in which one
-// quantity is displaced: J Σ Jᵀ, with derivatives from differences of the rigid model's readings.
+// The effect of the covariance matrix of a calibration record on the errors, compared with J Σ Jᵀ.
+// Each derivative in J comes from fixtures in which one quantity is displaced, and from the rigid
+// model's readings.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -78,7 +79,7 @@ Errors5 truth(double d) {
           -12e-3 + 0.2 * d, 20e-3 * std::cos(40 * d)};
 }
 
-// Run with one quantity displaced by `by`.
+// Run of a fixture in which one quantity is displaced by `by`.
 Run displaced(const Rig& rig, const Quantity& q, double by) {
   SyntheticRun synthetic{.rig = rig, .runs = 1, .stated = kAtCarriage, .truth = truth};
   synthetic.fixture = make_fixture(rig).value();

@@ -1,4 +1,5 @@
-// Seven and six probes that agree, and one that does not.
+// Tests χ² of the residuals for six and seven probes, with and without a probe that contradicts the
+// others.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -57,13 +58,14 @@ Tested measure(const SteppingLog& log, const FrameBlock& frames) {
 }
 
 TEST(ChiSquare, LimitsMatchTheTables) {
-  EXPECT_NEAR(chi_square_limit(1), 4.8916 * 4.8916, 1e-3);      // from the normal distribution
-  EXPECT_NEAR(chi_square_limit(2), -2 * std::log(1e-6), 1e-3);  // from the exponential distribution
+  // Square of a quantile of the normal distribution.
+  EXPECT_NEAR(chi_square_limit(1), 4.8916 * 4.8916, 1e-3);
+  EXPECT_NEAR(chi_square_limit(2), -2 * std::log(1e-6), 1e-3);  // exponential distribution
   EXPECT_GT(chi_square_limit(12), chi_square_limit(11));
 }
 
-// Probability of a greater value: e^-x/2, erfc(√(x/2)), and for each two more degrees of freedom a
-// term (x/2)^a e^-x/2 / Γ(a + 1).
+// Probability that χ² exceeds a value. It is e^-x/2 for two degrees of freedom and erfc(√(x/2)) for
+// one; each two more degrees of freedom add a term (x/2)^a e^-x/2 / Γ(a + 1).
 double exceeds(int freedom, double chi_square) {
   const double x = chi_square / 2;
   double a = freedom % 2 ? 0.5 : 1, q = freedom % 2 ? std::erfc(std::sqrt(x)) : std::exp(-x);
@@ -95,11 +97,13 @@ TEST(ChiSquare, ProbesThatAgreeAreNotFlagged) {
   }
 }
 
-// From the second run on, one probe reads 0.5 µm too much; each probe is tested.
+// From the second run on, the reading of one probe is 0.5 µm too large. Each probe in turn has this
+// fault.
 TEST(ChiSquare, ReportsTheProbeThatContradictsTheOthers) {
   for (const std::size_t probes : {6u, 7u}) {
     for (std::size_t bad = 0; bad < probes; ++bad) {
-      if (probes == 6 && (bad == 3 || bad == 4)) continue;  // two side probes cannot be checked
+      // With six probes, a fault of D or E is not detectable.
+      if (probes == 6 && (bad == 3 || bad == 4)) continue;
       SteppingLog log;
       log.probes = probes;
       FrameBlock frames = log.frames();
@@ -115,7 +119,7 @@ TEST(ChiSquare, ReportsTheProbeThatContradictsTheOthers) {
   }
 }
 
-// Positions and scales of the probes differ from the rig as much as it declares.
+// Positions and scales of the probes differ from the rig by amounts that the rig declares.
 struct DeclaredFaults {
   static constexpr double kShift_m = 0.1e-3, kScale = 1e-3;
   Rig rig = rig_of(7);
@@ -164,8 +168,8 @@ std::size_t accused(const std::vector<MeasuredPoint>& points) {
   }));
 }
 
-// The covariance of the residuals contains the declared uncertainties: good runs are not flagged,
-// bad runs are.
+// The covariance of the residuals contains the declared uncertainties. Runs with declared faults
+// are not flagged, runs with larger faults are.
 TEST(ChiSquare, DeclaredFaultsAreNotFlagged) {
   const DeclaredFaults faults;
   int without = 0;
@@ -174,10 +178,10 @@ TEST(ChiSquare, DeclaredFaultsAreNotFlagged) {
     without += accused(faults.measure(seed, nullptr, 0)) > 0 ? 1 : 0;
     EXPECT_GE(accused(faults.measure(seed, &faults.rig, 5e-6)), 8u) << seed;
   }
-  EXPECT_GT(without, 15);  // the control
+  EXPECT_GT(without, 15);  // control: if the uncertainties are not declared, these runs are flagged
 }
 
-// For independent readings, both methods give the same χ² if the errors are from least squares.
+// For independent readings χ² from the covariance equals χ² from least squares.
 TEST(ChiSquare, IsEqualForIndependentReadings) {
   const DeclaredFaults faults;
   const Solver solver = Solver::create(faults.rig, Model::rigid).value();
@@ -192,7 +196,7 @@ TEST(ChiSquare, IsEqualForIndependentReadings) {
   }
 }
 
-// The notice contains the largest residual of the flagged points, and their number.
+// The notice contains the number of flagged points and the largest residual among them.
 TEST(ChiSquare, NoticeHasTheLargestResidual) {
   const Rig rig = rig_of(7);
   const Solver solver = Solver::create(rig, Model::rigid).value();
@@ -201,7 +205,7 @@ TEST(ChiSquare, NoticeHasTheLargestResidual) {
   EXPECT_FALSE(residuals.contradiction(points));
   points[2].errors.residual_m = 3e-6;
   points[5].errors.residual_m = 2e-6;
-  points[7].errors.residual_m = 9e-6;  // without the flag
+  points[7].errors.residual_m = 9e-6;  // larger, but the point is not flagged
   for (const std::size_t j : {2u, 5u}) points[j].point.flags.push_back({Flag::residual});
   const auto found = residuals.contradiction(points);
   ASSERT_TRUE(found);
@@ -210,14 +214,15 @@ TEST(ChiSquare, NoticeHasTheLargestResidual) {
   EXPECT_EQ(test::number(*found, "of"), 18);
 }
 
-// A probe is linear to 1e-4 of its range, with a rectangular distribution: 200 µm give 20 nm / √3.
-// The reading of F may deviate until χ² with one degree of freedom is at its limit.
+// A probe is assumed to be linear to 1e-4 of its range with a rectangular distribution: for 200 µm
+// this is 20 nm / √3. The reading of F may deviate until χ² reaches its limit for one degree of
+// freedom.
 TEST(ChiSquare, FlagsAboveNoiseAndLinearity) {
   const auto solver = Solver::create(rig_of(6), Model::rigid).value();
   const Residuals residuals(solver, std::vector<double>(6, 200e-6));
   const Eigen::VectorXd still = rigid_readings(solver.fixture(), 0, Errors5{});
   const double u = std::hypot(3e-9, 20e-9 / std::sqrt(3.0));
-  // Part of a change of F that remains in the residuals of six readings with the same u.
+  // The part of a change of F that remains in the residuals. The six readings have the same u.
   const Eigen::MatrixXd J = rigid_jacobian(solver.fixture(), 0, Errors5{});
   const Eigen::VectorXd left = Eigen::VectorXd::Unit(6, 5) - J * (J.transpose() * J).inverse() *
                                                                  J.transpose() *
@@ -235,8 +240,8 @@ TEST(ChiSquare, FlagsAboveNoiseAndLinearity) {
   }
 }
 
-// Four top probes; any three of them determine the plane. If one is wrong in every run, each of the
-// four may be wrong.
+// Any three of the four top probes determine the plane. If one top probe is wrong in every run, the
+// residuals do not show which of the four it is.
 TEST(ChiSquare, NamesNoProbeIfSeveralArePossible) {
   SteppingLog log;
   log.probes = 6;

@@ -1,5 +1,6 @@
-// The top of one square, measured with the rigs of X and Y: the error of EC0Y for drawn surfaces,
-// by the simplified model (contributors_test.cpp), compared with its budget.
+// The top of one square is measured with the rig of X and the rig of Y. The error of EC0Y is
+// calculated for drawn surfaces by the simplified model (contributors_test.cpp) and compared with
+// its budget.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,8 +49,8 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
   return xy / xx;
 }
 
-// EC0Y = -slope(EYX) - slope(EXY). The roll (B - C)/2l moves the point at a height of 20 mm. For X,
-// EYX is l'' times the roll; for Y, whose local y is -X, EXY is -l'' times it.
+// EC0Y = -slope(EYX) - slope(EXY). The roll (B - C)/2l moves a point at a height of l'' = 20 mm.
+// For X, EYX is l'' times the roll. For Y, the local y axis is -X, so EXY is -l'' times the roll.
 double squareness_error(const test_faults::DrawnSurface& top, const std::vector<double>& travel) {
   std::vector<double> eyx, exy;
   const auto height = [&](double x, double y) { return top.height_m(x, y); };
@@ -87,12 +88,13 @@ TEST(CommonSurface, TopIsCommonToXAndY) {
                 stated_u(length_mm, "another") / spread);
     EXPECT_NEAR(u / spread, 1, 0.06) << length_mm;
   }
-  // A twist of the surface has the same sign in both slopes; a pure twist would give the ratio √2.
+  // A twist of the surface changes both slopes with the same sign. If the surface were a pure
+  // twist, the ratio would be √2.
   EXPECT_GT(stated_u(400, "top") / stated_u(400, "another"), 1.25);
 }
 
-// Three visits of two targets with a fixed fixture. The target moves, so a probe measures the place
-// of the target that lies behind the probe by the travel.
+// Three visits of two targets; the fixture is fixed and the target moves. The measured place on the
+// target is the place of the probe minus the travel.
 TEST(PlaneFootprintsByHand, AreBehindTheProbesByTheMeanTravel) {
   const Rig rig = test::rig_x_with("", "",
                                    "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\nu_flatness_um = "
@@ -116,8 +118,8 @@ TEST(PlaneFootprintsByHand, AreBehindTheProbesByTheMeanTravel) {
   EXPECT_EQ(top.u_m, 0.05e-6);
   EXPECT_EQ(top.length_m, 12e-3);
   EXPECT_EQ(top.points, 4u);
-  ASSERT_EQ(top.footprints.size(), 6u);  // of A, B and C at targets 3 and 7
-  ASSERT_EQ(top.readings.size(), 9u);    // of A, B and C at the three valid points
+  ASSERT_EQ(top.footprints.size(), 6u);  // places of A, B and C at targets 3 and 7
+  ASSERT_EQ(top.readings.size(), 9u);    // readings of A, B and C at three valid points
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector3d& place = fixture.probes[k].p_MP;
     const Footprint &third = top.footprints[2 * k], &seventh = top.footprints[2 * k + 1];

@@ -1,4 +1,5 @@
-// The lines of a budget show each contributor as the rig declares it, in the unit of its key.
+// The lines of a budget show the uncertainty of each contributor as the rig declares it, in the
+// unit of its key.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -68,7 +69,7 @@ TEST(ContributorLines, ShowWhatTheRigDeclares) {
   EXPECT_EQ(all->size(), expected.size() + 3) << "three more probes drift";
 }
 
-// EC0Y = -slope(EXY) - slope(EYX) + corner × angle of the square.
+// EC0Y = -slope(EXY) - slope(EYX) + corner × angle error of the square.
 TEST(ContributorLines, SquareIsALineOfEC0Y) {
   const Rig x = test::rig_x();
   for (const int corner : {1, -1}) {

@@ -1,6 +1,7 @@
-// The effect of a declared uncertainty on the errors, by the simplified model (Eq. 8-12) with l =
-// 10 mm, l'' = 20 mm: EAX = (B - C)/2l, EBX = ((B + C)/2 - A)/l, ECX = (E - D)/l, at the fixture
-// EZX = (B + C)/2, EYX = D + EAX l''.
+// Effects of declared uncertainties on the errors, by the simplified model (Eq. 8-12) with l = 10
+// mm and l'' = 20 mm:
+// EAX = (B - C)/2l, EBX = ((B + C)/2 - A)/l, ECX = (E - D)/l,
+// and at the fixture EZX = (B + C)/2, EYX = D + EAX l''.
 #include "algo/uncertainty/contributors.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ TEST(Contributors, CalibrationIsEqualAtEachPoint) {
     SCOPED_TRACE(c.probe);
     const Rig rig = rig_x_with(c.probe, "u_calibration_um = 0.1");
     const auto all = of(rig, SyntheticRun{.rig = rig, .model = Model::simplified}.measure());
-    ASSERT_EQ(all.size(), 2u);  // the other one is the contributor of the simplified model
+    ASSERT_EQ(all.size(), 2u);  // the second is the contributor of the simplified model
     EXPECT_EQ(contributor_text(all[0].name), "probe " + std::string(c.probe) + ": calibration");
     EXPECT_DOUBLE_EQ(all[0].declared.u * all[0].to_unit, 0.1);
     const auto parts = all[0].parts();
@@ -54,7 +55,8 @@ TEST(Contributors, CalibrationIsEqualAtEachPoint) {
   }
 }
 
-// The target rises by 20 µm/mm: probe B reads this rise, and its scale error grows with it.
+// The target rises by 20 µm/mm. The reading of B rises by the same amount, and so does the effect
+// of its scale error.
 TEST(Contributors, SensitivityIsProportionalToTheReading) {
   const Rig rig = rig_x_with("B", "u_sensitivity_ppm = 1000");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
@@ -67,8 +69,8 @@ TEST(Contributors, SensitivityIsProportionalToTheReading) {
   }
 }
 
-// Probe E, 1 mm further along x, reads l + 1 mm times the yaw. So the yaw is a tenth too large, and
-// δy at D is unchanged.
+// Probe E is 1 mm further along x and reads (l + 1 mm) times the yaw. So the calculated yaw is a
+// tenth too large, and δy at D is unchanged.
 TEST(Contributors, PositionActsWithTheAngle) {
   const Rig rig = rig_x_with("E", "u_position_mm = [1, 0, 0]");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
@@ -84,12 +86,12 @@ TEST(Contributors, PositionActsWithTheAngle) {
   }
 }
 
-// 0.36 µm/h is 0.1 nm/s.
+// A drift of 0.36 µm/h is 0.1 nm/s.
 TEST(Contributors, DriftGrowsWithTimeFromTheFirstPoint) {
   const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 0.36\n");
   const auto run = SyntheticRun{.rig = rig, .model = Model::simplified}.measure();
   const auto all = of(rig, run);
-  ASSERT_EQ(all.size(), 6u);  // the last one is the contributor of the simplified model
+  ASSERT_EQ(all.size(), 6u);  // the sixth is the contributor of the simplified model
   EXPECT_EQ(contributor_text(all[3].name), "probe D: drift");
   EXPECT_NEAR(all[3].declared.u * all[3].to_unit, 0.36, 1e-12);
   const auto parts = all[3].parts();
@@ -99,19 +101,19 @@ TEST(Contributors, DriftGrowsWithTimeFromTheFirstPoint) {
   }
 }
 
-// A fixture rolled by 1 mrad (about X for an X axis) and a target that rises.
+// A fixture is rolled by 1 mrad about X, and the target rises with the travel.
 TEST(Contributors, InstallationRollHasNoEffectOnALevelPlane) {
   const Rig rig = rig_x_with("", "", "[installation]\nu_angle_mrad = [1, 0, 0]\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   synthetic.truth = [](double d) { return Errors5{0, 1e-3 * d, 0, 0, 0}; };
   const auto run = synthetic.measure();
   const auto parts = of(rig, run)[0].parts();
-  // The plane stays level and only rises, so moving the probes by 1 mrad over it has no effect.
+  // The plane remains level, so a displacement of the probes over it by 1 mrad has no effect.
   for (std::size_t j = 0; j < run.points.size(); ++j)
     for (std::size_t e = 0; e < 5; ++e) EXPECT_NEAR(parts[0][j][e], 0, 2e-10) << j << " " << e;
 }
 
-// 0 at the zero of the probe, then √2 u √(1 - correlation).
+// The effect is 0 at the zero of the probe; elsewhere its u is √2 u √(1 - correlation).
 TEST(Contributors, FlatnessActsByItsChangeSinceTheZero) {
   const Rig rig = rig_x_with("", "",
                              "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
@@ -133,16 +135,17 @@ TEST(Contributors, FlatnessActsByItsChangeSinceTheZero) {
       correlation +=
           std::pow(k, -4) * std::cyl_bessel_j(0, 2 * M_PI * k * run.points[j].target_m / 0.03);
     }
-    // EYX at the fixture is the reading of D.
+    // At the fixture EYX is the reading of D.
     EXPECT_NEAR(std::sqrt(square), 0.05e-6 * std::sqrt(2 * (1 - correlation / norm)), 1e-12) << j;
     EXPECT_NEAR(top, 0, 1e-12);
   }
-  // All visits of one place have the same height.
+  // The surface has the same height for all visits of a target.
   const std::size_t targets = 9;
   for (const auto& part : parts) EXPECT_EQ(part[0], part[2 * targets]);
 }
 
-// The carriage's δy is D + roll l'' + d yaw, so 1 µm of travel gives 1 µm times the yaw.
+// The carriage's δy is D + roll l'' + d yaw, so an error of 1 µm of the travel d changes δy by 1 µm
+// times the yaw.
 TEST(Contributors, EncoderActsAtEachTargetSeparately) {
   const Rig rig = rig_x_with("", "", "[encoder]\nu_um = 1\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .stated = kAtCarriage};
@@ -170,7 +173,7 @@ TEST(Contributors, RejectsRunsWithoutPointsOrWithWrongAngles) {
   auto run = synthetic.measure();
   EXPECT_TRUE(contributors(rig, run));
   for (double& reading : run.points[3].point.probe_m) reading = 0;
-  run.points[3].point.probe_m[4] = 3e-3;  // E is 10 mm from D: 300 mrad of yaw
+  run.points[3].point.probe_m[4] = 3e-3;  // E is 10 mm from D, so the yaw would be 300 mrad
   const auto turned = contributors(rig, run);
   ASSERT_FALSE(turned);
   EXPECT_NE(turned.error().message.find("at target 4"), std::string::npos);
@@ -180,8 +183,9 @@ TEST(Contributors, RejectsRunsWithoutPointsOrWithWrongAngles) {
   EXPECT_NE(empty.error().message.find("no points"), std::string::npos);
 }
 
-// Probe B measures a plane with the pitch p at the height s. A tilt c along the motion moves its
-// spot by c s, so it reads p c s less or more. A tilt across the motion has no effect.
+// Probe B measures a plane with the pitch p; the reading of B is s. If B is tilted by c along the
+// motion, its measured spot moves by c s, and its reading changes by p c s. A tilt across the
+// motion has no effect.
 TEST(Contributors, DirectionHasPartsAlongAndAcrossTheSlope) {
   const Rig rig = rig_x_with("B", "u_direction_mrad = 5");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
@@ -200,8 +204,8 @@ TEST(Contributors, DirectionHasPartsAlongAndAcrossTheSlope) {
   }
 }
 
-// All probes are 1 mm further along x over a plane with the pitch p: the plane is lower there by p
-// times 1 mm, and the pitch is unchanged.
+// All probes are 1 mm further along x over a plane with the pitch p. There the plane is lower by p
+// times 1 mm; the calculated pitch is unchanged.
 TEST(Contributors, OffsetAlongTheMotionReadsThePitch) {
   const Rig rig = rig_x_with("", "", "[installation]\nu_offset_mm = [1, 0, 0]\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
@@ -214,8 +218,8 @@ TEST(Contributors, OffsetAlongTheMotionReadsThePitch) {
   }
 }
 
-// All probes are 1 mm further along y or z over a target with the roll r: the top is higher there
-// by r times 1 mm, the side is further away.
+// All probes are 1 mm further along y or z, and the target has the roll r. There the top is higher
+// by r times 1 mm, and the side is further away.
 TEST(Contributors, OffsetAcrossTheMotionReadsTheRoll) {
   for (const std::size_t c : {1u, 2u}) {
     const Rig rig = rig_x_with(
@@ -243,7 +247,7 @@ TEST(Contributors, RejectsAnImpossibleInstallationAngle) {
   }
 }
 
-// There are up to 256 parts; with more targets two neighbours share a part.
+// The contributor has at most 256 parts. With more targets, two neighbouring targets share a part.
 TEST(Contributors, EncoderHasFewerPartsForManyTargets) {
   const Rig rig = rig_x_with("", "", "[encoder]\nu_um = 1\n");
   for (const int targets : {256, 257}) {

@@ -1,5 +1,5 @@
-// The test draws correlated noise at each visit by a recursion: how often the stated intervals
-// contain the true values. Use MDOF_COVERAGE_RUNS=1000 for figures worth quoting.
+// A recursion draws correlated noise for each visit. The tests count how often the stated intervals
+// contain the true values. Set MDOF_COVERAGE_RUNS=1000 to calculate figures for publication.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,11 +20,11 @@ namespace {
 
 struct CorrelatedCoverage {
   double slope_percent = 0, straightness_percent = 0;
-  double U_by_spread = 0;  // mean U over 1.96 standard deviations of the slope
+  double U_by_spread = 0;  // mean U over 1.96 standard deviations of the slope error
 };
 
-// `correlation`: correlation time τ in intervals between visits; 0: white noise. The axis is
-// straight with a wave of 2 µm.
+// `correlation`: correlation time τ, in intervals between visits; 0: white noise. The error EYX of
+// the axis is a wave of 2 µm without a slope.
 CorrelatedCoverage correlated_coverage(int runs, double correlation, double tilt_rad,
                                        std::uint64_t seed) {
   const Rig rig = test::rig_x_with("", "");
@@ -59,7 +59,7 @@ CorrelatedCoverage correlated_coverage(int runs, double correlation, double tilt
   return {100.0 * slopes / n, 100.0 * straight / n, U / 1.96 / std::sqrt(square)};
 }
 
-// At least `percent`, within three standard errors.
+// Expects at least `percent`, less three standard errors.
 void expect_coverage(const CorrelatedCoverage& c, double percent) {
   const double three_sd = 65 / std::sqrt(test::coverage_runs(30));
   std::printf("slope %.1f %%, straightness %.1f %%, U/spread %.2f\n", c.slope_percent,
@@ -76,8 +76,8 @@ TEST(CorrelatedNoise, IntervalsOfRunsHoldTheTruth) {
     }
 }
 
-// In three runs, a tilt as large as the noise is often not visible: 88 % of 1,000 logs are covered
-// instead of 95 %.
+// In three runs, a tilt of the runs that is as large as the noise is often not visible: 88 % of the
+// intervals of 1,000 logs contain the truth instead of 95 %.
 TEST(CorrelatedNoise, IntervalsOfRunsThatTiltMayBeTooShort) {
   for (const int runs : {3, 5})
     for (const double tilt_rad : {0.25e-6, 1e-6, 4e-6}) {
@@ -86,12 +86,12 @@ TEST(CorrelatedNoise, IntervalsOfRunsThatTiltMayBeTooShort) {
     }
 }
 
-// Three runs forward and back over nine targets, one visit per second.
+// Three runs in both directions over nine targets, with one visit per second.
 constexpr std::size_t kTargetsOfLog = 9, kPassesOfLog = 6;
 
 struct Log {
   std::vector<NoisyVisit> visits;
-  double slope = 0;   // by least squares of the means, per target
+  double slope = 0;   // slope over the target number, by least squares of the means
   double square = 0;  // sum of the squared residuals
 };
 
@@ -99,8 +99,8 @@ double slope_weight(std::size_t target) {
   return (static_cast<double>(target) - 4) / 60;  // Σ (i - 4)² = 60
 }
 
-// `correlation`: correlation of consecutive visits. The visits are complete, so the means of
-// targets and passes are subtracted directly.
+// `correlation`: correlation of consecutive visits. No visit is missing, so the residuals are
+// calculated directly: the means of the target and of the pass are subtracted.
 Log log_of(double correlation, double level, std::mt19937_64& engine) {
   std::normal_distribution<> normal;
   Log log;
@@ -138,7 +138,8 @@ struct Slopes {
 Slopes slopes(double correlation, double level) {
   std::mt19937_64 engine(7);
   constexpr int kLogs = 600;
-  constexpr double kFreedom = 32;  // 54 - 18 - 4
+  // 54 visits, minus 18 means of targets and 4 free means of passes.
+  constexpr double kFreedom = 32;
   std::vector<double> weights;
   for (std::size_t i = 0; i < kTargetsOfLog; ++i) weights.push_back(slope_weight(i));
   double square = 0, u_square = 0, freedom = 0;
@@ -173,7 +174,7 @@ TEST(CorrelatedNoise, UIsTheSpreadOfSlopes) {
   }
 }
 
-// The level of a pass is neither in the residuals nor in the variance of a figure.
+// The level of a pass affects neither the residuals nor the variance of a figure.
 TEST(CorrelatedNoise, LeavesOutTheLevelOfAPass) {
   std::mt19937_64 engine(9);
   std::vector<NoisyVisit> visits = log_of(0.9, 0, engine).visits;
@@ -186,7 +187,8 @@ TEST(CorrelatedNoise, LeavesOutTheLevelOfAPass) {
   EXPECT_NEAR(CorrelatedNoise(visits, 32).of(weights).square, square, 1e-9);
 }
 
-// Equal times, residuals of 0 and targets with one visit give no information on a correlation.
+// A correlation is unknown if all times are equal, if all residuals are 0, or if each target has
+// one visit.
 TEST(CorrelatedNoise, IsWhiteWhereNothingIsKnown) {
   std::mt19937_64 engine(9);
   Log log = log_of(0.9, 0, engine);

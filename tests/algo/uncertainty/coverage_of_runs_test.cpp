@@ -1,7 +1,7 @@
-// How often the stated 95 % intervals contain the true values. Runs on fixtures whose declared
-// contributors are all drawn from their distributions, with points without samples
-// (tests/daemon/measure tests the whole path). Use MDOF_COVERAGE_RUNS=2000 for figures worth
-// quoting.
+// Counts how often the stated 95 % intervals contain the true values. The faults of the fixtures
+// are drawn from the distributions that the rigs declare. The points have no samples;
+// tests/daemon/measure tests the whole path from the samples. Set MDOF_COVERAGE_RUNS=2000 to
+// calculate figures for publication.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -40,8 +40,8 @@ int requested_runs() {
   return wanted ? std::atoi(wanted) : 0;
 }
 
-// Without the environment variable, only figures whose U needs no Monte Carlo; this takes a tenth
-// of the time.
+// Without the environment variable, ranges are omitted, because their U needs a Monte Carlo
+// calculation. The test then takes a tenth of the time.
 std::vector<Figure> figures() {
   std::vector<Figure> all = errors_at_target(Axis::x, 8);
   for (const Figure& figure : figures_of_run(Axis::x))
@@ -74,7 +74,8 @@ Coverage coverage_of(const Rig& declared, const Rig& faulty, int trials) {
 
 TEST(CoverageOfRuns, StatedIntervalsHoldTheTruth) {
   const int runs = requested_runs() > 0 ? requested_runs() : 150;
-  const double three_sd = 65 / std::sqrt(runs);  // for the share of this number of trials, %
+  // Three standard deviations of a share of 95 % of this number of runs, %.
+  const double three_sd = 65 / std::sqrt(runs);
   for (const auto& [l_mm, h_mm, z_mm] :
        {std::array{10.0, 15.0, 20.0}, std::array{25.0, 8.0, 12.0}}) {
     const Rig rig = declared_rig(l_mm, h_mm, z_mm);
@@ -85,7 +86,7 @@ TEST(CoverageOfRuns, StatedIntervalsHoldTheTruth) {
   }
 }
 
-// Control: faults that the rig does not declare are not covered.
+// Control: the intervals must not cover faults that the rig does not declare.
 TEST(CoverageOfRuns, UndeclaredFaultsAreNotCovered) {
   const Rig faulty = declared_rig(10, 15, 20);
   Rig declared = faulty;

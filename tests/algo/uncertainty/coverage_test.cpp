@@ -1,4 +1,4 @@
-// Values from GUM annex G.
+// Coverage factors and effective degrees of freedom, compared with values from GUM annex G.
 #include "algo/uncertainty/coverage.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// Table G.2, column 95 %.
+// GUM table G.2, column 95 %.
 TEST(Coverage, MatchesTheGuide) {
   const std::pair<double, double> table[] = {
       {1, 12.71}, {2, 4.30},  {3, 3.18},  {4, 2.78},  {5, 2.57},  {6, 2.45},   {8, 2.31},
@@ -25,7 +25,8 @@ TEST(Coverage, MatchesTheGuide) {
   EXPECT_NEAR(coverage_factor(2.5), 3.574655, 1e-6);  // scipy.stats.t.ppf(0.975, 2.5)
 }
 
-// Two methods agree where they meet, and with scipy.stats.t.ppf(0.975, 200).
+// The coverage factor is calculated by one method below 200 degrees of freedom and by another from
+// 200 on. At 200 both agree with each other and with scipy.stats.t.ppf(0.975, 200).
 TEST(Coverage, FewAndManyDegreesOfFreedomMeet) {
   const double below = coverage_factor(200 - 1e-6), above = coverage_factor(200);
   EXPECT_NEAR(below, above, 3e-8);
@@ -46,7 +47,7 @@ TEST(Coverage, QuantilesOfStudentToTwelveDigits) {
     EXPECT_NEAR(coverage_factor(q.freedom) / q.two_sided, 1, 1e-12) << q.freedom;
     EXPECT_NEAR(one_sided_factor(q.freedom) / q.one_sided, 1, 1e-12) << q.freedom;
   }
-  // From the expansion, whose fourth term is below 1 / 200^4.
+  // Calculated by the series expansion; its fourth term is below 1 / 200^4.
   const Quantiles many[] = {{200, 1.971896223633909, 1.652508100910878},
                             {250, 1.969498393421154, 1.650971489812858},
                             {1000, 1.962339080826408, 1.646378817285465},
@@ -57,14 +58,14 @@ TEST(Coverage, QuantilesOfStudentToTwelveDigits) {
   }
 }
 
-// H.1.6, end gauge calibration: the guide truncates 16.7 to 16.
+// GUM H.1.6, end gauge calibration: the guide truncates 16.7 to 16.
 TEST(Coverage, EffectiveDegreesOfFreedomOfTheGaugeBlock) {
   const std::vector<UncertaintyPart> parts = {{25, 18}, {9.7, 25.6}, {2.9, 50}, {16.6, 2}};
   const double freedom = effective_freedom(parts);
   EXPECT_EQ(std::floor(freedom), 16);
 }
 
-// G.4.2: equal parts with equal degrees of freedom add their degrees of freedom.
+// GUM G.4.2: if parts have equal u and equal degrees of freedom, their degrees of freedom add.
 TEST(Coverage, EqualPartsAddTheirFreedom) {
   EXPECT_NEAR(effective_freedom(std::vector<UncertaintyPart>{{3, 5}, {3, 5}}), 10, 1e-12);
   EXPECT_EQ(effective_freedom(std::vector<UncertaintyPart>{{3, kInfinite}, {3, kInfinite}}),

@@ -1,4 +1,4 @@
-// ISO 14253-1:2017: decisions about a figure with a tolerance.
+// Tests decisions about a figure with a tolerance, by ISO 14253-1:2017.
 #include "algo/uncertainty/conformity/decision.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ Conformity said_of(double value) {
   return decision(budget_of(value), 1.0).conformity;
 }
 
-// g = 1.645 · 0.1, not U = 0.196.
+// The guard band is g = 1.645 · 0.1, not U = 0.196.
 TEST(Decision, UsesTheOneSidedGuardBand) {
   EXPECT_EQ(said_of(0.835), Conformity::conform);
   EXPECT_EQ(said_of(-0.835), Conformity::conform);
@@ -40,25 +40,27 @@ TEST(Decision, UsesTheOneSidedGuardBand) {
   EXPECT_NE(d.reason.find("within the guard band"), std::string::npos);
 }
 
-// A value that does not conform to a tolerance does not conform to a smaller one. With u = 0.1 the
-// guard band is two-sided below 0.24.
+// A value that does not conform to a tolerance must not conform to a smaller tolerance. With u =
+// 0.1, the guard band is two-sided for tolerances below 0.24.
 TEST(Decision, IsMonotoneInTheTolerance) {
   for (double limit = 0.4; limit > 0.001; limit -= 0.001)
     EXPECT_EQ(decision(budget_of(0.57), limit).conformity, Conformity::not_conform) << limit;
 }
 
-// A decision is correct in at least 95 % of cases; values are drawn about the edge of the rule.
+// The measured value is the largest that is accepted. The true values are drawn about it; at least
+// 95 % of them must be within the tolerance.
 TEST(Decision, IsCorrectWithTheStatedProbability) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0, 0.1);
-  for (const double limit : {1.0, 0.2}) {  // for 0.2 both ends count
+  for (const double limit : {1.0, 0.2}) {  // for 0.2 a value may exceed either end of the tolerance
     double edge = limit;
     while (edge > 0 && decision(budget_of(edge), limit).conformity != Conformity::conform)
       edge -= 1e-4;
     int within = 0;
     constexpr int kDraws = 40'000;
     for (int i = 0; i < kDraws; ++i) within += std::abs(edge + noise(random)) <= limit ? 1 : 0;
-    const double share = static_cast<double>(within) / kDraws;  // one-sided alone: 0.90 for 0.2
+    // With a one-sided guard band this would be 0.90 for 0.2.
+    const double share = static_cast<double>(within) / kDraws;
     EXPECT_NEAR(share, 0.953, 0.007) << limit;
   }
 }
@@ -88,7 +90,7 @@ TEST(Decision, KeepsTheLimit) {
   EXPECT_EQ(decision(budget_of(0.5), 1.25).limit, 1.25);
 }
 
-// A decision needs a known u above 0.
+// If u is 0 or unknown, the decision is "undecided".
 TEST(Decision, IsUndecidedWithoutU) {
   for (const double u : {0.0, std::nan("")}) {
     Budget budget = budget_of(0.5);

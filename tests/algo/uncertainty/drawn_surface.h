@@ -1,5 +1,6 @@
-// A surface as a sum of many plane waves, each of a random direction and phase; by the central
-// limit theorem it is isotropic and normal. No other code of the project uses this model.
+// A surface that is the sum of many plane waves; each wave has a random direction and phase. By the
+// central limit theorem the heights are normally distributed, and equally in all directions. No
+// other code of the project uses this model.
 #pragma once
 
 #include <cmath>
@@ -10,7 +11,8 @@ namespace mdof::algo::test_faults {
 
 class DrawnSurface {
  public:
-  // Waves of the lengths L, L/2, L/3 and L/4 with the weights 1/k².
+  // `u_m`: standard deviation of the heights. `length_m`: the longest wave L. The waves have the
+  // lengths L, L/2, L/3 and L/4 and the weights 1/k² for the length L/k.
   template <class Engine>
   DrawnSurface(double u_m, double length_m, Engine& engine) {
     constexpr int kWaves = 20;  // number of waves of each length
@@ -33,7 +35,8 @@ class DrawnSurface {
     }
     return sum;
   }
-  // Change of the reading of a probe that was zeroed at d = 0 over this place, m.
+  // Change of the height under a probe, m, since the probe was zeroed over this place at the travel
+  // 0.
   double above_zero_m(double first_m, double second_m, double travel_m) const {
     return height_m(first_m - travel_m, second_m) - height_m(first_m, second_m);
   }

@@ -1,6 +1,6 @@
-// A fixture whose declared contributors are all drawn from their distributions. The faults are made
-// independently of the code of the budgets: probes are moved and turned in the fixture, and
-// flatness is a sum of plane waves (drawn_surface.h).
+// A fixture with faults that are drawn from the distributions that its rig declares. The code of
+// the budgets is not used: the probes of the fixture are moved and turned, and the flatness error
+// is a sum of plane waves (drawn_surface.h).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,7 +20,7 @@ inline constexpr const char* kOfProbes =
     "u_calibration_um = 0.05\nu_sensitivity_ppm = 1500\nu_position_mm = [0.08, 0.08, 0.08]\n"
     "u_direction_mrad = 2\n";
 
-// Adds the declared uncertainties to each probe of a rig's text.
+// Adds the declared uncertainties of a probe to each probe in the text of a rig.
 inline std::string with_declared_probes(std::string toml) {
   for (std::size_t at = 0; (at = toml.find("measures", at)) != std::string::npos; at += 20) {
     toml.insert(at, kOfProbes);
@@ -29,8 +29,8 @@ inline std::string with_declared_probes(std::string toml) {
   return toml;
 }
 
-// Declared uncertainties of installation, drift and planes; `side_normal` is the normal of the side
-// plane for the rig's axis.
+// Text that declares the uncertainties of installation, drift and planes. `side_normal`: direction
+// of the normal of the side plane.
 inline std::string of_rig(double drift_um_per_h, const char* side_normal) {
   return "[installation]\nu_angle_mrad = [2, 2, 2]\nu_offset_mm = [0.05, 0.05, 0.05]\n"
          "[drift]\nu_um_per_h = " +
@@ -40,8 +40,8 @@ inline std::string of_rig(double drift_um_per_h, const char* side_normal) {
          side_normal + "\"\nu_flatness_um = 0.02\n";
 }
 
-// The streams of neighbouring seeds of std::mt19937_64 are related: seeds 2 k and 2 k + 1 gave
-// slopes of X and Y with a correlation of -0.3.
+// Mixes the seed before use, because the streams of std::mt19937_64 for neighbouring seeds are
+// related: seeds 2 k and 2 k + 1 gave slopes of X and Y with a correlation of -0.3.
 inline std::mt19937_64 well_mixed(std::uint64_t seed) {
   std::seed_seq mixed{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
   return std::mt19937_64(mixed);
@@ -67,17 +67,19 @@ class FaultyFixture {
   }
 
   double normal() { return normal_(engine_); }
-  // Scale errors belong to the probes, so another set-up with the same probes has the same ones.
+  // The scale error of a probe remains when the probe is used in another set-up. take_gains()
+  // copies the scale errors from that set-up.
   const std::vector<double>& gains() const { return gain_; }
   void take_gains(const std::vector<double>& gains) { gain_ = gains; }
-  // The top of the target, the first plane, is the same for a run along X and a run along Y.
+  // The first plane is the top of the target. It is the same surface for a run along X and a run
+  // along Y.
   const DrawnSurface& top() const { return surfaces_.front(); }
   void share_x_top(const DrawnSurface& top) {
     surfaces_.front() = top;
     shares_top_ = true;
   }
 
-  // Readings of all probes without noise; `errors` of the carriage in the local frame.
+  // Readings of all probes without noise, m. `errors`: errors of the carriage in the local frame.
   std::vector<double> readings_m(double d, const Errors5& errors, double time_s) const {
     const Eigen::VectorXd exact = rigid_readings(actual_fixture_, d, errors) - zero_;
     std::vector<double> all;
@@ -95,7 +97,7 @@ class FaultyFixture {
   }
 
  private:
-  // Along Y, local x is +Y and local y is -X.
+  // A run along Y has the local axes x = +Y and y = -X.
   double above_zero_m(std::size_t plane, double first_m, double second_m, double d) const {
     const DrawnSurface& surface = surfaces_[plane];
     if (plane > 0 || !shares_top_) return surface.above_zero_m(first_m, second_m, d);

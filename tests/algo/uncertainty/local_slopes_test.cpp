@@ -27,13 +27,14 @@ TEST(LocalSlopes, AreTheDerivativeOfAParabola) {
   ASSERT_EQ(slopes.size(), 9u);
   for (std::size_t i = 1; i < 8; ++i)
     EXPECT_NEAR(slopes[i][0], 4e-3 * static_cast<double>(i) * 5e-3, 1e-15) << i;
-  EXPECT_NEAR(slopes[0][0], 2e-3 * 5e-3, 1e-15);  // the chord at the end
+  // Slope of the chord, because this target has one neighbour.
+  EXPECT_NEAR(slopes[0][0], 2e-3 * 5e-3, 1e-15);
   EXPECT_NEAR(slopes[8][0], 2e-3 * 75e-3, 1e-15);
   for (const Errors5& slope : slopes) EXPECT_NEAR(slope[4], 0.1, 1e-12);
 }
 
-// Slopes are over the travel of the target in M, for both moving bodies and both encoder
-// directions.
+// The slopes are derivatives with respect to the travel of the target in M. Tested for a moving
+// fixture or a moving target, and for both directions of the encoder.
 TEST(LocalSlopes, FollowTheTravelOfTheTarget) {
   for (const bool fixture_moves : {false, true})
     for (const bool against : {false, true}) {
@@ -47,17 +48,20 @@ TEST(LocalSlopes, FollowTheTravelOfTheTarget) {
     }
 }
 
-// A reversal error of 10 µm that is seen at only one of three targets is no slope.
+// Only one of three targets is also approached in reverse, with a reversal of 10 µm. The reversal
+// is no slope.
 TEST(LocalSlopes, UseTheSameApproach) {
   mdof::Run run;
   for (int i = 0; i < 3; ++i) run.points.push_back(point(i + 1, 1, i * 0.01, 1e-3 * i * 0.01));
   run.points.push_back(point(2, -1, 0.01, 20e-6));
   const auto slopes = local_slopes(run);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(slopes[i][0], 1e-3, 1e-15) << i;
-  EXPECT_NEAR(slopes[3][0], 1e-3, 1e-15);  // from both approaches, because its own has one target
+  // From both approaches, because only one target has this approach.
+  EXPECT_NEAR(slopes[3][0], 1e-3, 1e-15);
 }
 
-// Pairs of targets at one place, a short interval, and a point without errors.
+// Positions: two pairs of targets at the same place or nearly so, a short interval, and a point
+// without errors.
 TEST(LocalSlopes, AcceptEqualAndUnequalPositions) {
   mdof::Run run;
   const double places[] = {0, 1e-9, 0.02, 0.021, 0.06, 0.06};
@@ -77,7 +81,7 @@ TEST(LocalSlopes, AreZeroForOnePositionOrNone) {
   for (const Errors5& slope : local_slopes(run)) EXPECT_EQ(slope, Errors5{});
 }
 
-// Stops with unknown approach.
+// The approach of all stops is unknown.
 TEST(LocalSlopes, UseAllPointsForUnknownApproaches) {
   mdof::Run run;
   for (int i = 0; i < 3; ++i) run.points.push_back(point(i + 1, 0, i * 0.01, 2e-3 * i * 0.01));

@@ -1,5 +1,5 @@
-// The uncertainty of a mean, by sums of products calculated by hand. Mutation tests (tests/mutate)
-// found these cases.
+// The uncertainty of a mean, compared with sums of products that are calculated by hand. Mutation
+// tests (tests/mutate) found these cases.
 #include "algo/uncertainty/mean_uncertainty.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@
 namespace mdof::algo {
 namespace {
 
-// Runs of `length` readings, alternately +1 and -1: the mean is 0, the sd √(n/(n - 1)).
+// A series of `runs` blocks; each has `length` readings of +1 or -1, in turn. The mean is 0, the
+// standard deviation √(n/(n - 1)).
 double alternating_run_u(int length, int runs) {
   std::vector<double> x;
   for (int k = 0; k < runs; ++k)
@@ -21,21 +22,24 @@ double alternating_run_u(int length, int runs) {
   return mean_uncertainty(x, std::sqrt(n / (n - 1)));
 }
 
-// Sixteen readings, four runs of four. Three of 15 neighbours differ: 9/16; six of 14 at distance
-// two: 2/16; nine of 13 at distance three: -5/16. So the first pair of lags, 25/16, counts and the
-// next one does not: (2 × 25/16 - 1) / (16 - 3).
+// Four blocks of four readings, 16 in all. Correlations:
+// lag 1: 3 of 15 products are negative: 9/16
+// lag 2: 6 of 14 products are negative: 2/16
+// lag 3: 9 of 13 products are negative: -5/16
+// The first pair, 1 and 9/16, has the sum 25/16 and is used; the next pair is not.
+// u² = (2 × 25/16 - 1) / (16 - 3).
 TEST(MeanUncertainty, UsesOnePairOfLags) {
   EXPECT_NEAR(alternating_run_u(4, 4), std::sqrt((50 / 16.0 - 1) / 13), 1e-14);
 }
 
-// Thirty-two readings, four runs of eight: 1, 25/32 | 18/32, 11/32 | 4/32, -3/32. The last pair is
-// below the noise √(2/32).
+// Four blocks of eight readings, 32 in all. The pairs of correlations are 1, 25/32 | 18/32, 11/32 |
+// 4/32, -3/32. The sum of the last pair is below the noise limit √(2/32).
 TEST(MeanUncertainty, UsesTwoPairsOfLags) {
   EXPECT_NEAR(alternating_run_u(8, 4), std::sqrt((2 * 86 / 32.0 - 1) / 25), 1e-14);
 }
 
-// For alternating readings, the sum of the pairs is below the variance of one reading. u is then
-// that of independent readings.
+// If single readings alternate, the sum of the pairs is below the variance of one reading. u is
+// then the u of independent readings.
 TEST(MeanUncertainty, IsAtLeastThatOfIndependentReadings) {
   EXPECT_NEAR(alternating_run_u(1, 16), 1 / std::sqrt(15), 1e-14);
 }
@@ -46,14 +50,14 @@ TEST(MeanUncertainty, IsCorrectForFewReadings) {
   EXPECT_NEAR(mean_uncertainty(std::vector<double>{1, -1}, std::sqrt(2)), 1, 1e-14);
 }
 
-// More than 256 readings are replaced by means of equal numbers of readings. Of 1024 readings, four
-// are averaged, so each run of sixteen becomes a run of four.
+// More than 256 readings are replaced by means of equal numbers of readings. Of 1024 readings, each
+// four are replaced by their mean, so a block of sixteen becomes a block of four.
 TEST(MeanUncertainty, AveragesManyReadings) {
   const double few = alternating_run_u(4, 64), many = alternating_run_u(16, 64);
   EXPECT_NEAR(many, few, 1e-12);
 }
 
-// The rule of mean_uncertainty.h by plain loops, for correlated series.
+// Applies the rule of mean_uncertainty.h to correlated series by plain loops.
 double by_plain_loops(const std::vector<double>& x, double sd) {
   const std::size_t n = x.size();
   const auto covariance = [&](std::size_t lag) {

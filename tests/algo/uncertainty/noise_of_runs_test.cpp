@@ -1,6 +1,6 @@
-// Random noise at each reading: how often the stated intervals contain the true values of a perfect
-// or bent axis, and the effect of a drift of the level on figures in which it cancels. Use
-// MDOF_COVERAGE_RUNS=1000 for figures worth quoting.
+// Random noise is added to each reading. The tests count how often the stated intervals contain the
+// true values of a straight or curved axis. They also check that a drift of the level has no effect
+// on figures in which it cancels. Set MDOF_COVERAGE_RUNS=1000 to calculate figures for publication.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -35,8 +35,8 @@ Errors5 bend(double d, double height_m, double angle_rad) {
   return {height_m * s, height_m * c, angle_rad * s, angle_rad * c, angle_rad * s};
 }
 
-// For each figure, by name: the number of intervals that contain the value of the same axis without
-// noise.
+// For each figure, by its name: the number of intervals that contain the value of the same axis
+// without noise.
 std::map<std::string, Held> held(int runs, double height_m, double angle_rad) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(test::coverage_seed(99));
@@ -74,8 +74,8 @@ TEST(NoiseOfRuns, APerfectAxisMayBePerfect) {
   }
 }
 
-// Straightness of 100 nm and 2 µm, with noise of 28 nm (one run) and 16 nm (three runs) at a
-// target.
+// The straightness of the axis is 100 nm or 2 µm. The noise at a target is 28 nm for one run and 16
+// nm for three runs.
 TEST(NoiseOfRuns, IntervalsCoverABentAxis) {
   for (const int runs : {1, 3})
     for (const double height_m : {50e-9, 1e-6}) {
@@ -84,8 +84,9 @@ TEST(NoiseOfRuns, IntervalsCoverABentAxis) {
     }
 }
 
-// All readings are equal, as with a coarse converter, so the range is 0. The range of its noise is
-// the studentized range of nine normal numbers, whose 95 % point is 4.387 (Harter, 1960).
+// All readings are equal, as with a coarse converter, so the measured range is 0. The noise that
+// the converter hides has the studentized range of nine normal numbers; its 95 % point is 4.387
+// (Harter, 1960).
 TEST(NoiseOfRuns, EqualDeviationsKeepAnUncertainty) {
   const Rig rig = test::rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
@@ -98,24 +99,26 @@ TEST(NoiseOfRuns, EqualDeviationsKeepAnUncertainty) {
   // The mean square of the range of nine normal numbers is 2.970² + 0.808² (Tippett).
   EXPECT_NEAR(yaw.u / mean_u_rad, std::hypot(2.970, 0.808), 0.06);
   EXPECT_NEAR(yaw.coverage_factor, yaw.U / yaw.u, 1e-12);
-  synthetic.u_reading_m = 0;  // there is no noise, and the rig declares nothing
+  synthetic.u_reading_m = 0;  // no noise, and the rig declares no uncertainties
   EXPECT_TRUE(std::isnan(RunBudgets(rig, synthetic.measure()).of(range_figure(Axis::x, 4)).U));
 }
 
-// The interval of a range is not too wide: for a form far above the noise it is ± 1.96 √2 u.
+// The interval of a range must not be too wide. For a form far above the noise it is ±1.96 √2 u.
 TEST(NoiseOfRuns, LargeRangeHasTheUncertaintyOfItsEnds) {
   std::mt19937_64 engine(3);
   std::normal_distribution<> normal;
   std::vector<double> changes;
   for (int i = 0; i < 3 * 20000; ++i) changes.push_back(normal(engine));
   EXPECT_NEAR(RangeTrials({0, 50, 100}, changes).U(), 1.96 * std::sqrt(2.0), 0.05);
-  // At 0 it is the range of three normal numbers, whose 95 % point is 3.31 (the studentized range).
+  // All values are 0, so the range is that of three normal numbers; its 95 % point is 3.31
+  // (studentized range).
   EXPECT_NEAR(RangeTrials({0, 0, 0}, changes).U(), 3.31, 0.05);
   EXPECT_NEAR(RangeTrials({0, 1, 3}, changes).U(), 3.31, 0.05);  // the interval contains 0
 }
 
-// Only the highest point has an error; it is 2.2 above its neighbour. Reduced by U/2, it would fall
-// to the neighbour, and 95 % of the trials would be within 1.64.
+// Only the highest point has an error; it is 2.2 above the next point. If the trials started from
+// this point lowered by U/2, the next point would be almost as high, and 95 % of the trials would
+// be within 1.64.
 TEST(NoiseOfRuns, UIsAtLeastThatOfTheMeasuredRange) {
   std::mt19937_64 engine(4);
   std::normal_distribution<> normal;
@@ -124,8 +127,9 @@ TEST(NoiseOfRuns, UIsAtLeastThatOfTheMeasuredRange) {
   EXPECT_NEAR(RangeTrials({0, 97.8, 100}, changes).U(), 1.96, 0.04);
 }
 
-// Only the highest point has an error; on the true axis it is 2 above the next point. If it is read
-// almost as low as that point, the trials can only raise it, and 95 % of them are within 1.64.
+// Only the highest point has an error; on the true axis it is 2 above the next point. If the
+// measured point is almost as low as the next point, the trials can only raise the range, and 95 %
+// of them are within 1.64.
 TEST(NoiseOfRuns, SecondHighPointDoesNotNarrowARange) {
   std::mt19937_64 engine(8);
   std::normal_distribution<> normal;
@@ -142,7 +146,8 @@ TEST(NoiseOfRuns, SecondHighPointDoesNotNarrowARange) {
   EXPECT_NEAR(held.percent(), 95, 1.2);
 }
 
-// Probes D and E drift together from pass to pass: 200 nm of level, which do not change the slope.
+// The levels of probes D and E change together by 200 nm from pass to pass. The slope does not
+// change.
 TEST(NoiseOfRuns, SlopeOmitsADriftOfTheLevel) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(5);
@@ -154,7 +159,7 @@ TEST(NoiseOfRuns, SlopeOmitsADriftOfTheLevel) {
   double square = 0, U_sum = 0, error_square = 0, u_error_square = 0;
   constexpr int kRuns = 200;
   for (int i = 0; i < kRuns; ++i) {
-    std::map<int, double> level;  // by pass of nine points, ten seconds each
+    std::map<int, double> level;  // level of each pass of nine points, one every ten seconds
     for (int pass = 0; pass < 6; ++pass) level[pass] = kLevel_m * normal(engine);
     synthetic.added = [&](std::size_t k, double, double, double time_s) {
       const int pass = static_cast<int>((time_s - 5) / 90);
@@ -182,8 +187,8 @@ struct UncertaintyRatio {
   double ratio() const { return std::sqrt(u_square / square); }
 };
 
-// A perfect axis. Its second run ends at the sixth target of the reverse pass, its third run at the
-// third target. Probes D and E drift together, from pass to pass or from run to run.
+// The axis is straight. Run 2 ends at target 6 of the reverse pass, run 3 at target 3 of the
+// forward pass. The levels of probes D and E change together from pass to pass or from run to run.
 std::map<std::string, UncertaintyRatio> incomplete_run_u_ratios(double level_m, bool of_each_pass) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(test::coverage_seed(6));
@@ -234,7 +239,7 @@ std::map<std::string, UncertaintyRatio> incomplete_run_u_ratios(double level_m, 
 TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelCancelsAsOfWholeOnes) {
   for (const double level_m : {0.0, 200e-9})
     for (const auto& [name, of] : incomplete_run_u_ratios(level_m, false)) {
-      // The level itself is known from three runs only.
+      // Three runs determine the level itself with two degrees of freedom only.
       const bool has_level = name == "error EYX_um" || name.starts_with("table with slope");
       EXPECT_GT(of.ratio(), 0.95) << name << " " << level_m;
       EXPECT_LT(of.ratio(), has_level ? 1.5 : 1.25) << name << " " << level_m;
@@ -249,8 +254,8 @@ TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelOfEachPassStays) {
   }
 }
 
-// The trials of a range, calculated by plain loops: their standard deviation and their distance
-// from the range.
+// Plain loops calculate the trials of a range. Compared: the standard deviation of the trials, and
+// the root mean square of their distances from the measured range.
 TEST(RangeTrials, MatchManualCalculation) {
   const std::vector<double> measured = {3, -1, 4, 0},
                             changes = {1, 0, 0, 0, 0, 2, 0, -3, -5, 1, 0, 0};
@@ -260,7 +265,7 @@ TEST(RangeTrials, MatchManualCalculation) {
   EXPECT_NEAR(trials.root_mean_square(), std::sqrt((0 + 4 + 1) / 3.0), 1e-15);
 }
 
-// Points of three runs, each with other missing visits; all errors are 0.
+// Points of three runs. Different visits are missing in each run; all errors are 0.
 std::vector<MeasuredPoint> incomplete_runs_points() {
   std::vector<MeasuredPoint> points;
   for (int run = 1; run <= 3; ++run)
@@ -289,8 +294,8 @@ std::map<TargetAndApproach, double> means_without_drift(const std::vector<Measur
   return sum;
 }
 
-// The means are linear in the readings, so moving each reading by 1 in turn gives their
-// covariances.
+// The means are linear in the readings. Each reading in turn is increased by 1; the changes of the
+// means give the covariances of the means.
 TEST(RunShifts, PartsGiveTheCovarianceOfTheMeans) {
   const std::vector<MeasuredPoint> points = incomplete_runs_points();
   std::map<std::pair<TargetAndApproach, TargetAndApproach>, double> covariance;
@@ -304,7 +309,7 @@ TEST(RunShifts, PartsGiveTheCovarianceOfTheMeans) {
     visits[{points[j].target, points[j].point.direction > 0 ? 1 : 0}] += 1;
   }
   const auto parts = parts_by_run_shifts(points);
-  EXPECT_EQ(parts.size(), 2u);  // three runs relative to each other
+  EXPECT_EQ(parts.size(), 2u);  // three runs relative to each other: two degrees of freedom
   for (const auto& [at, expected] : covariance) {
     double found = at.first == at.second ? 1 / visits[at.first] : 0;
     for (const auto& part : parts) found += part.at(at.first) * part.at(at.second);
@@ -315,8 +320,9 @@ TEST(RunShifts, PartsGiveTheCovarianceOfTheMeans) {
   EXPECT_TRUE(parts_by_run_shifts(whole).empty());
 }
 
-// Change of the means if a forward pass is 1 higher and the reverse pass of its run 1 lower. The
-// half differences of both passes are 2, 0.5 and -3.5; their variance is 97/12.
+// Change of the means if a forward pass is higher by 1 and the reverse pass of the same run lower
+// by 1. The half differences of the passes of the three runs are 2, 0.5 and -3.5; their variance is
+// 97/12.
 TEST(RunShifts, LevelsOfPassesShiftTheMeans) {
   const std::vector<MeasuredPoint> points = incomplete_runs_points();
   std::vector<MeasuredPoint> measured = points;
@@ -335,8 +341,9 @@ TEST(RunShifts, LevelsOfPassesShiftTheMeans) {
     for (const auto& [at, change] : means_without_drift(moved))
       EXPECT_NEAR(levels.parts[static_cast<std::size_t>(run) - 1].at(at), change, 1e-12);
   }
-  // Visits with u = 2 contribute 4 times (1/5 + 1/5)/4, (1/3 + 1/3)/4 and (1/3 + 1/2)/4; the mean
-  // of the three is subtracted.
+  // The noise u = 2 of the visits contributes to the three half differences 4 times (1/5 + 1/5)/4,
+  // 4 times (1/3 + 1/3)/4 and 4 times (1/3 + 1/2)/4. The mean of the three contributions is
+  // subtracted.
   EXPECT_NEAR(pass_levels({}, measured, {2}).u_half[0],
               std::sqrt(97.0 / 12 - (0.4 + 2.0 / 3 + 5.0 / 6) / 3), 1e-12);
   std::erase_if(measured, [](const MeasuredPoint& p) { return p.run != 1; });

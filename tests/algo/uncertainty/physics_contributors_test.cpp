@@ -1,7 +1,8 @@
-// Declared uncertainties of tilts, of probe curves and of air, by the formulas of algo/README.md. A
-// tilt by t brings the target nearer by k r² t²/(4 gap); another permittivity of air changes all
-// gaps in proportion. With l = 10 mm, a change c of the reading of B changes the roll by c/2l, of D
-// the yaw by -c/l, of A, B and C together the height by c.
+// Compares the effects of declared uncertainties of tilts, probe curves and ambient conditions with
+// the formulas of algo/README.md. A tilt t of the target brings it nearer by k r² t²/(4 gap).
+// Another permittivity of the air changes all gaps by the same factor. With l = 10 mm, a change c
+// of the reading of B changes the roll by c/2l, a change c of D changes the yaw by -c/l, and equal
+// changes c of A, B and C change the height by c.
 #include "algo/uncertainty/physics_contributors.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ const std::string kCalibrationConditions =
 const std::string kMeasuringConditions =
     "temperature_C = 23\npressure_kPa = 99\nhumidity_percent = 65\n";
 
-// `keys` are added to each probe, `of_b` to probe B only.
+// A rig with `keys` added to each probe, and `of_b` added to probe B.
 Rig declared_physics_rig(const std::string& keys, const std::string& of_b, const std::string& end,
                          const std::string& measures_of_b = "measures = \"+Z\"") {
   std::string toml = test::rig_x_toml();
@@ -42,11 +43,11 @@ Rig declared_physics_rig(const std::string& keys, const std::string& of_b, const
   return rig.value_or(Rig());
 }
 
-// Roll 1, pitch 2 and yaw 3 mrad at 40 mm.
+// Roll, pitch and yaw are proportional to the travel d: 1, 2 and 3 mrad at 40 mm.
 Errors5 tilting_axis(double d) {
   return {0, 0, 1e-3 * d / 0.04, 2e-3 * d / 0.04, 3e-3 * d / 0.04};
 }
-// Straight lines of both straightness errors, without angles.
+// Both straightness errors are linear in d; there are no angles.
 Errors5 rising_axis(double d) {
   return {3e-6 + 1e-4 * d, 20e-6 - 2e-4 * d, 0, 0, 0};
 }
@@ -54,7 +55,7 @@ Run simulated_physics_run(const Rig& rig, Errors5 (*truth)(double)) {
   return SyntheticRun{.rig = rig, .runs = 1, .truth = truth}.measure();
 }
 
-// Returns the contributor of this name; the test fails if it is missing.
+// Returns the contributor with this name. The test fails if there is none.
 Contributor named_contributor(const Rig& rig, const Run& run, const std::string& name) {
   auto all = contributors(rig, run).value();
   const auto found = std::find_if(all.begin(), all.end(),
@@ -73,7 +74,7 @@ void expect_shown(const Contributor& c, const char* key, double value, const cha
   EXPECT_EQ(c.unit, unit);
 }
 
-// Change of the reading of B or of D, m.
+// Change of the reading of B or D that causes the change `shift` of the errors, m.
 double reading_b_shift(const Errors5& shift) {
   return shift[kEx] * 2 * kArm_m;
 }
@@ -84,7 +85,7 @@ double expected_gap_m(const Run& run, std::size_t j, std::size_t probe) {
   return kGap_m - run.points[j].point.probe_m[probe];
 }
 
-// B measures roll and pitch, D roll and yaw.
+// Only roll and pitch tilt the target against B, only roll and yaw against D.
 void expect_tilts(const Contributor& of_b, const Contributor& of_d, const Run& run, double u) {
   const auto b = of_b.parts(), d = of_d.parts();
   ASSERT_EQ(b.size(), 1u);
@@ -119,15 +120,16 @@ TEST(PhysicsContributors, UncorrectedTiltCountsWhole) {
   expect_tilts(b, named_contributor(rig, run, "probe D: uncorrected tilt"), run, whole);
 }
 
-// Probe B is misaligned by 20 mrad to its plane. Each unit of the factor acts by the change since
-// the zero.
+// Probe B is misaligned by 20 mrad against the normal of its plane. The effect of the tilt factor
+// is proportional to the change of the tilt term since the probe was zeroed.
 constexpr double kMisalignment_rad = 0.02;
 const std::string kCorrectedOverPlanes =
     "[corrections]\ntilt = true\n[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
     "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\n";
 struct MisalignedProbe {
   double gap_m, roll, pitch;
-  // Angles between the plane's normal and the probe, across the probe.
+  // Sum of the squares of the angle components between the normal of the plane and the probe; the
+  // components are across the probe.
   double square() const {
     return ((roll + kMisalignment_rad) * (roll + kMisalignment_rad) + pitch * pitch) /
            (1 + kMisalignment_rad * kMisalignment_rad);
@@ -153,7 +155,8 @@ TEST(PhysicsContributors, TiltActsByItsChangeSinceTheZero) {
   }
 }
 
-// A tilt c of 3 mrad in the clamp gives (t + c)²: 2 t c about each axis, and c² of both axes.
+// With a tilt c of 3 mrad of the probe in its clamp, the tilt term is (t + c)². It contains 2 t c
+// for each of two axes, and c² of both axes.
 TEST(PhysicsContributors, ProbeMayBeTiltedInItsClamp) {
   const Rig rig = declared_physics_rig(kGapKeys, "u_direction_mrad = 3\n", kCorrectedOverPlanes,
                                        "direction = [0, 0.02, 1]");
@@ -168,7 +171,7 @@ TEST(PhysicsContributors, ProbeMayBeTiltedInItsClamp) {
     const MisalignedProbe b = misaligned_probe(run, j);
     const double about_x =
         -(b.roll + kMisalignment_rad) / norm / b.gap_m + kMisalignment_rad / norm / kGap_m;
-    const double about_y = -b.pitch / b.gap_m;  // across the probe, except for 2e-4 of it
+    const double about_y = -b.pitch / b.gap_m;  // the axis of the probe is not exactly z: 2e-4
     const double expected = 5 * kDisc_m2 / 4 * 2 * c * std::hypot(about_x, about_y);
     const double both = std::hypot(reading_b_shift(parts[0][j]), reading_b_shift(parts[1][j]));
     EXPECT_NEAR(both, expected, 0.02 * expected + 1e-15) << j;
@@ -177,8 +180,9 @@ TEST(PhysicsContributors, ProbeMayBeTiltedInItsClamp) {
   }
 }
 
-// Waves with the length of the range and of a half, a third and a fourth of it, with the weights 1,
-// 1/4, 1/9 and 1/16. At each reading the sum of squares is u².
+// The declared error is a sum of four waves. Their lengths are the range and a half, a third and a
+// fourth of the range; their weights are 1, 1/4, 1/9 and 1/16. At each reading the sum of their
+// squares is u².
 TEST(PhysicsContributors, LinearityIsASumOfWavesOverTheRange) {
   const Rig rig = declared_physics_rig("", "u_linearity_um = 0.05\n", "");
   const mdof::Run run = simulated_physics_run(rig, tilting_axis);
@@ -203,8 +207,8 @@ TEST(PhysicsContributors, LinearityIsASumOfWavesOverTheRange) {
   }
 }
 
-// The reading is s. The omitted correction is a polynomial of s, or of -s for a probe that reads
-// gaps, or straight lines between pairs.
+// s is the reading. The omitted correction is a polynomial of s, a polynomial of -s if the probe
+// reads gaps, or straight lines between given pairs.
 TEST(PhysicsContributors, UncorrectedCurveCountsWhole) {
   const std::string off = "[corrections]\nlinearity = false\n";
   const struct {
@@ -220,7 +224,7 @@ TEST(PhysicsContributors, UncorrectedCurveCountsWhole) {
   for (const auto& c : cases) {
     const Rig rig = declared_physics_rig("", c.keys, off);
     mdof::Run run = simulated_physics_run(rig, rising_axis);
-    run.points.resize(9);  // one direction, so only the first reading is the largest
+    run.points.resize(9);  // forward only: the first reading alone is the largest
     const Contributor found = named_contributor(rig, run, "probe B: uncorrected linearity");
     EXPECT_FALSE(has_contributor(rig, run, "probe C: uncorrected linearity"));
     const auto parts = found.parts();
@@ -235,8 +239,8 @@ TEST(PhysicsContributors, UncorrectedCurveCountsWhole) {
   }
 }
 
-// ε - 1 = 2e-6 (776 p/T + 3.73e6 e/T²), with p and the vapour pressure e in kPa; e by the formula
-// of Magnus.
+// ε - 1 = 2e-6 (776 p/T + 3.73e6 e/T²) with the pressure p and the vapour pressure e in kPa; e is
+// calculated by the formula of Magnus.
 double independent_permittivity(double t_C, double p_kPa, double humidity) {
   const double T = t_C + 273.15,
                e_kPa = humidity / 100 * 0.61094 * std::exp(17.625 * t_C / (t_C + 243.04));
@@ -254,7 +258,7 @@ struct AirState {
 };
 constexpr AirState kAtCalibration = {20, 101.325, 40}, kNow = {23, 99, 65};
 
-// All gaps, of top and side probes, are longer by the factor `relative`.
+// Expects that the gaps of all probes are longer by the fraction `relative`.
 void expect_gaps_longer(const Contributor& c, const Run& run, double relative) {
   const auto parts = c.parts();
   ASSERT_EQ(parts.size(), 1u);
@@ -320,8 +324,8 @@ TEST(PhysicsContributors, UncorrectedAirCountsWhole) {
   expect_air_quantities(rig, run, kNow);
 }
 
-// If the log contains the ambient conditions, the rig does not know them. The slopes are taken at
-// the conditions of the calibration.
+// The rig declares no ambient conditions because the log contains them. The sensitivities are then
+// calculated at the conditions of the calibration.
 TEST(PhysicsContributors, AirFromTheLogHasTheSlopesOfTheCalibration) {
   const Rig rig = declared_physics_rig(
       kGapKeys, "",
@@ -329,7 +333,7 @@ TEST(PhysicsContributors, AirFromTheLogHasTheSlopesOfTheCalibration) {
   const mdof::Run run = simulated_physics_run(rig, rising_axis);
   EXPECT_FALSE(has_contributor(rig, run, "air: uncorrected permittivity"));
   expect_air_quantities(rig, run, kAtCalibration);
-  // The same applies if the log contains one quantity.
+  // The sensitivities are also calculated there if the log contains one of the quantities.
   const Rig partly =
       declared_physics_rig(kGapKeys, "",
                            "[corrections]\ndielectric = false\n[air]\n" + kCalibrationConditions +

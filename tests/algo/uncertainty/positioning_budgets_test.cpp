@@ -1,6 +1,6 @@
-// U of the ISO 230-2 parameters of runs with known true visits: how often the intervals contain the
-// parameters of the true visits, which are calculated here separately. Use MDOF_COVERAGE_RUNS=1000
-// for figures worth quoting.
+// The U of the ISO 230-2 parameters, for runs whose true visits are known. The tests calculate the
+// parameters of the true visits separately and count how often the intervals contain them. Set
+// MDOF_COVERAGE_RUNS=1000 to calculate figures for publication.
 #include "algo/uncertainty/positioning/positioning_budgets.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kYawOfCases = 4;  // ECX; no line is removed from it
+constexpr std::size_t kYawOfCases = 4;  // ECX, from which no line is removed
 
 int requested_run_count() {
   const char* runs = std::getenv("MDOF_COVERAGE_RUNS");
@@ -59,9 +59,9 @@ ParameterValues parameters(const TrueVisits& visits) {
 
 struct AxisCase {
   int runs = 3;
-  double form_rad = 0, reversal_rad = 0, scatter_rad = 0;  // of the yaw of the axis
+  double form_rad = 0, reversal_rad = 0, scatter_rad = 0;  // yaw of the axis
   double noise_m = 40e-9;
-  double gain = 0;  // declared standard deviation of the gain of D
+  double gain = 0;  // declared standard uncertainty of the gain of D
 };
 
 struct CoveredParameter {
@@ -79,7 +79,7 @@ std::map<std::string, CoveredParameter> count_covered_parameters(const AxisCase&
   for (int i = 0; i < requested_run_count(); ++i) {
     SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = c.runs};
     const std::size_t targets = synthetic.targets_m.size();
-    TrueVisits axis, visits;  // without and with its scatter
+    TrueVisits axis, visits;  // without and with the scatter of the axis
     std::size_t visit = 0;
     synthetic.truth = [&](double d) {
       const int way = visit++ / targets % 2 == 0 ? 1 : -1;
@@ -170,8 +170,8 @@ TEST(PositioningBudgets, HasNoRForASingleRun) {
       << U.covers;
 }
 
-// Calculated by hand: noise u of D and E at a distance of 10 mm gives u √2 / 10 mm of yaw at a
-// visit.
+// Calculated by hand: D and E are 10 mm apart and have the noise u, so the yaw at a visit has the
+// uncertainty u √2 / 10 mm.
 TEST(PositioningBudgets, MeanReversalMatchesManualCalculation) {
   const Rig rig = test::rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 1};
@@ -181,7 +181,7 @@ TEST(PositioningBudgets, MeanReversalMatchesManualCalculation) {
   EXPECT_NEAR(U.B_mean, 1.96 * u_visit * std::sqrt(2.0 / 9), 0.002 * U.B_mean);
 }
 
-// M is the range of the angle, as in the budgets of the run.
+// M is the range of the angle. Its U equals the U of the range in the budgets of the run.
 TEST(PositioningBudgets, MHasTheUOfTheOtherBudgets) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 20000");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
@@ -197,7 +197,7 @@ TEST(PositioningBudgets, MHasTheUOfTheOtherBudgets) {
             budgets.of(range_figure(Axis::x, 0)).U);
 }
 
-// With one direction only its parameters have a value.
+// If all visits have one direction, only the parameters of this direction have a value.
 TEST(PositioningBudgets, OneDirectionHasOnlyItsParameters) {
   const Rig rig = test::rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
@@ -212,8 +212,8 @@ TEST(PositioningBudgets, OneDirectionHasOnlyItsParameters) {
     EXPECT_TRUE(std::isnan(none));
 }
 
-// The scale of D is known to 0.1 %, and D reads 20 µm more per mm. The effect on EYX is a slope,
-// which straightness does not contain.
+// The reading of D increases by 20 µm per mm, and its scale has an uncertainty of 0.1 %. The effect
+// of the scale on EYX is a slope, which straightness does not contain.
 TEST(PositioningBudgets, SlopeDoesNotChangeStraightness) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 1000");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
@@ -229,9 +229,9 @@ TEST(PositioningBudgets, SlopeDoesNotChangeStraightness) {
     EXPECT_LT(U, 0.01 * expected);
 }
 
-// R by its definition, and U from all parts of R in steps of a thousandth.
+// Expected: R by its definition, and U by a search over all true parts of R in steps of 0.001.
 TEST(Repeatability, UncertaintyMatchesAnExhaustiveSearch) {
-  // Two targets with three visits in each direction; errors of 40 trials.
+  // Two targets with three visits in each direction; 40 trials draw the errors.
   const VisitGroups groups{{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}, 2};
   test::NoPattern numbers(3);
   std::vector<double> measured, errors;

@@ -1,5 +1,5 @@
-// The uncertainty of the errors of each point, by the same formulas as
-// tests/algo/uncertainty/contributors_test.
+// The uncertainty of the errors of each point, compared with the formulas that
+// tests/algo/uncertainty/contributors_test also uses.
 #include "algo/uncertainty/run_uncertainty.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,8 @@ TEST(RunUncertainty, IsTheNoiseWithoutDeclarations) {
   }
 }
 
-// EYX = D + l'' (B - C)/2l, and the squares of zero and noise add. Degrees of freedom by G.2b.
+// EYX = D + l'' (B - C)/2l. The squares of the u of the zero and of the noise add. The degrees of
+// freedom follow from GUM equation G.2b.
 TEST(RunUncertainty, DeclaredUncertaintiesAddToTheNoise) {
   const double zero = 30e-9, noise = 10e-9;
   const Rig rig = rig_x_with("B", "u_calibration_um = { u = 0.03, dof = 4 }");
@@ -62,14 +63,14 @@ TEST(RunUncertainty, DeclaredUncertaintiesAddToTheNoise) {
                          (random2 * random2 / 99 + declared2 * declared2 / 4);
   EXPECT_NEAR(point.freedom[kEYX], freedom, 1e-4);
   EXPECT_NEAR(point.U[kEYX], coverage_factor(freedom) * point.u[kEYX], 1e-13);
-  EXPECT_EQ(point.u[kECX], point.u_random[kECX]);  // E - D does not contain B
+  EXPECT_EQ(point.u[kECX], point.u_random[kECX]);  // E - D does not depend on B
 }
 
-// The level changes between passes by ten times the noise: each point has the variance of the
-// level.
+// From pass to pass the level changes by ten times the noise, so the u of each point is the
+// standard deviation of the level.
 TEST(RunUncertainty, RepeatsReplaceSmallerNoise) {
   const Rig rig = rig_x_with("", "");
-  const double steps[] = {-1, 3, 2, -2, 1, -3};  // level of D and E, by pass of nine points
+  const double steps[] = {-1, 3, 2, -2, 1, -3};  // level of D and E in each pass of nine points
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.u_reading_m = 10e-9;
   synthetic.added = [&](std::size_t k, double, double, double time_s) {
@@ -77,18 +78,19 @@ TEST(RunUncertainty, RepeatsReplaceSmallerNoise) {
   };
   auto run = synthetic.measure();
   const auto found = run_uncertainty(rig, run);
-  // Forward -1 2 1, reverse 3 -2 -3: the squares about their means are 14/3 and 62/3, with two
-  // degrees of freedom each.
+  // The levels of the forward passes are -1, 2, 1, of the reverse passes 3, -2, -3. The sums of
+  // squares about their means are 14/3 and 62/3, with two degrees of freedom each.
   const double sd = 100e-9 * std::sqrt((14.0 + 62) / 3 / 4);
   for (const auto& point : found.points) {
     EXPECT_NEAR(point.u_random[kEYX], sd, 1e-12);
-    EXPECT_NEAR(point.freedom[kEYX], 4, 1e-6);   // six passes, two means
-    EXPECT_NEAR(point.freedom[kECX], 99, 1e-6);  // E - D does not change: it keeps the noise
+    EXPECT_NEAR(point.freedom[kEYX], 4, 1e-6);  // six passes, two means
+    // E - D has no level, so it keeps the u of its noise.
+    EXPECT_NEAR(point.freedom[kECX], 99, 1e-6);
   }
-  // A stop with more noise than all repeats keeps its own u.
+  // A stop keeps the u of its noise if this u exceeds the scatter of the visits.
   run.points[5].errors.covariance[6 * kDy] = 1e-12;
   EXPECT_NEAR(run_uncertainty(rig, run).points[5].u_random[kEYX], 1e-6, 1e-12);
-  // A single run shows no repeats.
+  // A single run has no repeated visits, so their scatter is unknown.
   synthetic.runs = 1;
   const auto single = run_uncertainty(rig, synthetic.measure());
   EXPECT_LT(single.points[5].u_random[kEYX], 50e-9);
@@ -97,20 +99,21 @@ TEST(RunUncertainty, RepeatsReplaceSmallerNoise) {
             "not included (in a run, no target was approached twice from the same direction)");
 }
 
-// The drift between the visits is already declared.
+// The declared drift explains the differences between the visits, so they do not increase u.
 TEST(RunUncertainty, DeclaredDriftDoesNotCountTwice) {
   const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 3\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.u_reading_m = 10e-9;
   synthetic.added = [&](std::size_t k, double, double, double time_s) {
-    return k == 3 ? 3e-6 / 3600 * time_s : 0;  // D, as declared
+    return k == 3 ? 3e-6 / 3600 * time_s : 0;  // D drifts by the declared rate
   };
   for (const auto& point : run_uncertainty(rig, synthetic.measure()).points)
-    EXPECT_LT(point.u_random[kEYX], 30e-9);  // 150 nm between visits
+    EXPECT_LT(point.u_random[kEYX], 30e-9);  // the drift between the visits is 150 nm
 }
 
-// Drifts are drawn from the declared distribution. A large drift of a run is visible between its
-// visits, but does not increase its uncertainty. A drift of twenty times the declared one does.
+// The drifts of the probes are drawn from the declared distribution. The differences between the
+// visits show a large drift of a run, but it does not increase u, because it is declared. A drift
+// of twenty times the declared u increases u.
 TEST(RunUncertainty, DeclaredDriftCoversADrawnDrift) {
   const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 3\n");
   constexpr double kRate_m_per_s = 3e-6 / 3600, kNoise_m = 10e-9;
@@ -140,11 +143,11 @@ TEST(RunUncertainty, DeclaredDriftCoversADrawnDrift) {
   rate.fill(0);
   rate[3] = 20 * kRate_m_per_s;
   const auto found = run_uncertainty(rig, synthetic.measure());
-  EXPECT_GT(found.points[50].u_random[kEYX], 1e-6);  // 3 µm between the runs
+  EXPECT_GT(found.points[50].u_random[kEYX], 1e-6);  // the drift between two runs is 3 µm
 }
 
-// The two directions of a probe are one contributor with four degrees of freedom, not two
-// contributors.
+// The tilts of a probe about two axes are one contributor with four degrees of freedom, not two
+// contributors with four each.
 TEST(RunUncertainty, PartsOfAContributorShareItsDegreesOfFreedom) {
   const Rig rig = rig_x_with("D", "u_direction_mrad = { u = 2, dof = 4 }");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};

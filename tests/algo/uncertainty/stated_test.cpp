@@ -1,5 +1,5 @@
-// Uncertainties calculated together equal those calculated separately; trials in blocks equal
-// single trials; the sensitivity to the travel equals that of the solver.
+// Uncertainties calculated together equal those calculated separately. Trials drawn in blocks equal
+// single trials. The sensitivities of the errors to the travel equal those of the solver.
 #include "algo/uncertainty/stated.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,8 @@ Run uneven_run(const Rig& rig) {
     return Errors5{1e-5 * std::sin(90 * d), 2e-4 * d, 1e-2 * d, -3e-2 * d, 2e-2 * d};
   };
   synthetic.u_reading_m = 5e-9;
-  // The visits scatter more than u_reading_m, so the degrees of freedom are few.
+  // The visits scatter more than u_reading_m, so the scatter determines u; it has few degrees of
+  // freedom.
   synthetic.added = [](std::size_t k, double, double, double time_s) {
     return 20e-9 * std::sin(static_cast<double>(k + 1) * time_s);
   };
@@ -89,9 +90,9 @@ TEST(Stated, RigWithoutDeclarationsHasNoise) {
   EXPECT_TRUE(stated.figures->of(figures_of_run(Axis::x)[0]).noise_only);
 }
 
-// Expected trials are calculated one by one with the scalar draw() and gaussian(), the parts from
-// differences of the means. There are more parts than are added at once, and more trials than a
-// block.
+// The expected trials are calculated one by one with the scalar functions draw() and gaussian();
+// the parts are differences of the means. The run has more parts than one addition combines, and
+// more trials than one block contains.
 TEST(Stated, TrialsMatchScalarDraws) {
   const Rig rig = declared_rig();
   const auto run = uneven_run(rig);
@@ -131,8 +132,8 @@ TEST(Stated, TrialsMatchScalarDraws) {
   }
 }
 
-// The sensitivities from the gain are compared with solutions of the same readings at a slightly
-// different travel.
+// The sensitivities to the travel come from the gain matrix. They are compared with solutions of
+// the same readings at a slightly different travel.
 TEST(Stated, TravelSensitivityMatchesTheSolver) {
   for (const Rig& rig : {test::rig_x(), test::rig_oblique()}) {
     const auto run = uneven_run(rig);
@@ -155,7 +156,7 @@ TEST(Stated, TravelSensitivityMatchesTheSolver) {
   }
 }
 
-// Three targets, a common shift of all, and two parts that shift several targets.
+// Three targets, one shift that is common to all targets, and two parts that shift several targets.
 TEST(TargetNoiseByHand, AddsTargetNoiseShiftAndParts) {
   Repeatability random;
   for (const double u : {1.0, 2.0, 5.0}) random.u.push_back({u, 0, 3 * u, 0, -u});
@@ -167,7 +168,7 @@ TEST(TargetNoiseByHand, AddsTargetNoiseShiftAndParts) {
   const TargetNoise noise(draws, random);
   BlockOfDraws again({5, 2}, 0, kTrials);
   const UnitQuantity normal(std::numeric_limits<double>::infinity());
-  std::vector<std::vector<double>> drawn;  // targets, shift, freedom, parts
+  std::vector<std::vector<double>> drawn;  // [targets, shift, freedom, parts]
   for (int q = 0; q < 7; ++q) drawn.push_back(again.next(normal));
   for (std::size_t t = 0; t < kTrials; ++t) {
     MeanErrors means;
@@ -182,7 +183,7 @@ TEST(TargetNoiseByHand, AddsTargetNoiseShiftAndParts) {
           expected += 0.5 * drawn[5 + p][t] * random.together[p][i][k];
         EXPECT_NEAR(means.targets[i].named[k], expected, 1e-13) << t << i << k;
       }
-    // Wilson and Hilferty: χ²/ν is the cube of 1 - 2/9ν + z √(2/9ν).
+    // Wilson and Hilferty: χ²/ν is about the cube of 1 - 2/9ν + z √(2/9ν).
     const double v = 2 / (9 * 4.0), root = 1 - v + drawn[4][t] * std::sqrt(v);
     EXPECT_NEAR(noise.student(t, 4), 1 / std::sqrt(root * root * root), 1e-12);
     EXPECT_EQ(noise.student(t, std::numeric_limits<double>::infinity()), 1);

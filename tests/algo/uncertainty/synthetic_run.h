@@ -1,5 +1,5 @@
-// Runs with known true errors and known faults. The readings come from the rigid model of a fixture
-// that may differ from the rig; they are solved with the rig.
+// Runs with known true errors and known faults. The readings come from the rigid model of the real
+// fixture, which may differ from the rig. The solver calculates the errors with the rig.
 #pragma once
 
 #include <cmath>
@@ -16,16 +16,16 @@
 namespace mdof::algo {
 
 struct SyntheticRun {
-  Rig rig;  // used by the solution
+  Rig rig;  // the rig that the solver uses
   Model model = Model::rigid;
   std::vector<double> targets_m = {0, 5e-3, 10e-3, 15e-3, 20e-3, 25e-3, 30e-3, 35e-3, 40e-3};
   int runs = 3;
   double seconds_a_point = 10;
   StatedAt stated = kAtFixture;
-  // Errors of the target at the carriage, local frame.
+  // True errors of the target at the carriage, in the local frame.
   std::function<Errors5(double travel_m)> truth = [](double) { return Errors5{}; };
-  std::optional<Fixture> fixture = std::nullopt;  // real fixture; none: that of the rig
-  // Added to the reading of a probe, m.
+  std::optional<Fixture> fixture = std::nullopt;  // the real fixture; none: as the rig
+  // Change of the reading of a probe by a fault, m.
   std::function<double(std::size_t probe, double travel_m, double reading_m, double time_s)> added =
       [](std::size_t, double, double, double) { return 0.0; };
   double u_reading_m = 0;

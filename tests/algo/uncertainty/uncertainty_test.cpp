@@ -1,5 +1,5 @@
-// The stated uncertainty of the mean of a dwell, compared with the scatter of the means of many
-// dwells.
+// The stated uncertainty of the mean of a stop is compared with the scatter of the means of many
+// stops.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
@@ -18,7 +18,7 @@
 namespace mdof::algo {
 namespace {
 
-// Noise with an sd of 1 nm and the correlation `phi` between consecutive samples.
+// Noise with a standard deviation of 1 nm and the correlation `phi` between consecutive samples.
 struct Noise {
   explicit Noise(double correlation) : phi(correlation), state(unit(engine)) {}
   double phi;
@@ -40,8 +40,8 @@ double stated_over_true(const std::vector<Point>& points, std::size_t skip = 0) 
   return std::sqrt(stated / square);
 }
 
-// An axis that moves between two positions with stops of 0.5 s, `stops` times. The probe is on a
-// separate device and has a sample every `every` scans of the encoder.
+// Simulates an axis that moves between two positions and makes `stops` stops of 0.5 s. The probe is
+// on a separate device, which takes one sample in the time of `every` scans of the encoder.
 std::vector<Point> measure(int every, double phi, int stops) {
   constexpr double kRate_hz = 1000;
   Noise noise{phi};
@@ -111,13 +111,14 @@ TEST(Uncertainty, IsCorrectForFewAndManyReadings) {
 }
 
 TEST(Uncertainty, DoesNotUseAProbeWithFewSamples) {
-  const auto points = measure(90, 0, 4);  // four of its samples per stop
+  const auto points = measure(90, 0, 4);  // four samples of the probe per stop
   ASSERT_FALSE(points.empty());
   EXPECT_TRUE(std::isnan(points[1].probe_m[0]));
   EXPECT_TRUE(has_flag(points[1], Flag::slow, "A"));
 }
 
-// A coarse probe: u covers the rounding for changing and for constant readings.
+// The readings of the probe are rounded to coarse steps. u covers the rounding for changing and for
+// constant readings.
 TEST(Uncertainty, CoversRounding) {
   for (const double noise_um : {0.0, 0.002, 0.02}) {
     SteppingLog log;
@@ -142,8 +143,8 @@ TEST(Uncertainty, CoversRounding) {
       }
     }
     EXPECT_GT(std::sqrt(stated / square), 0.8) << noise_um;
-    // Between no noise and half a step, u is an upper bound, because some of the rounding averages
-    // out.
+    // For noise between 0 and half a step, u is larger than necessary, because a part of the
+    // rounding error averages out.
     EXPECT_LT(std::sqrt(stated / square), noise_um > 0.01 ? 3.0 : 1.4) << noise_um;
   }
 }
@@ -169,7 +170,7 @@ TEST(Uncertainty, LargeNoiseAveragesTheRounding) {
   EXPECT_LT(std::sqrt(stated / square), 1.25);
 }
 
-// Exact numbers have no step, and a ramp of equal steps has none.
+// A ramp of equal steps and exact numbers have no resolution.
 TEST(Uncertainty, SimulationWithoutNoiseHasNoResolution) {
   Resolution ramp, exact;
   std::vector<double> x(200, 0.0), y(200, 0.0);
@@ -183,8 +184,9 @@ TEST(Uncertainty, SimulationWithoutNoiseHasNoResolution) {
   EXPECT_DOUBLE_EQ(with_resolution(0, 0, 12e-9), 12e-9 / std::sqrt(12.0));
 }
 
-// The scatter of visits about a change in proportion to time, from a separate least-squares fit of
-// one slope and a mean of each place.
+// The scatter of the visits after a change in proportion to time is removed. A separate
+// least-squares fit of one slope over time and a mean of each target and direction gives the
+// expected values.
 struct TimedVisits {
   std::vector<MeasuredPoint> points;
   std::vector<Errors5> values;
@@ -215,7 +217,8 @@ TimedVisits timed_visits(int runs, double per_s) {
   return all;
 }
 
-// Sum of squares of the residuals of places and a slope over time.
+// Sum of the squared residuals of a fit of one mean for each target and direction and one slope
+// over time.
 std::vector<double> slope_residual_squares(const TimedVisits& all) {
   std::map<std::pair<int, int>, Eigen::Index> places;
   for (const MeasuredPoint& p : all.points)
@@ -247,7 +250,7 @@ TEST(SteadyScatter, IsTheResidualOfASlopeOverTime) {
   }
 }
 
-// Without different times no slope can be removed.
+// All visits have the same time, so no slope can be removed.
 TEST(SteadyScatter, EqualsTheVisitScatterAtOneTime) {
   TimedVisits all = timed_visits(3, 0);
   const VisitScatter scatter(all.points);
@@ -257,7 +260,7 @@ TEST(SteadyScatter, EqualsTheVisitScatterAtOneTime) {
   EXPECT_EQ(scatter.without_trend(all.values, all.time_s).freedom, scatter.of(all.values).freedom);
 }
 
-// With one degree of freedom, a slope would leave none.
+// With one degree of freedom, a fitted slope would leave no degree of freedom, so none is fitted.
 TEST(SteadyScatter, HasOneDegreeOfFreedomForTwoVisits) {
   TimedVisits all = timed_visits(1, 0);
   MeasuredPoint again = all.points[2];
@@ -269,12 +272,12 @@ TEST(SteadyScatter, HasOneDegreeOfFreedomForTwoVisits) {
   const auto found = VisitScatter(all.points).without_trend(all.values, all.time_s);
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_NEAR(found.variance[k], 8, 1e-9);
-    EXPECT_EQ(found.freedom[k], 1);  // not 64/25, because passes and the rest have one in common
+    EXPECT_EQ(found.freedom[k], 1);  // not 64/25: the visits determine one deviation only
   }
 }
 
-// The means of the runs are 2, 4 and 9 times (k + 1), and the directions of each differ by 6. u of
-// the mean of both directions is s/√3 with s² = 13, which exceeds the value from separate
+// The means of the runs are 2, 4 and 9 times (k + 1); the two directions differ by 6. The mean of
+// both directions has u = s/√3 with s² = 13. This is larger than the u from the separate
 // directions.
 TEST(TargetMeansByHand, MeanOfBothDirectionsHasTheRunScatter) {
   std::vector<MeasuredPoint> points;

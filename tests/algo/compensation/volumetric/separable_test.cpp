@@ -1,4 +1,4 @@
-// Separation into sums and products of functions of one axis, for grids of known functions.
+// Corrections as sums and products of functions of one axis, for grids of known functions.
 #include "algo/compensation/volumetric/separable.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ VolumetricTable function_table(CorrectionFunction f, std::size_t nx = 5, std::si
   return t;
 }
 
-// Largest residual, with the sum calculated by its definition.
+// Largest residual; the sum is calculated by its definition.
 double largest_left(const VolumetricTable& t, const SeparableCorrection& sum) {
   double most = 0;
   for (std::size_t node = 0; node < t.nodes(); ++node) {
@@ -50,14 +50,14 @@ TEST(Separable, SumsNeedNoProducts) {
 }
 
 TEST(Separable, AngleWithItsLeverIsOneProduct) {
-  // Roll of X with the lever Z, yaw of X with the lever Y.
+  // Roll of X acts with the lever Z, yaw of X with the lever Y.
   const auto t = function_table([](double x, double y, double z) {
     return 1e-6 * std::sin(100 * x) * (z - 0.02) + 2e-3 * x * x * y;
   });
   const auto sum = separate(t, 1, 1e-13);
   EXPECT_EQ(sum.products.size(), 2U);
   EXPECT_LT(largest_left(t, sum), 1e-13);
-  for (const AxisProduct& p : sum.products) {  // both factors have the same size
+  for (const AxisProduct& p : sum.products) {  // both factors have the same largest value
     double first = 0, second = 0;
     for (const double x : p.of_first) first = std::max(first, std::abs(x));
     for (const double x : p.of_second) second = std::max(second, std::abs(x));
@@ -79,11 +79,11 @@ TEST(Separable, PlaneHasTheTablesOfItsAxes) {
   EXPECT_TRUE(sum.along[2].empty());
   EXPECT_EQ(sum.products.size(), 1U);
   EXPECT_LT(largest_left(t, sum), 1e-15);
-  EXPECT_EQ(separate(t, 0, 1e-12).left_m, 0);  // X has no correction
+  EXPECT_EQ(separate(t, 0, 1e-12).left_m, 0);  // X needs no correction
 }
 
-// With two nodes of each axis the result has the mean, half the differences and a quarter of the
-// alternating sum.
+// With two nodes of each axis, the sums contain the mean and half of the differences. The product
+// contains a quarter of the alternating sum of the four nodes. The residual is 0.
 TEST(Separable, TwoNodesOfEachAxisAreEnough) {
   const auto t = function_table([](double x, double y, double) { return 1e-3 * x * y; }, 2, 2, 1);
   const auto sum = separate(t, 1, 1e-12);

@@ -1,4 +1,4 @@
-// Noise of the tables of the axes in a volumetric table, with values calculated by hand.
+// Noise of the axis tables in a volumetric table, compared with values calculated by hand.
 #include "algo/compensation/volumetric/volumetric_noise.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,9 @@ double form(const AxisNoise::SquareForm& c, double p, double q) {
   return c[0] + c[1] * p + c[2] * q + c[3] * p * p + c[4] * p * q + c[5] * q * q;
 }
 
-// Y and Z have noise, each with (1-part)² V0 + 2 part (1-part) C + part² V1. Beyond the grid the
-// commands of the other two axes are those at its ends.
+// Expected variance of Y and Z between the nodes V0 and V1 with the covariance C: (1-part)² V0 + 2
+// part (1-part) C + part² V1. A command of X beyond the grid is replaced by the command
+// at the end of the grid.
 TEST(VolumetricNoise, IsInterpolatedForEachAxis) {
   VolumetricTable table;
   table.command_m = {std::vector<double>{0.2, 0.5}, {0.1, 0.4, 0.9}, {-0.3, 0.7}};
@@ -48,7 +49,7 @@ TEST(VolumetricNoise, IsInterpolatedForEachAxis) {
       EXPECT_NEAR(variance[k], of_y + z_part_variance, 1e-12) << x << k;
     }
   }
-  // The last node has no next one.
+  // The last node has no next node.
   const Vec3 last =
       noise_variance(table, {{{0, 0, true}, {2, 0, true}, {1, 0, true}}}, {0.35, 0.9, 0.7});
   for (std::size_t k = 0; k < 3; ++k)
@@ -59,12 +60,13 @@ TEST(VolumetricNoise, IsInterpolatedForEachAxis) {
   for (auto& forms : {&table.noise[1][2].variance, &table.noise[2][1].variance})
     forms->fill({-1, 0, 0, 0, 0, 0});
   EXPECT_EQ(noise_variance(table, {{{0, 0, true}, {2, 0, true}, {1, 0, true}}}, {0.35, 0.9, 0.7}),
-            Vec3{});  // a negative variance is a rounding error
+            Vec3{});  // a negative variance comes from rounding and becomes 0
 }
 
-// EYX and ECX of X at 0, 10, 20 mm; nodes at 4, 7 and 13 mm. The nodes at 4 and 7 mm share the
-// targets at 0 (0.6 · 0.3) and 10 mm (0.4 · 0.7), the nodes at 7 and 13 mm the target at 10 mm (0.7
-// · 0.7). The correlation coefficient is 0.2 at 0 mm, -0.1 at 10 mm, -0.6 at 20 mm.
+// EYX and ECX of X are measured at targets at 0, 10 and 20 mm; the nodes are at 4, 7 and 13 mm. The
+// nodes at 4 and 7 mm share the noise of the targets at 0 mm (0.6 · 0.3) and 10 mm (0.4 · 0.7). The
+// nodes at 7 and 13 mm share the noise of the target at 10 mm (0.7 · 0.7). The correlation of EYX
+// and ECX is 0.2 at 0 mm, -0.1 at 10 mm, -0.6 at 20 mm.
 TEST(VolumetricNoise, NodesShareTheNoiseOfCommonTargets) {
   auto machine = parse_machine(
       "name = \"m\"\nmachine = {chain = \"w-b-X-Y-Z-t\"}\ntool = {point_mm = [40, 30, 20]}\n"
@@ -113,7 +115,8 @@ TEST(VolumetricNoise, NodesShareTheNoiseOfCommonTargets) {
   EXPECT_GT(std::abs(second), 1e-15);
   EXPECT_NEAR(table.noise[0][0].covariance_with_next[1][0] / first, 1, 1e-12);
   EXPECT_NEAR(table.noise[0][1].covariance_with_next[1][0] / second, 1, 1e-12);
-  // Without a known covariance both errors are independent, each with its own targets.
+  // If the covariance of EYX and ECX is unknown, both errors are independent, each with its own
+  // targets.
   known = {};
   frame.error[5].position[2] = 0.021;
   set_axis_noise(table, *machine, {}, MachineApproach::forward);

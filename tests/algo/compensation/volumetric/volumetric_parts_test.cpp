@@ -1,5 +1,5 @@
-// The parts of u of a volumetric table compared with simulated measurements: the tool position by
-// matrices in long double, with errors drawn anew in each trial.
+// The parts of u of a volumetric table are compared with simulated measurements. Matrices in long
+// double give the tool position, and the errors are drawn anew in each trial.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,19 +18,21 @@ namespace {
 
 constexpr double kPartsTravel_m = 0.1;
 constexpr int kPartsTrials = 8000;
-constexpr double kSpreadTolerance = 0.05;  // six standard deviations of this estimate
+constexpr double kSpreadTolerance = 0.05;  // six standard deviations of the estimated spread
 
 using NoiseMixing = std::array<std::array<double, kBodyErrors>, kBodyErrors>;
 
-// Effect of each of six independent parts of the noise of an axis on each error, m or rad.
+// Effect of each of six independent noise quantities of an axis on each error of this axis, m or
+// rad.
 struct Axis6 {
   NoiseMixing noise{};
-  std::array<double, kBodyErrors> common{};  // u of a shift of the whole table
+  // U of a shift that is the same at all positions of the table.
+  std::array<double, kBodyErrors> common{};
 };
 
 struct Simulated {
   Machine machine;
-  Command others{};  // position of a rotary axis
+  Command others{};  // command of a rotary axis
   std::array<Axis6, 3> axes;
   double u_EC0Y = 3e-6;
 };
@@ -101,10 +103,10 @@ Machine simulated_measurement(const Simulated& s, std::mt19937_64& source, bool 
 }
 
 struct NodeSpread {
-  Vec3 first{}, last{}, product{};  // sums over the trials, about the truth
+  Vec3 first{}, last{}, product{};  // sums over the trials; differences from the truth
 };
 
-// The commands of X, Y, Z that move the tool by `place`.
+// Commands of X, Y, Z that move the tool by `place`.
 std::array<test::Real, 3> as_commands(const Machine& machine, const Command& at,
                                       const std::array<test::Real, 3>& place) {
   const test::Matrix4 here = test::tool_matrix(machine, at, false);
@@ -145,8 +147,8 @@ NodeSpread node_spread(const Simulated& s, unsigned seed, bool with_common, bool
 
 TEST(VolumetricParts, MatchTheSpreadOfTheirCauses) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
-    // With a rotated rotary axis the commands have other directions than the coordinates of the
-    // work.
+    // If a rotary axis is rotated, the directions of the commands differ from the coordinate axes
+    // of the work.
     const Simulated s = simulated_axes(seed, seed <= 2 ? "" : seed == 3 ? "C" : "B");
     VolumetricRequest request;
     request.others = s.others;
@@ -169,7 +171,7 @@ TEST(VolumetricParts, MatchTheSpreadOfTheirCauses) {
       near(noise.last[k], table->u_independent_at(7)[k]);
       near(common.first[k], table->u_common_at(0)[k]);
       near(common.last[k], table->u_common_at(7)[k]);
-      // Nodes without a common command share no noise.
+      // Two nodes that have no command in common share no noise.
       EXPECT_NEAR(noise.product[k] / std::sqrt(noise.first[k] * noise.last[k]), 0, 0.05);
     }
     const VolumetricValue value = volumetric_at(*table, {0.03, 0.05, 0.07});
@@ -178,7 +180,8 @@ TEST(VolumetricParts, MatchTheSpreadOfTheirCauses) {
   }
 }
 
-// Control with a wrong rule: the noise of an axis at two neighbouring nodes is one quantity.
+// Control with a wrong rule: the noise of an axis at two neighbouring nodes is treated as one
+// quantity.
 double u_with_common_noise(const VolumetricTable& table, const Vec3& part, std::size_t k) {
   double common = 0, noise = 0;
   for (std::size_t node = 0; node < 8; ++node) {
@@ -191,8 +194,8 @@ double u_with_common_noise(const VolumetricTable& table, const Vec3& part, std::
   return std::hypot(common, noise, table.interpolation_m[k] / std::sqrt(3.0));
 }
 
-// Two nodes; then places that are drawn anew in each simulation: inside the cell, on a face, on an
-// edge; and the centre of the cell, where linear interpolation deviates most.
+// Two nodes; three places that are drawn anew in each simulation, inside the cell, on a face and on
+// an edge; and the centre of the cell, where the linear interpolation deviates most.
 constexpr double kMiddle_m = kPartsTravel_m / 2;
 using Places = std::array<Vec3, 6>;
 Places random_places(std::mt19937_64& source) {
@@ -238,7 +241,7 @@ void count_coverage(const Simulated& s, int simulations, std::mt19937_64& source
   }
 }
 
-// Required: 94 to 96.5 % at nodes and between them.
+// Required: 94 to 96.5 % of the intervals contain the truth, at nodes and between nodes.
 TEST(VolumetricParts, ValuesHoldTheTruth) {
   const int machines = 10, simulations = test::coverage_runs(300);
   Held held{}, wrong_rule_counts{};
@@ -257,8 +260,8 @@ TEST(VolumetricParts, ValuesHoldTheTruth) {
   EXPECT_GE(too_often, 9);  // of twelve values between nodes
 }
 
-// Nodes between two targets contain the noise of both, so interpolation between such nodes averages
-// less; u is the spread of the value over many measurements.
+// A node between two targets contains the noise of both targets, so an interpolation between such
+// nodes averages less noise. u must equal the spread of the value over many measurements.
 TEST(VolumetricParts, GridFinerThanTheTargetsKeepsU) {
   Simulated s = simulated_axes(3);
   VolumetricRequest request;
@@ -268,8 +271,8 @@ TEST(VolumetricParts, GridFinerThanTheTargetsKeepsU) {
   request.step_m = kPartsTravel_m / 4;
   const auto fine = build_volumetric(s.machine, request);
   ASSERT_TRUE(coarse && fine);
-  // At the first target u is unchanged. Beside it the noise of the nodes is mostly that of one
-  // target, so almost nothing is averaged.
+  // At the first target, u is the same with both grids. Beside this target the noise of all nodes
+  // comes mostly from this target, so the interpolation averages almost nothing.
   const Vec3 at{0.00625, 0.00625, 0.00625};
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(fine->u_independent_at(0)[k], coarse->u_independent_at(0)[k], 1e-18);
@@ -280,8 +283,8 @@ TEST(VolumetricParts, GridFinerThanTheTargetsKeepsU) {
   }
 }
 
-// Noise that differs from node to node, on a grid with a different number of nodes along each axis:
-// at a node, volumetric_at() returns the value of this node.
+// The noise differs from node to node, and each axis has a different number of nodes. At a node,
+// volumetric_at() returns the value of the node.
 TEST(VolumetricParts, AtANodeAreTheValuesOfTheNode) {
   Simulated s = simulated_axes(3);
   for (MachineFrame& frame : s.machine.frames) {

@@ -1,5 +1,5 @@
-// Corrections over a plane or a volume, compared with results by hand for one error at a time, and
-// with the tool of the true machine.
+// Corrections over a plane or a volume. They are compared with results calculated by hand for one
+// error at a time, and with the tool position of the true machine.
 #include "algo/compensation/volumetric/volumetric.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 namespace mdof::algo {
 namespace {
 
-// X, Y, Z with the tool point at (0, 0, 50) mm; errors are stated at the origin. `x`, `y`, `z`: the
-// keys of their errors.
+// Text of a machine with X, Y, Z and the tool point at (0, 0, 50) mm; the errors are stated at the
+// origin. `x`, `y`, `z`: text of the errors of these axes.
 std::string machine_text(const std::string& chain, const std::string& x, const std::string& y,
                          const std::string& z) {
   const auto axis = [](const std::string& id, const std::string& errors) {
@@ -23,7 +23,7 @@ std::string machine_text(const std::string& chain, const std::string& x, const s
          axis("X", x) + axis("Y", y) + axis("Z", z);
 }
 
-// The given errors of an axis, and 0 for all others.
+// Text of the given errors of an axis; all its other errors are declared as 0.
 std::string zero_other_errors(const std::string& axis, const std::string& given) {
   std::string text = given;
   for (const char direction : std::string("XYZABC")) {
@@ -53,8 +53,9 @@ VolumetricTable built(const Machine& m, const VolumetricRequest& request = {}) {
   return *table;
 }
 
-// A ball screw with a pitch of 10 mm, read every 2.5 mm: neither nodes every 10 mm nor the centres
-// of the cells show its error. Y has a bend 1 mm from a node, which adds to it.
+// A ball screw with a pitch of 10 mm has error values every 2.5 mm. Nodes every 10 mm and the
+// centres of the cells do not show its error. EXY has a bend at 1 mm, beside a node; its effect
+// adds.
 TEST(Volumetric, StatesErrorsBetweenNodes) {
   std::string exx = "EXX_um = [", exy = "EXY_um = [[0, 0], [1, 0.9], [40, 0]]";
   for (int quarter = 0; quarter <= 16; ++quarter)
@@ -63,17 +64,18 @@ TEST(Volumetric, StatesErrorsBetweenNodes) {
   VolumetricRequest request;
   request.step_m = 10e-3;
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", exx + "]", exy), request);
-  EXPECT_NEAR(largest_correction_m(t, 0), 0.69e-6, 0.01e-6);  // of EXY at Y = 10 mm
-  // The corrected command is beside the peak, on a slope of 4 um/mm: 10/1.004 um. EXY adds 0.9 um,
-  // less the line from 0 to 30/39 of 0.9 um at a tenth of the cell.
+  EXPECT_NEAR(largest_correction_m(t, 0), 0.69e-6, 0.01e-6);  // EXY at Y = 10 mm
+  // The corrected command is beside the peak, on a slope of 4 µm/mm, where EXX is 10/1.004 µm. EXY
+  // adds 0.9 µm at Y = 1 mm. The straight line between the nodes contains a part of it: a tenth of
+  // EXY at Y = 10 mm, which is 0.9 µm · 30/39.
   EXPECT_NEAR(t.interpolation_m[0], (10 / 1.004 + 0.9 - 0.09 * 30 / 39) * 1e-6, 1e-9);
   EXPECT_NEAR(t.interpolation_m[1], 0, 1e-12);
 }
 
 TEST(Volumetric, CorrectsErrorsOfToolAndWorkAxes) {
-  // EXX = 2 µm at 40 mm: the body moves too far. If the body is the tool, the command is 2 µm less.
-  // If it is the work, whose command increases against the tool, the body also moves too far: 2 µm
-  // less, too.
+  // EXX is 2 µm at 40 mm, so the body moves 2 µm too far. If the body is the tool, the command is
+  // reduced by 2 µm. If the body is the work, its command increases against the tool; the body also
+  // moves too far, and the command is also reduced by 2 µm.
   const std::string exx = "EXX_um = [[0, 0], [40, 2]]";
   for (const char* chain : {"w-b-X-Y-Z-t", "w-X-b-Y-Z-t"}) {
     const VolumetricTable t = built(machine(chain, exx));
@@ -81,7 +83,8 @@ TEST(Volumetric, CorrectsErrorsOfToolAndWorkAxes) {
     EXPECT_NEAR(t.correction_m[t.node(2, 3, 1)][0], -1e-6, 1e-10) << chain;
     EXPECT_NEAR(t.correction_m[t.node(4, 4, 4)][1], 0, 1e-12) << chain;
   }
-  // EYX of the tool: Y moves back by it. EYX of the work: Y moves the tool after it.
+  // EYX of the tool: Y moves the tool back by EYX. EYX of the work: Y moves the tool after the
+  // work.
   const std::string eyx = "EYX_um = [[0, 0], [40, 4]]";
   const VolumetricTable tool = built(machine("w-b-X-Y-Z-t", eyx));
   EXPECT_NEAR(tool.correction_m[tool.node(4, 1, 2)][1], -4e-6, 1e-10);
@@ -90,7 +93,8 @@ TEST(Volumetric, CorrectsErrorsOfToolAndWorkAxes) {
 }
 
 TEST(Volumetric, SquarenessCorrectionIsProportionalToTravel) {
-  // EC0Y = 100 µrad: at 40 mm of Y its body is 4 µm too far towards -X, and X must add 4 µm.
+  // EC0Y is 100 µrad: at Y = 40 mm the tool is 4 µm too far in the direction -X, and X must add 4
+  // µm.
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", "", "EC0Y_urad = 100"));
   EXPECT_NEAR(t.correction_m[t.node(1, 4, 0)][0], 4e-6, 1e-9);
   EXPECT_NEAR(t.correction_m[t.node(3, 2, 4)][0], 2e-6, 1e-9);
@@ -98,7 +102,8 @@ TEST(Volumetric, SquarenessCorrectionIsProportionalToTravel) {
 }
 
 TEST(Volumetric, AnglesActByTheirLever) {
-  // EBX = 50 µrad about +Y at the tool's height of 50 mm + Z: x moves by +EB * (50 mm + z).
+  // EBX is 50 µrad about +Y; the height of the tool is 50 mm + z. The tool moves in x by EBX (50 mm
+  // + z).
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", "EBX_urad = [[0, 0], [40, 50]]"));
   EXPECT_NEAR(t.correction_m[t.node(4, 0, 0)][0], -50e-6 * 0.050, 1e-9);
   EXPECT_NEAR(t.correction_m[t.node(4, 0, 4)][0], -50e-6 * 0.090, 1e-9);
@@ -112,7 +117,7 @@ TEST(Volumetric, CorrectedToolReachesTheNominalPosition) {
       "EZY_um = [[0, 1], [25, -4], [40, 2]]\nEC0Y_urad = -70\nEAY_urad = [[0, 0], [40, 60]]",
       "EB0Z_urad = 40\nEA0Z_urad = -30\nEYZ_um = [[0, 0], [40, 2]]");
   VolumetricRequest request;
-  request.step_m = 0.0025;  // all positions of the tables are nodes
+  request.step_m = 0.0025;  // each position of the tables is a node
   const VolumetricTable t = built(m, request);
   double before = 0, after = 0;
   for (const Vec3& at : {Vec3{0.0013, 0.039, 0.021}, {0.033, 0.0072, 0.0388}, {0.0199, 0.02, 0}}) {
@@ -136,7 +141,7 @@ TEST(Volumetric, CorrectedToolReachesTheNominalPosition) {
 }
 
 TEST(Volumetric, UIncludesTheInterpolationBetweenNodes) {
-  // A roof-shaped error of 2 µm at 5 mm, which a step of 10 mm does not show; u of the error is
+  // The error has a peak of 2 µm at 5 mm, which nodes every 10 mm do not show. u of the error is
   // 0.03 µm.
   const std::string roof = "EXX_um = [[0, 0], [5, 2], [10, 0], [40, 0]]\nu_EXX_um = 0.03";
   VolumetricRequest request;
@@ -144,7 +149,7 @@ TEST(Volumetric, UIncludesTheInterpolationBetweenNodes) {
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", roof), request);
   EXPECT_NEAR(t.interpolation_m[0], 2e-6, 1e-9);
   EXPECT_NEAR(t.interpolation_m[1], 0, 1e-12);
-  EXPECT_NEAR(volumetric_at(t, {0.01, 0.02, 0}).u_m[0], 0.03e-6, 1e-12);  // at a node
+  EXPECT_NEAR(volumetric_at(t, {0.01, 0.02, 0}).u_m[0], 0.03e-6, 1e-12);  // (0.01, 0.02) is a node
   EXPECT_NEAR(volumetric_at(t, {0.005, 0.02, 0}).u_m[0], std::sqrt(0.03e-6 * 0.03e-6 + 2e-6 * 2e-6),
               1e-9);
   request.step_m = 0.005;
@@ -154,7 +159,7 @@ TEST(Volumetric, UIncludesTheInterpolationBetweenNodes) {
 TEST(Volumetric, OutsideTheGridTheNearestValueApplies) {
   VolumetricRequest request;
   request.along = {true, true, false};
-  request.others[2] = 0.03;  // Z does not move
+  request.others[2] = 0.03;  // the table has one command of Z
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", "EXX_um = [[0, 1], [40, 2]]"), request);
   EXPECT_EQ(t.command_m[2], std::vector<double>{0.03});
   const VolumetricValue end = volumetric_at(t, {0.05, 0.01, 0.03});
@@ -164,7 +169,8 @@ TEST(Volumetric, OutsideTheGridTheNearestValueApplies) {
   EXPECT_NEAR(volumetric_at(t, {-0.001, 0.01, 0.03}).correction_m[0], -1e-6, 1e-10);
   EXPECT_TRUE(volumetric_at(t, {0, 0.04, 0.03}).inside);
   EXPECT_TRUE(volumetric_at(t, {0.04, 0, 0.03}).inside);
-  EXPECT_FALSE(volumetric_at(t, {0.02, 0.02, 0.031}).inside);  // Z has no other command
+  // The table has no other command of Z.
+  EXPECT_FALSE(volumetric_at(t, {0.02, 0.02, 0.031}).inside);
 }
 
 TEST(Volumetric, UnmeasuredErrorsAreRefusedOrNamed) {
@@ -184,7 +190,7 @@ TEST(Volumetric, UnmeasuredErrorsAreRefusedOrNamed) {
   const VolumetricTable t = built(*parsed, request);
   EXPECT_NE(std::find(t.not_measured.begin(), t.not_measured.end(), "EYX"), t.not_measured.end());
   EXPECT_EQ(std::find(t.not_measured.begin(), t.not_measured.end(), "EXX"), t.not_measured.end());
-  EXPECT_TRUE(std::isnan(t.u_m[0][0]));  // no u is declared
+  EXPECT_TRUE(std::isnan(t.u_m[0][0]));  // the machine declares no u
 }
 
 TEST(Volumetric, LimitsAxesAndSizesAreChecked) {
@@ -198,13 +204,13 @@ TEST(Volumetric, LimitsAxesAndSizesAreChecked) {
   EXPECT_NE(code(m, request).find("limit"), std::string::npos);
   request.limits.length_m = 31e-6;
   EXPECT_EQ(code(m, request), "built");
-  request.limits.length_slope = 0.0007;  // 30 µm in 40 mm is 0.00075
+  request.limits.length_slope = 0.0007;  // the slope is 30 µm in 40 mm, 0.00075
   EXPECT_NE(code(m, request).find("from 0 mm to 10 mm"), std::string::npos) << code(m, request);
   VolumetricRequest fine;
-  fine.step_m = 0.0008;  // 51^3
+  fine.step_m = 0.0008;  // 51 nodes along each axis
   EXPECT_NE(code(m, fine).find("larger step"), std::string::npos);
   fine.along = {true, true, false};
-  fine.step_m = 0.00008;  // 501 along each
+  fine.step_m = 0.00008;  // 501 nodes along each axis
   EXPECT_NE(code(m, fine).find("more than 500"), std::string::npos);
   fine.step_m = 1e-12;
   EXPECT_NE(code(m, fine).find("larger step"), std::string::npos);

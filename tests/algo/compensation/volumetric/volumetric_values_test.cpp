@@ -1,5 +1,5 @@
-// Values of a volumetric table compared with three linear interpolations, one axis after the other;
-// facts of a built table compared with errors that add in closed form.
+// The values of a volumetric table are compared with three linear interpolations, one axis after
+// the other. The facts of a built table are compared with errors that add in closed form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-// 3 x 4 x 2 nodes at uneven commands, with values without a pattern.
+// A table with 3 x 4 x 2 nodes at uneven commands; its values have no pattern.
 VolumetricTable uneven_table() {
   VolumetricTable t;
   t.command_m = {std::vector<double>{-0.01, 0.002, 0.03}, {0, 0.004, 0.01, 0.05}, {0.1, 0.13}};
@@ -29,7 +29,7 @@ double line(double x, double x0, double x1, double y0, double y1) {
   return y0 + (y1 - y0) * (x - x0) / (x1 - x0);
 }
 
-// Interpolates along X, then Y, then Z, in the cell that begins at node (i, j, 0).
+// Interpolates along X, then along Y, then along Z, in the cell that begins at node (i, j, k).
 double by_lines(const VolumetricTable& t, const std::vector<Vec3>& values, const Vec3& at,
                 std::size_t i, std::size_t j, std::size_t k) {
   const auto &x = t.command_m[0], &y = t.command_m[1], &z = t.command_m[2];
@@ -55,7 +55,8 @@ TEST(VolumetricValues, EqualThreeLinearInterpolations) {
       EXPECT_TRUE(v.inside);
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_NEAR(v.correction_m[k], by_lines(t, t.correction_m, at, i, j, k), 1e-13);
-        // A parabola through two nodes has its largest deviation in the middle between them.
+        // The interpolation error of a cell is modelled by a parabola that is 0 at both nodes and 1
+        // in the middle between them.
         const auto off = [](double place, double from, double to) {
           return (place - from) * (to - place) / ((to - from) * (to - from) / 4);
         };
@@ -76,7 +77,8 @@ TEST(VolumetricValues, AreExactAtNodesAndLinearOnEdges) {
     EXPECT_EQ(v.correction_m, t.correction_m[node]);
     EXPECT_EQ(v.u_m, t.u_m[node]);
   }
-  const VolumetricValue edge = volumetric_at(t, {0.03, 0.0075, 0.13});  // the last of X and Z
+  // The last command of X and of Z.
+  const VolumetricValue edge = volumetric_at(t, {0.03, 0.0075, 0.13});
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(
         edge.correction_m[k],
@@ -103,7 +105,7 @@ TEST(VolumetricValues, OneNanometreBesideTheGridIsInside) {
   }
 }
 
-// X, Y, Z with 20 mm of travel and the given errors.
+// Text of a machine with the axes X, Y, Z, 20 mm of travel and the given errors.
 std::string machine_of(const std::string& x, const std::string& y, const std::string& z,
                        const std::string& more = "") {
   std::string text =
@@ -124,8 +126,8 @@ Machine parsed(const std::string& text) {
 }
 
 TEST(VolumetricTables, InterpolationErrorsOfAllAxesAdd) {
-  // Roof-shaped errors of 1, 2 and 4 µm at 5 mm of X, Y and Z in the direction X; errors of Y and Z
-  // in the direction Y.
+  // EXX, EXY and EXZ have peaks of 1, 2 and 4 µm at 5 mm, between the nodes. Y and Z also have
+  // errors in the direction Y.
   const Machine m =
       parsed(machine_of("EXX_um = [[0, 0], [5, 1], [10, 0], [20, 0]]",
                         "EXY_um = [[0, 0], [5, 2], [10, 0], [20, 0]]\nEYY_um = [[0, 0], [15, 3]]",
@@ -136,16 +138,16 @@ TEST(VolumetricTables, InterpolationErrorsOfAllAxesAdd) {
   const auto t = build_volumetric(m, request);
   ASSERT_TRUE(t) << t.error().message;
   EXPECT_NEAR(t->interpolation_m[0], 7e-6, 1e-8);
-  // EYY is 3 µm from 15 mm on: at 15 mm the line from 10 to 20 mm is at 2.5 µm, 0.5 below. EYZ is
-  // 0.5 above its line in the upper cell; both add to 1 µm.
+  // EYY is 3 µm from 15 mm on. The straight line between its nodes at 10 and 20 mm is 2.5 µm at 15
+  // mm, 0.5 µm less. EYZ is 0.5 µm above its line in the upper cell; both differences add to 1 µm.
   EXPECT_NEAR(t->interpolation_m[1], 1e-6, 1e-8);
   EXPECT_NEAR(t->interpolation_m[2], 0, 1e-12);
 }
 
 TEST(VolumetricTables, StateTheUncorrectedReversal) {
-  // EXX is 20 um higher forward than reverse, EXY 6 um lower. The mean leaves 10 + 3 um in X where
-  // X and Y approach from different sides, one approach leaves 20 + 6. EYX with 2 um leaves 1 um in
-  // Y. Z has no reversal.
+  // EXX is 20 µm higher forward than in reverse, EXY is 6 µm lower. A correction with the mean
+  // leaves 10 + 3 µm in X if X and Y approach from different sides; a correction with one approach
+  // leaves 20 + 6 µm. The 2 µm of EYX leave 1 µm in Y. Z has no reversal.
   const Machine m =
       parsed(machine_of("EXX_um = [[0, 25, 5], [20, 25, 5]]\n"
                         "EYX_um = [[0, 1, -1], [20, 1, -1]]",
@@ -182,7 +184,7 @@ TEST(VolumetricTables, StateTheFactsOfTheMachine) {
   EXPECT_EQ(t->noise_only, NoiseOnly::none);
   EXPECT_EQ(t->approach, "reverse");
   EXPECT_EQ(t->tool_m, (Vec3{0.001, 0.002, 0.003}));
-  EXPECT_EQ(t->beyond_tables, std::vector<std::string>{"EXX"});  // its table ends at 15 mm
+  EXPECT_EQ(t->beyond_tables, std::vector<std::string>{"EXX"});  // the table of EXX ends at 15 mm
   const auto has = [](const std::vector<std::string>& names, const char* name) {
     return std::count(names.begin(), names.end(), name);
   };
@@ -216,14 +218,14 @@ TEST(VolumetricTables, UseTheCommandsOfTheOtherAxes) {
   EXPECT_EQ(t->command_m[2], std::vector<double>{0.01});
   ASSERT_EQ(t->nodes(), 3u);
   EXPECT_NEAR(t->correction_m[2][0], -4e-6, 1e-9);
-  // Differs from the single command of Y and Z by rounding in mm only.
+  // Y and Z have one command each. A command that differs by rounding in mm is accepted.
   EXPECT_TRUE(volumetric_at(*t, {0.01, 0.007 + 0.5e-9, 0.01 - 0.5e-9}).inside);
   EXPECT_FALSE(volumetric_at(*t, {0.01, 0.007 + 2e-9, 0.01}).inside);
 }
 
 TEST(VolumetricTables, UncorrectedPartIsTheLargestOfAllNodes) {
-  // A machine with X alone cannot correct EYX, and no axis can correct an angle: ECX is largest in
-  // the middle.
+  // A machine with X alone cannot correct EYX, and no axis can correct an angle. ECX is largest in
+  // the middle of the travel.
   const Machine m = parsed(
       "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n[[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, "
       "0]\npoint = \"moving\"\nrange_mm = [0, 20]\nEYX_um = [[0, 1], [10, -4], [20, 2]]\nECX_urad "
@@ -245,7 +247,8 @@ TEST(VolumetricTables, NameTheLineThatIsTooSteep) {
   VolumetricRequest request;
   request.incomplete = true;
   request.limits.length_slope = 0.0003;
-  // 2 µm, then 4 µm in 10 mm: only the second cell is too steep, along each axis in turn.
+  // The error rises by 2 µm in the first 10 mm and by 4 µm in the next 10 mm. Only the second cell
+  // is too steep. Tested along each axis in turn.
   const char* steep = "_um = [[0, 0], [10, 2], [20, 6]]";
   const std::array<std::array<std::string, 2>, 3> all{
       {{"EYX", "the correction of Y along X from X 0 Y 0 Z 0 mm"},
@@ -260,7 +263,7 @@ TEST(VolumetricTables, NameTheLineThatIsTooSteep) {
   }
   request.limits.length_slope = 0.0005;
   EXPECT_EQ(refused(parsed(machine_of("", std::string("EZY") + steep, "")), request), "built");
-  // A line that is too steep only where another axis is at its end: X along Y by ECX, at the end of
+  // The correction of X along Y follows from ECX. It is too steep only at the end of the travel of
   // X.
   request.limits.length_slope = 0.00097;
   const Machine turned = parsed(machine_of("ECX_urad = [[0, 900], [10, 940], [20, 1000]]", "", ""));

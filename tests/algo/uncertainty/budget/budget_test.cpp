@@ -49,8 +49,8 @@ TEST(Budget, CommonOffsetCancelsInDifferences) {
   EXPECT_NEAR(budgets.of(error_figure(Axis::x, 4, 5)).u, 0.1e-6 / kFixture_m, 1e-9);
 }
 
-// One direction with a point every 10 s and 5 mm: a drift of D of 1 nm/s is 10 nm in 5 mm, 2 µrad.
-// Forward and back, it cancels in the slope almost completely.
+// One direction with a point every 10 s and 5 mm. A drift of D by 1 nm/s is 10 nm in 5 mm, which is
+// a slope of 2 µrad. With both directions the drift cancels in the slope almost completely.
 TEST(Budget, DriftIsASlopeInOneDirection) {
   const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 3.6\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
@@ -64,7 +64,7 @@ TEST(Budget, DriftIsASlopeInOneDirection) {
   EXPECT_NEAR(contribution(slope, "probe E: drift"), 0, 1e-10);
 }
 
-// By hand: the slope through means with the same u has the uncertainty u/√Sxx.
+// Calculated by hand: if all means have the same u, the slope has the uncertainty u/√Sxx.
 TEST(Budget, NoiseOfIndependentTargetsIsCorrect) {
   const Rig rig = rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
@@ -73,12 +73,13 @@ TEST(Budget, NoiseOfIndependentTargetsIsCorrect) {
   const Budget slope = budget(RunBudgets::create(rig, run).value(), "EYX_slope_urad");
   EXPECT_TRUE(slope.noise_only);
   ASSERT_EQ(slope.lines.size(), 1u);
-  // EYX = D + (B - C) l''/2l with l''/2l = 1: D, B and C contribute u each.
+  // EYX = D + (B - C) l''/2l with l''/2l = 1, so the noise u of D, B and C contributes once each.
   const double u_mean = 10e-9 * std::sqrt(3.0) / std::sqrt(2.0);  // mean of both approaches
   const double sxx = 25e-6 * 60;                                  // Σ (i - 4)² = 60
   EXPECT_NEAR(slope.u, u_mean / std::sqrt(sxx), 1e-12);
   EXPECT_EQ(slope.u, slope.u_random);
-  // Without repeated visits, noise slower than a stop is unknown, and the text states this.
+  // Without repeated visits, noise with periods longer than a stop is unknown. The text states
+  // this.
   EXPECT_NE(covers_text(slope).find("noise with periods longer than a stop is not included (in a "
                                     "run, no target was approached "
                                     "twice from the same direction)"),
@@ -101,7 +102,7 @@ TEST(Budget, DifferentTiltsOfRunsScatterTheSlope) {
   const Budget slope =
       budget(RunBudgets::create(rig, synthetic.measure()).value(), "EYX_slope_urad");
   EXPECT_NEAR(slope.u, std::sqrt((1 + 4 + 9 + 4) / 4.0 / 5) * 1e-6, 1e-10);
-  EXPECT_NEAR(slope.freedom, 4, 0.6);  // the targets show little of it
+  EXPECT_NEAR(slope.freedom, 4, 0.6);  // single targets show little of this scatter
   EXPECT_NEAR(slope.coverage_factor, 2.7, 0.1);
 }
 
@@ -121,14 +122,15 @@ TEST(Budget, LinesAreSortedAndSharesAddToOne) {
   }
   EXPECT_NEAR(shares, 1, 1e-12);
   EXPECT_FALSE(at.noise_only);
-  // First order and Monte Carlo agree for a nearly linear model.
+  // The first-order u equals the Monte Carlo u for a nearly linear model.
   const BudgetTrials trials = summary_of(
       budgets.draw({error_figure(Axis::x, 0, 9)}, {.trials = 20000, .seed = 3}).front(), 3);
   EXPECT_NEAR(trials.u / at.u, 1, 0.02);
   EXPECT_NEAR((trials.high - trials.low) / 2 / at.U, 1, 0.03);
 }
 
-// Trials of a rectangular quantity with u = 1 µm end at 0.95 · √3 µm, not at 1.96 u.
+// The trials of a rectangular quantity with u = 1 µm: their 95 % interval ends at 0.95 · √3 µm, not
+// at 1.96 u.
 TEST(Budget, TrialsHaveTheDeclaredDistributions) {
   const std::string flat = "u_calibration_um = { u = 1, distribution = \"rectangular\" }";
   const Rig one = rig_x_with("D", flat);
@@ -166,7 +168,7 @@ TEST(Budget, SquarenessUsesBothRunsAndTheSquare) {
   const SquareArtefact square{.angle_error_rad = 2e-6, .u_rad = 0.4e-6, .corner = -1};
   const Budget b =
       squareness_budget(x, one_way, y, along_y.measure(), square, {.trials = 20000}).value();
-  // EXY = -δy of the Y axis: slope +5; EC0Y = -5 - 3 - 2.
+  // EXY = -δy of the Y axis, which has the slope +5. EC0Y = -5 - 3 - 2.
   EXPECT_NEAR(b.value, -10e-6, 1e-10);
   EXPECT_NEAR(contribution(b, "X, probe D: drift"), -2e-6, 1e-10);
   EXPECT_NEAR(contribution(b, "angle of the square"), -0.4e-6, 1e-15);
@@ -190,15 +192,15 @@ TEST(Budget, SquarenessAndSlopesEqualSeparateBudgets) {
   EXPECT_EQ(all[0].value, alone.value);
   EXPECT_EQ(all[0].U, alone.U);
   EXPECT_EQ(all[1].U, budget(RunBudgets::create(x, run_x).value(), "EYX_slope_urad").U);
-  // 2 µrad from the drift of D, as above, and the same from B and from C by the roll (20 mm / 2 ·
-  // 10 mm).
+  // The drift of D contributes 2 µrad, as above. The drifts of B and C contribute the same through
+  // the roll: 20 mm / (2 · 10 mm) = 1.
   EXPECT_NEAR(all[1].u, 2e-6 * std::sqrt(3.0), 1e-10);
   EXPECT_EQ(all[2].figure, "EXY_slope_urad");
 }
 
-// D reads 3 µrad of slope along X and, turned to Y, -δx: EXY has +5. 1000 ppm of them are 3 and 5
-// nrad. They have the same sign for the same probe; with different certificates they are
-// independent.
+// D measures a slope of 3 µrad along X. Turned to Y, D measures -δx, and EXY has a slope of +5
+// µrad. A scale error of 1000 ppm changes these slopes by 3 and 5 nrad. The changes have the same
+// sign if the probe is the same, and are independent if the certificates differ.
 TEST(Budget, CommonProbeIsOneQuantityOfSquareness) {
   const SquareArtefact square{.angle_error_rad = 0, .u_rad = 0, .corner = -1};
   const auto u = [&](const std::string& of_x, const std::string& of_y, std::uint64_t trials) {
@@ -214,7 +216,7 @@ TEST(Budget, CommonProbeIsOneQuantityOfSquareness) {
   EXPECT_NEAR(contribution(same, "X and Y, probe D: sensitivity"), -8e-9, 1e-12);
   ASSERT_TRUE(same.trials);
   EXPECT_NEAR(same.trials->u / same.u, 1, 0.02);
-  // The other rig declares another u: 3 and twice 5 nrad, still of one quantity.
+  // The other rig declares twice the u of the same quantity: 3 nrad plus 2 · 5 nrad.
   const Budget other_u = u(scale, "u_sensitivity_ppm = 2000\n", 0);
   EXPECT_NEAR(other_u.u, 13e-9, 1e-12);
   EXPECT_NEAR(contribution(other_u, "X and Y, probe D: sensitivity"), -13e-9, 1e-12);
@@ -223,8 +225,8 @@ TEST(Budget, CommonProbeIsOneQuantityOfSquareness) {
   EXPECT_NEAR(contribution(two, "Y, probe D: sensitivity"), -5e-9, 1e-12);
 }
 
-// Four targets with a step in the first error: 0, 0, 3, 1 at 0, 10, 20 and 30 mm. The line is 0.1 +
-// 0.6 per step and leaves -0.1, -0.7, 1.7 and -0.9.
+// The first error of four targets at 0, 10, 20 and 30 mm is 0, 0, 3 and 1. The line by least
+// squares is 0.1 + 0.6 per target; the residuals are -0.1, -0.7, 1.7 and -0.9.
 TEST(Figures, MatchManualCalculationForFourTargets) {
   MeanErrors means;
   const double y[] = {0, 0, 3, 1};
@@ -252,10 +254,10 @@ TEST(Figures, MatchManualCalculationForFourTargets) {
   const auto at = errors_at_target(Axis::x, 3);
   ASSERT_EQ(at.size(), 5u);
   EXPECT_EQ(at[4].of(means), -3);
-  // Against the encoder, the slope has the opposite sign.
+  // If the target moves against the encoder, the slope has the opposite sign.
   means.sides.against_encoder = true;
   EXPECT_NEAR(slope_figure(Axis::x, 0).of(means), -60, 1e-9);
-  // A line needs three targets, a range two.
+  // A slope and a straightness need three targets, a range needs two.
   means.targets.resize(2);
   EXPECT_TRUE(std::isnan(straightness_figure(Axis::x, 0).of(means)));
   EXPECT_TRUE(std::isnan(slope_figure(Axis::x, 0).of(means)));
@@ -269,7 +271,8 @@ TEST(Figures, MatchManualCalculationForFourTargets) {
                        "EZY_slope_urad", "EAY_range_urad", "EBY_range_urad", "ECY_range_urad"}));
 }
 
-// Trials in whole blocks and in a part of a block have the same values.
+// A trial has the same value if fewer trials are requested, in whole blocks or in a part of a
+// block.
 TEST(Budget, TrialsDoNotDependOnTheirNumber) {
   const Rig rig = rig_x_with("D", "u_calibration_um = 0.1");
   const auto budgets =
@@ -284,7 +287,8 @@ TEST(Budget, TrialsDoNotDependOnTheirNumber) {
   }
 }
 
-// 40 trials 1 ... 40 in any order: one of forty is below 2, and none is above 40.
+// The 40 trials are 1 ... 40 in any order. 2.5 % of 40 is one trial, so one trial is below the
+// interval, and none is above 40.
 TEST(Budget, SummaryOfTrialsMatchesManualCalculation) {
   std::vector<double> trials;
   for (int i = 0; i < 40; ++i) trials.push_back(1 + (i * 7) % 40);
@@ -296,7 +300,8 @@ TEST(Budget, SummaryOfTrialsMatchesManualCalculation) {
   EXPECT_NEAR(summary.u, std::sqrt((40 * 40 - 1) / 12.0 * 40 / 39), 1e-12);
 }
 
-// A range is drawn as highest minus lowest deviation of each trial; its trials give the same u.
+// In each trial the range is the highest minus the lowest deviation. The standard deviation of the
+// trials equals the u of the budget.
 TEST(Budget, RangeIsDrawnAsHighestMinusLowest) {
   const Rig rig = rig_x_with("D", "u_sensitivity_ppm = 1000");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
@@ -311,7 +316,8 @@ TEST(Budget, RangeIsDrawnAsHighestMinusLowest) {
   EXPECT_NEAR(budgets.trials(straightness, {500, 4}).u / summary_of(values, 4).u, 1, 0.01);
 }
 
-// Two runs are enough for a scatter: s of 1.4142 µrad over √2, with one degree of freedom.
+// Two runs are enough for a scatter of the slope: s = 1.4142 µrad, u = s/√2, with one degree of
+// freedom.
 TEST(Budget, TwoRunsAreEnoughForAScatter) {
   const Rig rig = rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 2};
@@ -324,8 +330,9 @@ TEST(Budget, TwoRunsAreEnoughForAScatter) {
   EXPECT_FALSE(slope.is_single_run);
 }
 
-// Runs with missing visits and levels of passes: parts shift several means together, and others by
-// the passes. Only one run has all targets, so the scatter of runs adds nothing.
+// Visits are missing, and the passes have different levels. Some parts shift several means
+// together, other parts shift the means of a pass. Only one run has all targets, so the scatter of
+// the runs adds nothing.
 TEST(Budget, PartsOfSeveralMeansAddBySquares) {
   const Rig rig = rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
@@ -356,7 +363,7 @@ TEST(Budget, PartsOfSeveralMeansAddBySquares) {
     const double x = static_cast<double>(i);
     return k == 0 ? 1.3 - 0.4 * x : k == 4 ? 0.002 * x * x - 0.05 : 0;
   };
-  const auto along = [&](auto&& value) {  // the figure of values [target][error]
+  const auto along = [&](auto&& value) {  // figure calculated from values [target][error]
     double sum = 0;
     for (std::size_t i = 0; i < 9; ++i)
       for (std::size_t k = 0; k < kErrorCount; ++k) sum += weight(i, k) * value(i, k);

@@ -1,6 +1,6 @@
-// Budgets of parallelism, the slope of B minus the slope of A, with a scale error of probe D. At
-// the fixture only D measures EYX, so the error of a slope s is s times the scale error. Errors
-// common to both runs add with their signs.
+// Budgets of parallelism, which is the slope of B minus the slope of A. Probe D has a scale error.
+// At the fixture only D measures EYX, so the error of a slope s is s times the scale error. Errors
+// that are common to both runs add with their signs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ TEST(ParallelismBudget, CommonProbeErrorsAddWithTheirSigns) {
   EXPECT_NEAR(y.u, 20e-9, 1e-12);
   EXPECT_NEAR(y.U, 1.96 * 20e-9, 0.001 * 40e-9);
   EXPECT_NEAR(line_named(z, "A and B, probe D: sensitivity")->contribution, 0, 1e-13);
-  // The noise of the runs is separate, the sensitivity is common.
+  // Three lines: the noise of A, the noise of B, and the common sensitivity of probe D.
   EXPECT_EQ(y.lines.size(), 3u);
   EXPECT_NE(line_named(y, "A, noise and repeatability"), nullptr);
   EXPECT_NE(line_named(y, "B, noise and repeatability"), nullptr);
@@ -54,7 +54,8 @@ TEST(ParallelismBudget, CommonProbeErrorsAddWithTheirSigns) {
   EXPECT_EQ(y.not_declared.back().substr(0, 2), "B ");
 }
 
-// Probes of two certificates and quantities of one set-up are independent: their squares add.
+// Probes with different certificates are independent, and so are the quantities that belong to one
+// set-up. The squares of their contributions add.
 TEST(ParallelismBudget, SeparateErrorsAreIndependent) {
   const Rig a = test::rig_x_with("D", "u_sensitivity_ppm = 1000\ncertificate = \"1\""),
             b = test::rig_x_with("D", "u_sensitivity_ppm = 1000\ncertificate = \"2\"");
@@ -75,7 +76,7 @@ TEST(ParallelismBudget, SeparateErrorsAreIndependent) {
   EXPECT_NEAR(y.lines[1].share, 0.36, 1e-6);
 }
 
-// The rig of one run may declare more.
+// Rig B declares an uncertainty that rig A does not declare.
 TEST(ParallelismBudget, UsesDeclarationsOfOneRig) {
   const Rig plain = test::rig_x(),
             b = test::rig_x_with("D", "u_sensitivity_ppm = { u = 1000, dof = 4 }");

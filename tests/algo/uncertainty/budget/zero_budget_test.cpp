@@ -1,4 +1,4 @@
-// Values that are 0 by rounding, by declaration, or because they are unknown.
+// Values that are 0 because of rounding or a declaration, or whose uncertainty is unknown.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,7 @@
 namespace mdof::algo {
 namespace {
 
-// The axis is straight, so its deviations are rounding only, and a first-order budget contains only
-// rounding.
+// The axis is straight, so its deviations and a first-order budget contain only rounding errors.
 TEST(Budget, RangeOfRoundingHasTheUOfItsTrials) {
   const Rig rig = test::rig_x();
   SyntheticRun synthetic{.rig = rig, .runs = 1};
@@ -28,7 +27,7 @@ TEST(Budget, RangeOfRoundingHasTheUOfItsTrials) {
   EXPECT_LT(b.coverage_factor, 4);
 }
 
-// An undeclared u is reported as missing; a declared 0 adds nothing.
+// An undeclared u is reported as missing. A declared u of 0 adds nothing to the budget.
 TEST(Budget, ArtefactWithoutUDiffersFromZeroU) {
   const Rig x = test::rig_x();
   Rig y = x;
@@ -46,7 +45,7 @@ TEST(Budget, ArtefactWithoutUDiffersFromZeroU) {
   EXPECT_FALSE(lacks_u(0.4e-6));
 }
 
-// u without contributions is 0 only if nothing is undeclared.
+// The u of a budget without contributions is 0 only if all uncertainties are declared.
 TEST(Budget, ZeroUIsUnknownIfSomethingIsUndeclared) {
   Budget budget;
   budget.lines.resize(1);

@@ -1,5 +1,5 @@
-// The effect of temperature on the errors, compared with a separate forward model: the matrix of a
-// body, and the intersection of a probe's line with a face whose points have all moved.
+// Compares the effect of temperature on the errors with a separate forward model. This model moves
+// all points of a face by the matrix of the body and intersects the face with the line of a probe.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,12 +19,12 @@ double dot(const Place& a, const Place& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// In machine axes; the target is at travel d with errors of an X axis.
+// Coordinates are in the machine axes. The target has the errors of an X axis at the travel d.
 struct OwnModel {
   std::vector<Place> at, along;
   std::size_t axis = 0;
   double fixture = 0;  // relative expansion of the fixture
-  Place bend{};        // expansion times gradient, 1/m
+  Place bend{};        // expansion coefficient times temperature gradient, 1/m
 
   static Place turned_back(const Errors5& e, const Place& v) {
     const double a = e[2], b = e[3], c = e[4];
@@ -35,7 +35,7 @@ struct OwnModel {
     return {y[0], std::cos(a) * y[1] + std::sin(a) * y[2],
             -std::sin(a) * y[1] + std::cos(a) * y[2]};
   }
-  // Place of the material before the gradient moved it.
+  // Original position of the material that the temperature gradient has moved to `now`.
   Place material(const Place& now) const {
     Place r = now;
     for (int i = 0; i < 6; ++i) {
@@ -73,7 +73,8 @@ Errors5 truth(double d) {
   return {1e-6 * std::sin(90 * d), 2e-4 * d, 4e-3 * std::sin(60 * d), 5e-3 * d, -3e-3 * d};
 }
 
-// Half the difference between the errors of two forward models.
+// Half the difference between the errors that the solver calculates from the readings of two
+// forward models.
 std::vector<Errors5> half_difference(const SyntheticRun& synthetic, const OwnModel& plus,
                                      const OwnModel& minus, double scale = 0, double offset_m = 0) {
   std::array<Run, 2> runs;
@@ -129,7 +130,8 @@ TEST(Expansion, FixtureExpandsAboutItsOrigin) {
   }
 }
 
-// The encoder reads d, but d (1 + s) is true, so the errors belong to the true travel.
+// The encoder reads d, but the true travel is d (1 + s). The errors of the axis belong to the true
+// travel.
 TEST(Expansion, ScaleErrorGrowsWithTheTravel) {
   const Rig rig = test::rig_x_with(
       "", "", "[temperature]\nscale_C = 22\nu_scale_K = 0\nscale_ppm_per_K = 500\n");
@@ -143,8 +145,8 @@ TEST(Expansion, ScaleErrorGrowsWithTheTravel) {
   }
 }
 
-// The encoder reads too little at all targets: the expected shift is the sum of the parts, one for
-// each target.
+// The encoder reads too little at all targets. The contributor has one part for each target; the
+// expected change is the sum of these parts.
 TEST(Encoder, WrongPositionHasTheErrorsOfAnotherPosition) {
   const Rig rig = test::rig_x_with("", "", "[encoder]\nu_um = 10\n");
   SyntheticRun synthetic{.rig = rig, .truth = truth};
@@ -192,7 +194,7 @@ TEST(Expansion, GradientIsAlongTheMachineAxes) {
   toml += "[temperature]\nu_square_gradient_K_per_m = [4, 0, 6]\nsquare_ppm_per_K = 500\n";
   SyntheticRun synthetic{.rig = parse_rig(toml, "y.toml").value()};
   const auto parts = only_parts(synthetic, "square: temperature gradient");
-  ASSERT_EQ(parts.size(), 2u);  // no gradient along Y is declared
+  ASSERT_EQ(parts.size(), 2u);  // two directions; the rig declares no gradient along Y
   for (std::size_t i = 0; i < 2; ++i) {
     OwnModel plus = own, minus = own;
     plus.bend[2 * i] = i == 0 ? 2e-3 : 3e-3;
@@ -201,8 +203,8 @@ TEST(Expansion, GradientIsAlongTheMachineAxes) {
   }
 }
 
-// A beam with this gradient has a bow of α g D²/8 over the travel D: 11.5e-6 · 20 · 0.04²/8 = 46
-// nm.
+// Over the travel D, a beam with the temperature gradient g has a bow of α g D²/8: 11.5e-6 · 20 ·
+// 0.04²/8 = 46 nm.
 TEST(Expansion, GradientGivesTheBowOfABeam) {
   const Rig rig = test::rig_x_with("", "",
                                    "[temperature]\nu_square_gradient_K_per_m = [0, 20, 0]\n"
@@ -212,7 +214,8 @@ TEST(Expansion, GradientGivesTheBowOfABeam) {
   EXPECT_NEAR(std::abs(p[4][kDy] - (p[0][kDy] + p[8][kDy]) / 2), 46e-9, 1e-11);
 }
 
-// The root mean square of the product, from random draws.
+// Expected: the root mean square of the product of temperature difference and expansion
+// coefficient, from random draws.
 TEST(Expansion, UncorrectedExpansionCountsWhole) {
   const Rig rig = test::rig_x_with("", "",
                                    "[temperature]\nscale_C = 23\nu_scale_K = 2\n"

@@ -1,6 +1,6 @@
-// The covariance of a surface, compared with the closed form by the Bessel function of the standard
-// library and with surfaces that are sums of many plane waves of random direction and phase,
-// evaluated by the simplified model (Eq. 8-12).
+// The covariance of a surface is compared with the closed form, which uses the Bessel function of
+// the standard library. It is also compared with sums of many plane waves with random directions
+// and phases; the simplified model (Eq. 8-12) evaluates their heights.
 #include "algo/uncertainty/effects/flatness.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ double covariance_m2(double apart_m, double length_m) {
   return kU_m * kU_m * sum / norm;
 }
 
-// Three probes over 60 mm; the longest wave is from a tenth of that to ten times as long.
+// Three probes move over 60 mm; the longest wave is from 6 mm to 600 mm.
 TEST(Flatness, PartsHaveTheCovarianceForAnyLength) {
   for (const double length_mm : {6.0, 20.0, 60.0, 200.0, 600.0}) {
     std::vector<Footprint> prints;
@@ -64,7 +64,8 @@ TEST(Flatness, PartsHaveTheCovarianceForAnyLength) {
   }
 }
 
-// Thousands of places: the number of parts is limited, and the variance is never smaller.
+// Thousands of positions on a surface. The number of parts is limited, and their variance is at
+// least the variance of the surface.
 TEST(Flatness, PartsAreBoundedAndKeepTheVariance) {
   for (const double length_mm : {1.0, 30.0}) {
     std::vector<Footprint> prints;
@@ -112,7 +113,8 @@ TEST(Flatness, UOfSlopeAndPointsMatchesDrawnSurfaces) {
       slope_square += slope * slope / kSurfaces;
       point_square += point * point / kSurfaces;
     }
-    // The standard uncertainty of this number of surfaces is 1.3 %.
+    // The relative standard uncertainty of both root mean squares is 1.3 % for this number of
+    // surfaces.
     EXPECT_NEAR(u_slope / std::sqrt(slope_square), 1, 0.05);
     EXPECT_NEAR(u_point / std::sqrt(point_square), 1, 0.05);
   }

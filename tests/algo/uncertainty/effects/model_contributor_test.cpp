@@ -1,4 +1,4 @@
-// The u of a run with the simplified model contains the error of this model.
+// The u of a run that is solved with the simplified model covers the error of this model.
 #include "algo/uncertainty/effects/model_contributor.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using test::rig_x_with;
 
 constexpr double kAngle_rad = 559e-6;
 
-// Angles that grow along the axis to 559 µrad.
+// A run whose angles grow along the axis to 559 µrad.
 Run tilting(const Rig& rig, Model model) {
   SyntheticRun synthetic{.rig = rig, .model = model, .runs = 1};
   synthetic.truth = [](double d) {
@@ -31,7 +31,7 @@ TEST(ModelContributor, CoversTheErrorOfTheSimplifiedModel) {
   const Rig rig = rig_x_with("", "");
   const auto simplified = tilting(rig, Model::simplified), truth = tilting(rig, Model::rigid);
   const RunUncertainty found = run_uncertainty(rig, simplified);
-  EXPECT_TRUE(found.noise_only);  // nothing is declared
+  EXPECT_TRUE(found.noise_only);  // the rig declares no uncertainties
   double most_um = 0;
   for (std::size_t j = 0; j < simplified.points.size(); ++j) {
     const auto off = [&](std::size_t e) {
@@ -39,12 +39,12 @@ TEST(ModelContributor, CoversTheErrorOfTheSimplifiedModel) {
     };
     const auto& names = error_names(Axis::x);
     for (std::size_t k = 0; k < kErrorCount; ++k) {  // a true rotation differs by some nm more
-      const double u = std::fmax(0, found.points[j].u[k]);  // at the start there is no error
+      const double u = std::fmax(0, found.points[j].u[k]);  // 0 at the first point
       EXPECT_LE(std::abs(off(names[k].local)), 2 * u + 3e-9) << j << " " << names[k].name;
     }
     most_um = std::max(most_um, 1e6 * std::abs(off(names[0].local)));
   }
-  EXPECT_GT(most_um, 0.005);  // the test needs a visible error
+  EXPECT_GT(most_um, 0.005);  // large enough for the test
 }
 
 TEST(ModelContributor, IsABudgetLineOfTheSimplifiedModelOnly) {
@@ -60,7 +60,8 @@ TEST(ModelContributor, IsABudgetLineOfTheSimplifiedModelOnly) {
   EXPECT_EQ(lines_of(Model::simplified), lines_of(Model::exact) + 1);
 }
 
-// The contributor is a part of one standard uncertainty, without a key and without a unit factor.
+// The contributor has one part, which is one standard uncertainty; it has no key, and the factor of
+// its unit is 1.
 TEST(ModelContributor, IsOneStandardUncertainty) {
   const Rig rig = rig_x_with("", "");
   const auto run = tilting(rig, Model::simplified);

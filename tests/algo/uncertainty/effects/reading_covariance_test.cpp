@@ -1,6 +1,6 @@
-// Probes beyond five contradict each other as much as the rig declares, and no more. Surfaces are
-// sums of plane waves, and probes are displaced in the fixture: the mean of χ² is its degrees of
-// freedom.
+// With more than five probes the readings may contradict each other by as much as the rig declares.
+// The surfaces are sums of plane waves, and the probes of the fixture are displaced; the mean of χ²
+// must equal its degrees of freedom.
 #include "algo/uncertainty/effects/reading_covariance.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ Rig rig_of_seven(double flatness_length_mm) {
   return parse_rig(text, "seven.toml").value();
 }
 
-// Sum of χ² over its degrees of freedom.
+// Sums of χ² and of the degrees of freedom.
 struct ChiSquares {
   double sum = 0, freedom = 0;
   double ratio() const { return sum / freedom; }
@@ -76,9 +76,10 @@ std::vector<double> heights_m(const test_faults::DrawnSurface& top,
   return all;
 }
 
-// Waves far shorter than the distances of the probes change each reading independently, by twice
-// their variance because of the zero. Waves far longer are tilts and bows, which five errors
-// explain almost completely.
+// Waves far shorter than the distances between the probes change each reading independently. The
+// variance of the change is twice the variance of the heights, because the height at the zero
+// varies, too. Waves far longer appear as tilts and bows, which the five errors explain almost
+// completely.
 TEST(ReadingCovariance, SurfaceMatchesWavesOfAnyLength) {
   std::mt19937_64 engine(21);
   std::normal_distribution<> normal(0, kWhite_m);
@@ -100,8 +101,8 @@ TEST(ReadingCovariance, SurfaceMatchesWavesOfAnyLength) {
   }
 }
 
-// A fault as large as the flatness is found where the surface cannot cause it, and no fault is
-// found where the surface can.
+// A fault as large as the flatness error must be found if the surface cannot cause it, and must not
+// be found if the surface can.
 TEST(ReadingCovariance, FindsAFaultButNotTheSurface) {
   std::mt19937_64 engine(22);
   std::normal_distribution<> normal(0, kWhite_m);
@@ -132,8 +133,8 @@ TEST(ReadingCovariance, FindsAFaultButNotTheSurface) {
   EXPECT_EQ(accused(400, 0.5e-6), 2000);
 }
 
-// Results of a calibration: zeros and places of F and G. Each zero almost compensates the effect of
-// its place at a tilt of 5 mrad.
+// A calibration determines the zeros and positions of F and G. At a tilt of 5 mrad the effect of
+// each zero almost compensates the effect of the position of the same probe.
 constexpr double kPlace_m = 20e-6, kTilt_rad = 5e-3, kCorrelation = 0.95;
 
 TEST(ReadingCovariance, CalibrationKeepsItsCorrelations) {
@@ -153,7 +154,7 @@ TEST(ReadingCovariance, CalibrationKeepsItsCorrelations) {
   }
   const Solver solver = Solver::create(rig, Model::rigid).value();
   const Fixture nominal = make_fixture(rig).value();
-  // The top falls by 5 µm per millimetre along x, and the side comes nearer.
+  // The top falls by 5 µm per millimetre along x, and the side comes nearer to its probes.
   const Errors5 tilted = {0, 0, 0, kTilt_rad, -kTilt_rad};
   std::mt19937_64 engine(23);
   std::normal_distribution<> normal;
@@ -181,15 +182,16 @@ TEST(ReadingCovariance, CalibrationKeepsItsCorrelations) {
   EXPECT_NEAR(all.ratio(), 1, 0.15);
 }
 
-// Each kind of calibrated quantity separately: half the difference between the readings of fixtures
-// displaced in both directions, each zeroed at the start of the run.
+// Tests each kind of calibrated quantity separately. Expected: half the difference between the
+// readings of two fixtures in which the quantity is increased or decreased by its u. Each fixture
+// is zeroed at the travel 0.
 TEST(ReadingCovariance, CalibratedQuantitiesMatchADisplacedFixture) {
   const Errors5 carriage = {20e-6, -10e-6, 1e-3, 6e-3, -4e-3};
   constexpr double d = 12e-3, kBy = 1e-3;
   struct Named {
     const char* name;
     std::size_t probe;
-    Eigen::Index place, direction;  // -1: not displaced
+    Eigen::Index place, direction;  // component of the position or direction; -1: not displaced
     double u;
   };
   for (const Named& of : {Named{"A.y", 0, 1, -1, 2e-5},
@@ -222,7 +224,7 @@ TEST(ReadingCovariance, CalibratedQuantitiesMatchADisplacedFixture) {
   }
 }
 
-// A fault that neither noise alone nor waves alone explain, but both together do.
+// Neither noise alone nor the flatness error alone explains the fault; together they do.
 TEST(ReadingCovariance, NoiseAndDeclaredUncertaintiesAdd) {
   const Rig waves = rig_of_seven(4);
   Rig exact = waves;
@@ -239,7 +241,8 @@ TEST(ReadingCovariance, NoiseAndDeclaredUncertaintiesAdd) {
     Residuals(solver, std::vector<double>(7, 200e-6), rig, 0).test(p);
     return !p.point.flags.empty();
   };
-  // The smallest fault that is flagged, with noise only and with waves only; the waves have √2 u.
+  // The smallest fault that is flagged. The noise is √2 times the declared flatness u, because the
+  // heights at the point and at the zero both vary.
   const auto least_flagged_m = [&](const Rig& rig, double noise_m) {
     double low = 1e-8, high = 1e-4;
     for (int i = 0; i < 40; ++i) {
@@ -256,8 +259,8 @@ TEST(ReadingCovariance, NoiseAndDeclaredUncertaintiesAdd) {
   EXPECT_NEAR(by_both_m / std::hypot(by_noise_m, by_waves_m), 1, 0.05);
 }
 
-// The effect of a wrong travel on the readings, to first order of Eq. 2-7: a reading of the top
-// changes by d times the pitch, a reading of the side by -d times the yaw.
+// Effect of an error of the travel d on the readings, to first order of Eq. 2-7: a top reading
+// changes by the error times the pitch, a side reading by the error times -yaw.
 constexpr double kPitch_rad = 200e-6, kYaw_rad = -300e-6;
 
 Eigen::MatrixXd covariance_of(const std::string& declared, double travel_m) {
@@ -283,8 +286,8 @@ TEST(EncoderCovariance, IsCommonToAllReadings) {
   EXPECT_EQ(covariance_of("", 0.03).norm(), 0);
 }
 
-// A record with the direction of a probe replaces the direction of the rig, by X and Y for a top
-// probe and by X and Z for a side probe.
+// A direction in the calibration record of a probe replaces the direction of the rig: its X and Y
+// components for a top probe, its X and Z components for a side probe.
 TEST(CalibratedDirections, ReplaceTheDirectionsOfTheRig) {
   for (const auto& [id, across] : {std::pair("A", 1U), {"B", 1U}, {"D", 2U}, {"E", 2U}}) {
     const auto covariance = [id = std::string(id), across = across](const std::string& keys) {

@@ -1,4 +1,4 @@
-// Which contributors of two set-ups are the same quantity, and the effect of one surface on runs
+// Tests which contributors of two set-ups are the same quantity, and how one surface affects runs
 // along different axes.
 #include "algo/uncertainty/statistics/common_quantities.h"
 
@@ -32,7 +32,8 @@ std::string common_name(const Rig& rig, const Contributor& contributor) {
   return list[0].common_as;
 }
 
-// Scale, linearity and tilt factor belong to a probe and its certificate; a zero does not.
+// The scale, linearity and tilt factor of a probe are common to all set-ups with the same
+// certificate of the probe. The zero of a probe is not.
 TEST(CommonQuantities, ProbeQuantitiesDependOnItsCertificate) {
   Rig rig = test::rig_x_with("", ""), other = rig;
   rig.probes[1].calibration.certificate = "K 17";
@@ -80,7 +81,7 @@ TEST(CommonQuantities, PlaneIsGivenByNameNormalUncertaintyAndLength) {
 
 const Eigen::Vector3d kZeroed(0.001, -0.003, 0.02);  // position of the probe at d = 0
 
-// `places` in M (x, y, z); along Y the local frame has x = +Y, y = -X.
+// `places`: (x, y, z) in M. A run along Y has the local axes x = +Y and y = -X.
 Contributor over_surface(const std::vector<Eigen::Vector3d>& places, bool along_y) {
   PlaneFootprints surface{1e-7, 0.05, {}, {}, places.size()};
   for (std::size_t j = 0; j < places.size(); ++j) {
@@ -117,7 +118,7 @@ TEST(CommonQuantities, SurfaceHasTheSameHeightForRunsAlongXAndY) {
       largest = std::max(largest, std::abs(parts.b[0][p][j][0]));
     }
   EXPECT_GT(largest, 1e-8);
-  // The covariance equals that of the places in M.
+  // The covariance of the contributions equals the covariance of the heights at these places in M.
   const FlatnessCovariance covariance(1e-7, 0.05);
   for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t j = 0; j < places.size(); ++j) {
@@ -128,7 +129,7 @@ TEST(CommonQuantities, SurfaceHasTheSameHeightForRunsAlongXAndY) {
   EXPECT_EQ(of_a[1].common_as, "top");
   EXPECT_EQ(of_b[0].common_as, "top");
   EXPECT_EQ(of_a[0].common_as, "");
-  EXPECT_EQ(parts.a[0][0][0][0], 7);  // not common
+  EXPECT_EQ(parts.a[0][0][0][0], 7);  // the part of a quantity that is not common
 }
 
 TEST(CommonQuantities, TwoSurfacesHaveSeparateParts) {

@@ -1,5 +1,5 @@
-// Random errors of visits, and intervals of ranges and repeatabilities, for a few visits and trials
-// calculated by hand.
+// Tests the random errors of visits, and the intervals of ranges and of repeatabilities, for a few
+// visits and trials that are calculated by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,13 +30,15 @@ MeasuredPoint visit_by_hand(int target, int run, int direction, const Errors5& n
   return p;
 }
 
-// Two runs of three targets in both directions. Each pass deviates by s, and each target of it
-// additionally by d, whose sum is 0. The first run has s = 3 and d = 1, 0, -1 forward, s = 5 and d
-// = 2, -1, -1 reverse; the second run has the opposite signs. The means are 100 times the target
-// number, 7 lower in reverse. Error k is k + 1 times these values.
+// Two runs of three targets in both directions. All visits of a pass deviate by s, and the visit of
+// each target deviates by d in addition; the sum of d over a pass is 0.
+// Run 1, forward: s = 3, d = 1, 0, -1.
+// Run 1, reverse: s = 5, d = 2, -1, -1.
+// Run 2 has the opposite signs. The mean of a target is 100 times its number, 7 less in reverse.
+// Error k has k + 1 times these values.
 constexpr double kShift[] = {3, 5};
 constexpr double kOff[2][3] = {{1, 0, -1}, {2, -1, -1}};
-constexpr double kSquaresOfOff = 2 * (1 + 1) + 2 * (4 + 1 + 1);  // both runs
+constexpr double kSquaresOfOff = 2 * (1 + 1) + 2 * (4 + 1 + 1);  // sum of d² of both runs
 std::vector<MeasuredPoint> two_runs_by_hand(double noise_u = 0) {
   std::vector<MeasuredPoint> points;
   for (const int run : {1, 2})
@@ -55,7 +57,8 @@ Repeatability repeatability_by_hand(const std::vector<MeasuredPoint>& points) {
   return repeatability(x, points, target_means(x, points, Approach::both));
 }
 
-// 12 visits, 6 targets and directions, 4 passes minus 2 directions: 4 degrees of freedom.
+// 12 visits, 6 means of targets and directions, and 4 passes minus 2 directions: 4 degrees of
+// freedom.
 TEST(RepeatabilityByHand, IsTheScatterWithoutThePasses) {
   const Repeatability found = repeatability_by_hand(two_runs_by_hand());
   const double variance = kSquaresOfOff / 4;
@@ -66,13 +69,14 @@ TEST(RepeatabilityByHand, IsTheScatterWithoutThePasses) {
     const auto by = static_cast<double>(k + 1);
     EXPECT_TRUE(found.by_scatter[k]);
     for (const Errors5& u : found.u) EXPECT_NEAR(u[k], by * std::sqrt(variance / 4), 1e-9);
-    // The mean of a run deviates by ±(3 + 5)/2: a variance of 32 with one degree of freedom, minus
-    // the contribution of the scatter to a mean of six visits. The mean of two runs has half of it.
+    // The means of the two runs deviate by ±(3 + 5)/2 from their mean: a variance of 32 with one
+    // degree of freedom. The contribution of the scatter to a mean of six visits is subtracted. The
+    // mean of two runs has half of this variance.
     EXPECT_NEAR(found.u_shift[k], by * std::sqrt((32 - variance / 6) / 2), 1e-9);
   }
 }
 
-// Visits without errors or with unknown approach do not count.
+// Visits that have no errors or whose approach is unknown are ignored.
 TEST(RepeatabilityByHand, IgnoresInvalidVisits) {
   auto points = two_runs_by_hand();
   const Repeatability without = repeatability_by_hand(points);
@@ -86,8 +90,8 @@ TEST(RepeatabilityByHand, IgnoresInvalidVisits) {
   EXPECT_EQ(found.u_shift, without.u_shift);
 }
 
-// The scatter counts if its variance exceeds 1 + 0.84 sqrt(2/4) times that of the noise: the
-// variance 4 exceeds a noise variance below 2.51.
+// The scatter is used if its variance exceeds 1 + 0.84 sqrt(2/4) times the variance of the noise.
+// The variance 4 exceeds this limit if the variance of the noise is below 2.51.
 TEST(RepeatabilityByHand, ScatterCountsIfItExceedsTheNoise) {
   auto of_first = [](double noise_variance) {
     const Repeatability found = repeatability_by_hand(two_runs_by_hand(std::sqrt(noise_variance)));
@@ -100,8 +104,8 @@ TEST(RepeatabilityByHand, ScatterCountsIfItExceedsTheNoise) {
   EXPECT_NEAR(of_first(9).second, 1.5, 1e-9);
 }
 
-// The visits of a noisier target have a larger share of the scatter: variances of 1, 4 and 1 have
-// the mean 2.
+// The variance of the scatter is divided among the targets in proportion to the variance of their
+// noise: 1, 4 and 1, with the mean 2.
 TEST(RepeatabilityByHand, IsSharedInProportionToTheNoise) {
   auto points = two_runs_by_hand(1e-3);
   for (MeasuredPoint& p : points)
@@ -125,20 +129,20 @@ TEST(RepeatabilityByHand, IsTheNoiseForOneRun) {
   for (const Errors5& u : found.u) EXPECT_NEAR(u[0], 0.5 / std::sqrt(2), 1e-12);
 }
 
-// With one direction, the mean at a target has only two visits.
+// In one direction, the mean of a target contains only two visits.
 TEST(RepeatabilityByHand, IsCorrectForOneDirection) {
   std::vector<MeasuredPoint> forward;
   for (const MeasuredPoint& p : two_runs_by_hand())
     if (p.point.direction > 0) forward.push_back(p);
   const Repeatability found = repeatability_by_hand(forward);
-  EXPECT_NEAR(found.freedom, 2, 1e-12);  // 6 visits, 3 targets, 2 passes less 1
+  EXPECT_NEAR(found.freedom, 2, 1e-12);  // 6 visits, 3 means of targets, 2 passes minus 1 direction
   const double variance = 4 / 2.0;
   EXPECT_NEAR(found.u[0][0], std::sqrt(variance / 2), 1e-9);
   EXPECT_NEAR(found.u_shift[0], std::sqrt((2 * 9 - variance / 3) / 2), 1e-9);
 }
 
-// A target with one direction in all runs takes the mean reversal of the others; its u is the u of
-// its mean.
+// Target 3 has visits in one direction only. Its mean is corrected with the mean reversal of the
+// other targets, and the u of the target is the u of this mean.
 TEST(RepeatabilityByHand, OneDirectionTargetHasTheUOfItsMean) {
   std::vector<MeasuredPoint> points;
   for (const MeasuredPoint& p : two_runs_by_hand())
@@ -149,13 +153,13 @@ TEST(RepeatabilityByHand, OneDirectionTargetHasTheUOfItsMean) {
   EXPECT_NE(found.u[1], means[1].u);
 }
 
-// Squares about the six means: 2 (3 (9 + 25) + 2 + 6) = 220 with 6 degrees of freedom; the means of
-// the passes alone: 2 * 3 (9 + 25) = 204 with 2.
+// Sum of squares about the six means: 2 (3 (9 + 25) + 2 + 6) = 220, with 6 degrees of freedom. The
+// part of the means of the passes is 2 * 3 (9 + 25) = 204, with 2 degrees of freedom.
 TEST(VisitScatterByHand, PoolsVisitsAndPasses) {
   auto points = two_runs_by_hand();
   std::vector<Errors5> values;
   for (const MeasuredPoint& p : points) values.push_back(named_from_local(Axis::x, p.errors.local));
-  // Points that do not count are skipped.
+  // A point whose approach is unknown is ignored.
   points.insert(points.begin() + 4, visit_by_hand(1, 1, 0, {}));
   values.insert(values.begin() + 4, Errors5{1e6, 1e6, 1e6, 1e6, 1e6});
   const VisitScatter scatter(points);
@@ -182,8 +186,8 @@ TEST(VisitScatterByHand, IsZeroForSingleVisits) {
   EXPECT_FALSE(none.are_single());
 }
 
-// A target that is visited again in one run: there is one pass, so its mean gives no information
-// about passes.
+// One target is visited three times in one run. There is only one pass, so its mean gives no
+// information about the scatter of passes.
 TEST(VisitScatterByHand, IsCorrectForOneTargetInOneRun) {
   const std::vector<MeasuredPoint> points(3, visit_by_hand(1, 1, -1, {}));
   const auto pooled = VisitScatter(points).of({{1, 0, 0, 0, 0}, {2, 0, 0, 0, 0}, {6, 0, 0, 0, 0}});
@@ -191,7 +195,8 @@ TEST(VisitScatterByHand, IsCorrectForOneTargetInOneRun) {
   EXPECT_NEAR(pooled.freedom[0], 2, 1e-12);
 }
 
-// Two deviations 100 apart; the second one changes by 1, 2 ... n, and the range by the same amount.
+// Two deviations differ by 100. In the trials the second deviation changes by 1, 2 ... n, and the
+// range changes by the same amount.
 TEST(RangeIntervalByHand, IsThe95PercentPointOfItsChange) {
   for (const std::size_t n : {20u, 100u}) {
     std::vector<double> changes;
@@ -199,33 +204,36 @@ TEST(RangeIntervalByHand, IsThe95PercentPointOfItsChange) {
       changes.push_back(0);
       changes.push_back(static_cast<double>(t));
     }
-    // The 95 % point of n distances, from 0 on.
+    // The 95 % point of n distances that are counted from 0.
     const double expected = n == 20 ? 20 : 96;
     EXPECT_NEAR(RangeTrials({0, 100}, changes).U(), expected, 1e-9);
-    // The opposite signs give the same result.
+    // Changes with the opposite sign give the same result.
     for (double& c : changes) c = -c;
     EXPECT_NEAR(RangeTrials({0, -100}, changes).U(), expected, 1e-9);
-    // A range below U may be 0.
+    // If the measured range is smaller than U, the true range may be 0.
     EXPECT_NEAR(RangeTrials({0, -7}, changes).U(), expected, 1e-9);
   }
 }
 
-// 0, 5 and 10, with errors of 6 in the middle and 1 at the top. If U/2 is cut off at both ends, the
-// range is 1 + U/2 larger than the true one, which is U for U = 2.
+// The deviations are 0, 5 and 10; the trial has errors of 6 in the middle and 1 at the top. If both
+// ends are reduced by U/2, the range of the trial exceeds the reduced range by 1 + U/2. This equals
+// U for U = 2.
 TEST(RangeIntervalByHand, CoversTheBiasOfASmallerTrueRange) {
   EXPECT_NEAR(RangeTrials({0, 5, 10}, {0, 6, 1}).U(), 2, 1e-9);
   EXPECT_NEAR(RangeTrials({10, 0, 5}, {1, 0, 6}).U(), 2, 1e-9);
 }
 
 TEST(RangeIntervalByHand, SpreadMatchesTheTrials) {
-  const RangeTrials trials({1, 4, 11}, {0, 0, -2, 0, 0, 4, 0, 0, 1});  // ranges 8, 14, 11
+  // The ranges of the trials are 8, 14 and 11.
+  const RangeTrials trials({1, 4, 11}, {0, 0, -2, 0, 0, 4, 0, 0, 1});
   EXPECT_NEAR(trials.standard_deviation(), 3, 1e-12);
   EXPECT_NEAR(trials.root_mean_square(), std::sqrt((4 + 16 + 1) / 3.0), 1e-12);
   EXPECT_EQ(RangeTrials({1, 4}, {0, 2}).standard_deviation(), 0);
 }
 
-// Target 1: reverse 1, 3, 5 (s 2), forward 10, 11, 12 (s 1). Target 2: reverse 0, 0, 3 (s sqrt 3),
-// forward 2, 4, 6 (s 2).
+// Visits and their standard deviations s:
+// Target 1, reverse: 1, 3, 5 (s = 2); forward: 10, 11, 12 (s = 1).
+// Target 2, reverse: 0, 0, 3 (s = sqrt 3); forward: 2, 4, 6 (s = 2).
 VisitGroups groups_by_hand() {
   return {{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}, 2};
 }
@@ -236,13 +244,13 @@ TEST(RepeatabilityOfVisits, MatchesTheStandard) {
   const double* values = kVisitsByHand.data();
   EXPECT_NEAR(repeatability_R(groups, values, RepeatabilityKind::forward), 8, 1e-12);
   EXPECT_NEAR(repeatability_R(groups, values, RepeatabilityKind::reverse), 8, 1e-12);
-  // 2 * 2 + 2 * 1 + |11 - 3| at target 1.
+  // R = 2 * 2 + 2 * 1 + |11 - 3| at target 1.
   EXPECT_NEAR(repeatability_R(groups, values, RepeatabilityKind::both), 14, 1e-12);
-  // Forward lower than reverse gives the same result.
+  // If the signs are changed, forward is lower than reverse, and R is the same.
   std::vector<double> mirrored = kVisitsByHand;
   for (double& v : mirrored) v = -v;
   EXPECT_NEAR(repeatability_R(groups, mirrored.data(), RepeatabilityKind::both), 14, 1e-12);
-  // Without a reversal, the larger scatter counts four times.
+  // Without a reversal, R is four times the larger s.
   const VisitGroups one{{0, 0, 1, 1}, 1};
   const std::vector<double> still = {0, 0, -1, 1};
   EXPECT_NEAR(repeatability_R(one, still.data(), RepeatabilityKind::both), 4 * std::sqrt(2), 1e-12);
@@ -262,8 +270,8 @@ TEST(RepeatabilityOfVisits, IsUnknownForASingleVisit) {
   EXPECT_TRUE(std::isnan(repeatability_U(groups, values, {0, 0, 0}, RepeatabilityKind::forward)));
 }
 
-// Errors of e times the readings increase R by e R, for any true R: U = e R. The 95 % point of 40
-// trials of 0.01, 0.02 ... is the 39th.
+// The errors in a trial are e times the readings, so they increase R by e R. This holds for any
+// true R: U = e R. The 95 % point of the 40 trials e = 0.01, 0.02 ... is the 39th.
 TEST(RepeatabilityOfVisits, UIsThe95PercentPoint) {
   const auto errors_up_to = [](double most) {
     std::vector<double> errors;
@@ -278,13 +286,13 @@ TEST(RepeatabilityOfVisits, UIsThe95PercentPoint) {
     const double U = repeatability_U(groups, kVisitsByHand, errors_up_to(0.4), of);
     EXPECT_GE(U, 0.39 * R - 1e-9);
     EXPECT_LE(U, (0.39 + 1 / 256.) * R + 1e-9);
-    // U is at least as large as the errors give for R = 0.
+    // U is at least the 95 % point that these errors have for R = 0.
     EXPECT_NEAR(repeatability_U(groups, kVisitsByHand, errors_up_to(1.2), of), 1.17 * R, 1e-9);
   }
 }
 
-// The errors reduce the readings by three quarters: a true part l of them is read as |l - 0.75| R.
-// The interval ends at l = 0.58, but the deviation for the readings themselves is 0.75 R.
+// The errors are -0.75 times the readings: R for a true part l of the readings is calculated as |l
+// - 0.75| R. The interval ends at l = 0.58, but the deviation for l = 1 is 0.75 R.
 TEST(RepeatabilityOfVisits, UIsAtLeastTheErrorOfTheReadings) {
   std::vector<double> errors;
   for (const double v : kVisitsByHand) errors.push_back(-0.75 * v);
@@ -292,16 +300,17 @@ TEST(RepeatabilityOfVisits, UIsAtLeastTheErrorOfTheReadings) {
               0.75 * 14, 1e-9);
 }
 
-// The squares of the parts add to each covariance, for as many parts as quantities or fewer.
+// The products of the parts add to each covariance. There are as many parts as quantities, or
+// fewer.
 TEST(IndependentParts, HaveTheCovariance) {
   const double covariance[4][4] = {{4, 2, 0, -1}, {2, 5, 0, 3}, {0, 0, 0, 0}, {-1, 3, 0, 9}};
   const auto of = [&](std::size_t i, std::size_t j) { return covariance[i][j]; };
   const Eigen::MatrixXd all = independent_parts(4, of, 10);
-  EXPECT_EQ(all.cols(), 3);  // the third quantity is 0
+  EXPECT_EQ(all.cols(), 3);  // the variance of the third quantity is 0
   for (Eigen::Index i = 0; i < 4; ++i)
     for (Eigen::Index j = 0; j < 4; ++j)
       EXPECT_NEAR(all.row(i).dot(all.row(j)), covariance[i][j], 1e-12) << i << j;
-  // With fewer parts than needed, each quantity keeps its variance.
+  // If fewer parts are allowed than needed, each quantity keeps its variance.
   for (const std::size_t most : {1u, 2u}) {
     const Eigen::MatrixXd some = independent_parts(4, of, most);
     EXPECT_EQ(some.cols(), static_cast<Eigen::Index>(most));
@@ -313,7 +322,8 @@ TEST(IndependentParts, HaveTheCovariance) {
   EXPECT_EQ(independent_parts(0, of, 5).size(), 0);
 }
 
-// Each part is the weighted sum of the shifts of the quantities.
+// Each part is the sum of the shifts by the single quantities, weighted by the coefficients of the
+// part.
 TEST(IndependentParts, AreCombinedWithTheirShifts) {
   Eigen::MatrixXd rows(2, 2);
   rows << 1, 0, 0.5, -2;

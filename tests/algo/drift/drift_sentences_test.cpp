@@ -1,4 +1,4 @@
-// The texts about a drift, with each number calculated by hand.
+// Tests the texts about a drift. Each number is calculated by hand.
 #include "algo/drift/drift_sentences.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,8 @@
 namespace mdof::algo {
 namespace {
 
-// In 3 min: δy +0.25 µm and εz -5 µrad by a drift; δz +0.5 µm, which may be steps.
+// A log of 3 min. δy changes by +0.25 µm and εz by -5 µrad because of a drift. δz changes by +0.5
+// µm, which may be steps.
 RunDrift three_changes() {
   RunDrift drift;
   drift.length_s = 180;
@@ -34,14 +35,14 @@ TEST(DriftSentences, NameEachErrorOfTheMovingBody) {
             "(3 min)");
   EXPECT_EQ(changes_text(drift, {Axis::x, {}}, true),
             "EZX +0.5000 ± 0.0030 µm from the first point to the last (3 min)");
-  // If the fixture moves, the sign is opposite. Along Y, δy is -EXY.
+  // If the fixture moves, the sign is opposite. For a run along Y, EXY is -δy.
   const Sides fixture{.fixture_moves = true};
   EXPECT_EQ(changes_text(drift, {Axis::x, fixture}, false).substr(0, 24), "EYX -0.2500 ± 0.0040 µ");
   EXPECT_EQ(changes_text(drift, {Axis::y, {}}, false).substr(0, 11), "EXY -0.2500");
   EXPECT_EQ(changes_text(RunDrift{}, {Axis::x, {}}, false), "");
 }
 
-// GUM 7.2.6: two significant digits of u, also if the rounding of u adds a digit.
+// GUM 7.2.6: u has two significant digits, also if its rounding adds a digit.
 TEST(DriftSentences, RoundToTwoDigitsOfU) {
   const auto said = [](double change_m, double u_m) {
     RunDrift drift = three_changes();
@@ -71,7 +72,7 @@ TEST(DriftSentences, ReportRemovedAndRemainingDrifts) {
             "drift_not_removed reason=too few\n");
 }
 
-// 0.1 and 0.3 µm in 3 min are 2 and 6 µm/h.
+// Changes of 0.1 and 0.3 µm in 3 min are drifts of 2 and 6 µm/h.
 TEST(DriftSentences, NameTheProbesAboveTheLimit) {
   RunDrift drift = three_changes();
   const Rig rig = test::rig_x_with("", "", "[drift]\nlimit_um_per_h = 4\n");
@@ -87,7 +88,8 @@ TEST(DriftSentences, NameTheProbesAboveTheLimit) {
   EXPECT_EQ(test::shown(over_limit(drift, rig)), "");
 }
 
-// Local εx is EAX of X and EBY of Y, and so on: each error has its own sign and size.
+// The local error εx is EAX for a run along X and EBY for a run along Y. Each of the five errors
+// has its own sign and size.
 TEST(DriftSentences, NameAllFiveErrors) {
   RunDrift drift;
   drift.length_s = 60;
@@ -106,7 +108,8 @@ TEST(DriftSentences, NameAllFiveErrors) {
             "EYX -1.00 ± 0.10 µm, EZX -2.00 ± 0.10 µm, EAX -3.00 ± 0.10 µrad, EBX -4.00 ± 0.10 "
             "µrad, ECX -5.00 ± 0.10 µrad" +
                 end);
-  // X is -local y, Y local x: EXY = -δy, EAY (about X) = -εy, EBY (about Y) = εx.
+  // For a run along Y, the machine axis X is -y and the machine axis Y is x of the local frame: EXY
+  // = -δy, EAY (about X) = -εy, EBY (about Y) = εx.
   EXPECT_EQ(changes_text(drift, {Axis::y, {}}, false),
             "EXY -1.00 ± 0.10 µm, EZY +2.00 ± 0.10 µm, EAY -4.00 ± 0.10 µrad, EBY +3.00 ± 0.10 "
             "µrad, ECY +5.00 ± 0.10 µrad" +

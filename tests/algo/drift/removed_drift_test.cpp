@@ -1,7 +1,7 @@
-// Do the stated 95 % intervals contain the truth after a drift was removed? The test simulates the
-// logs: form and reversal of an axis, a drift, white noise and correlated noise. The truth is the
-// error relative to the start, where the system was zeroed. Set MDOF_COVERAGE_RUNS=1000 for
-// published figures.
+// Tests whether the stated 95 % intervals contain the truth after a drift was removed. The
+// simulated logs consist of the form and reversal of an axis, a drift, white noise and correlated
+// noise. The truth is the error relative to the start, where the system was zeroed. Set
+// MDOF_COVERAGE_RUNS=1000 to calculate figures for publication.
 #include "algo/drift/removed_drift.h"
 
 #include <gtest/gtest.h>
@@ -25,13 +25,14 @@ namespace {
 
 constexpr int kTargets = 13;
 constexpr double kStop_s = 2, kWhite = 3e-9;
-constexpr std::array<double, 5> kSizes = {1, 1, 100, 100, 100};  // of the errors, relative to δy
+// Size of each error relative to δy.
+constexpr std::array<double, 5> kSizes = {1, 1, 100, 100, 100};
 
 double log_length_s(int runs) {
   return kStop_s * (2 * kTargets * runs - 1);
 }
 
-// Correlated noise that is added to an error of size 1 at each stop.
+// Correlated noise of an error at each stop, for an error of size 1.
 using Slow = std::function<std::vector<double>(std::mt19937_64&, std::size_t stops)>;
 
 Slow lasting(double correlation_s, double sd) {
@@ -45,7 +46,7 @@ Slow lasting(double correlation_s, double sd) {
   };
 }
 
-// `sd`: standard deviation at the end of the log.
+// `sd`: standard deviation of the random walk at the end of the log.
 Slow random_walk(double sd) {
   return [=](std::mt19937_64& engine, std::size_t stops) {
     std::normal_distribution<> normal;
@@ -62,7 +63,8 @@ Slow none() {
 
 struct World {
   int runs = 3;
-  std::function<double(double part)> drift = [](double) { return 0.0; };  // m; part of the log
+  // M, at a fraction of the log.
+  std::function<double(double part)> drift = [](double) { return 0.0; };
   Slow slow = none();
 
   static double form(double position_m, std::size_t k) {
@@ -170,7 +172,8 @@ void count_tables(Coverage& coverage, const Rig& rig, const Run& run, const Run&
   for (const double x : exact.position_m)
     for (std::size_t k = 0; k < 5; ++k) {
       const TableValue is = table_at(table, x, TableSide::mean);
-      if (names[k].angle && x == exact.position_m.front()) continue;  // 0 by definition
+      // The angle is 0 by definition.
+      if (names[k].angle && x == exact.position_m.front()) continue;
       coverage[names[k].angle ? "table angles" : "table straightness"].count(
           is.error[k] - table_at(exact, x, TableSide::mean).error[k], 2 * is.u[k]);
     }
@@ -208,12 +211,13 @@ void print(const std::string& name, const Found& found, int runs) {
   std::printf("\n");
 }
 
-// Three standard deviations of the share of intervals, in %, for this number of runs.
+// Three standard deviations of a share of intervals, in %, for this number of runs.
 double three_sd(int runs) {
   return 65 / std::sqrt(runs);
 }
 
-// The angles of a table refer to its first target, whose noise is not in u: 88 % without any drift.
+// The angles of a table are relative to the first target. The noise of this target is not in u, so
+// the share is 88 % even without a drift.
 void expect_covered(const Found& found, int runs, double table_angles) {
   for (const auto& [what, share] : found.coverage)
     EXPECT_GT(share.percent(), (what == "table angles" ? table_angles : 95) - three_sd(runs))
@@ -244,8 +248,8 @@ TEST(RemovedDrift, BesideARandomWalk) {
 }
 
 // The uncertainty of the removed drift contains the random walk. The walk also changes the slopes
-// of the runs, but it must not count there again: white noise alone gives 3 nm/sqrt(6) for 13
-// positions 5 mm apart.
+// of the runs; this must not increase u a second time. White noise alone gives a slope u of 3
+// nm/sqrt(6) for 13 positions in steps of 5 mm.
 TEST(RemovedDrift, SlopesContainSlowNoiseOnlyOnce) {
   World world;
   world.slow = random_walk(20e-9);
@@ -290,7 +294,7 @@ TEST(RemovedDrift, IntervalsWithoutItsUMissTheTruth) {
     run.header.provenance.options_json = "{}";
     count_points(coverage, test::rig_x(), run);
   }
-  EXPECT_LT(coverage["points"].percent(), 90);  // 96 % with this u
+  EXPECT_LT(coverage["points"].percent(), 90);  // with the u of the drift: 96 %
 }
 
 TEST(RemovedDrift, StartRemainsAsMeasured) {
@@ -303,8 +307,8 @@ TEST(RemovedDrift, StartRemainsAsMeasured) {
               10e-9);
 }
 
-// At a tool 50 mm above the fixture, δy also contains the drift of εx, which is correlated with its
-// own.
+// 50 mm above the fixture, δy of the tool also contains the drift of εx. This drift is correlated
+// with the drift of δy.
 TEST(RemovedDrift, AtTheToolIncludesTheDriftOfAngles) {
   World world;
   world.drift = kDrifts.at("linear");

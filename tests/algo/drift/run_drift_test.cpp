@@ -10,15 +10,15 @@
 namespace mdof::algo {
 namespace {
 
-// 13 targets at 0 ... 60 mm, forward and back, one stop every 2 s: a run takes 52 s.
+// 13 targets at 0 ... 60 mm, forward and in reverse, with one stop every 2 s. A run takes 52 s.
 struct Log {
   int runs = 3, targets = 13;
   double noise_m = 0;
   std::uint32_t seed = 1;
   bool both_ways = true, back_to_start = false;
   std::function<double(double)> drift = [](double) { return 0.0; };  // of δy, m, at a time in s
-  std::function<double(int)> reversal = [](int) { return 80e-9; };   // by target
-  std::function<double(int)> of_run = [](int) { return 0.0; };       // a step, by run
+  std::function<double(int)> reversal = [](int) { return 80e-9; };   // for a target
+  std::function<double(int)> of_run = [](int) { return 0.0; };       // a step, for a run
 
   double length_s() const { return 2.0 * (targets * (both_ways ? 2 : 1) * runs - 1); }
 
@@ -71,7 +71,7 @@ struct Log {
 
 constexpr double kNoise = 3e-9;
 
-// Largest deviation of δy from form and reversal over all points, less the mean deviation.
+// Largest deviation of δy from the true form and reversal, minus the mean of all deviations.
 double worst_deviation_m(const Log& log, const std::vector<MeasuredPoint>& points) {
   double mean = 0;
   std::vector<double> off;
@@ -102,8 +102,8 @@ TEST(RunDrift, FindsALinearDriftExactlyWithoutNoise) {
   EXPECT_NEAR(worst_deviation_m(log, points), 100e-9, 1e-9);
 }
 
-// Noise with a correlation of 0.6 between successive readings. A fit that treats the readings as
-// independent would report a drift for 144 of these 400 logs.
+// The noise of successive readings has a correlation of 0.6. A fit that assumes independent
+// readings would report a drift for 144 of these 400 logs.
 TEST(RunDrift, CorrelatedNoiseIsNoDrift) {
   int found = 0;
   constexpr int kSeeds = 400;
@@ -114,7 +114,7 @@ TEST(RunDrift, CorrelatedNoiseIsNoDrift) {
     Log white;
     white.noise_m = kNoise;
     white.seed = seed + 10'000;
-    std::vector<double> slow;  // one value per visit, every 2 s
+    std::vector<double> slow;  // one value per visit, in intervals of 2 s
     for (const MeasuredPoint& p : white.points()) {
       const double fresh = p.errors.local[kDz] - white.form(p.target) -
                            p.point.direction * 0.5 * white.reversal(p.target);
@@ -158,7 +158,7 @@ TEST(RunDrift, ALogWithoutDriftIsGivenNoneMoreOftenThanStated) {
         break;
       }
   }
-  EXPECT_LE(errors, 16);  // at most 10 expected, plus 2 standard deviations
+  EXPECT_LE(errors, 16);  // 10 are expected; 2 standard deviations are added
   EXPECT_LE(probes, 16);
 }
 
@@ -174,7 +174,7 @@ TEST(RunDrift, AsOftenAsStatedOfTwoRuns) {
   EXPECT_LE(errors, 10);
 }
 
-// Each drift has 200 nm over the runs, the noise 3 nm. `left_m`: limit of the remaining error.
+// Each drift changes by 200 nm; the noise is 3 nm. `left_m`: limit of the remaining error.
 TEST(RunDrift, RemovesCurvedDriftsWithinLimits) {
   struct Kind {
     const char* name;
@@ -212,7 +212,7 @@ TEST(RunDrift, SingleRunCannotSeparateDriftFromForm) {
   EXPECT_NE(drift.found().not_seen.find("measure two runs"), std::string::npos);
   EXPECT_FALSE(drift.found().significant());
   EXPECT_EQ(drift.without(points)[20].errors.local, points[20].errors.local);
-  ASSERT_EQ(drift.found().closures.size(), 1u);  // it contains the reversal
+  ASSERT_EQ(drift.found().closures.size(), 1u);  // the difference contains the reversal
   EXPECT_FALSE(drift.found().closures[0].same_side);
   EXPECT_NEAR(drift.found().closures[0].change[kDy], 200e-9 - 80e-9, 1e-15);
 }
@@ -232,7 +232,7 @@ TEST(RunDrift, ClosuresUseAVisitFromTheSameSide) {
   }
 }
 
-// 78 stops 2 s apart; invalid points do not count.
+// 78 stops in intervals of 2 s. Invalid points are ignored.
 TEST(RunDrift, LengthIsFromFirstToLastValidPoint) {
   const Log log;
   EXPECT_NEAR(DriftOfRun(log.points()).found().length_s, 154, 1e-9);
@@ -259,7 +259,7 @@ TEST(RunDrift, DoesNotDependOnTheStartTime) {
   EXPECT_NEAR(later.errors[kDy].change, at_zero.errors[kDy].change, 1e-13);
 }
 
-// Somebody touched the fixture between the runs. From run to run this looks like a steady drift.
+// Somebody touched the fixture between the runs. Steps from run to run look like a steady drift.
 TEST(RunDrift, StepsBetweenRunsAreNotRemoved) {
   for (const int runs : {2, 3, 4}) {
     Log log;
@@ -282,7 +282,7 @@ TEST(RunDrift, VaryingReversalIsNoDrift) {
   EXPECT_FALSE(DriftOfRun(log.points()).found().significant());
 }
 
-// Each run and direction has its own random shift, as on real machines.
+// Each pass has its own random shift, as on real machines.
 TEST(RunDrift, RandomShiftsOfPassesAreNotTakenForADrift) {
   int removed = 0;
   for (std::uint32_t seed = 1; seed <= 500; ++seed) {
@@ -350,7 +350,7 @@ TEST(RunDrift, PointsWithoutErrorsRemainUnchanged) {
   EXPECT_TRUE(drift.found().probes[3].significant());
   const auto after = drift.without(points);
   EXPECT_EQ(after[5].errors.local, points[5].errors.local);
-  EXPECT_NE(after[6].errors.local, points[6].errors.local);  // its time and errors are known
+  EXPECT_NE(after[6].errors.local, points[6].errors.local);  // a valid point
   EXPECT_NE(DriftOfRun({}).found().not_seen, "");
 }
 
@@ -372,7 +372,7 @@ TEST(DriftDesign, CriticalTMatchesTheTables) {
   EXPECT_NEAR(critical_t(0.05, 10), 2.228, 0.001);
 }
 
-// A falling drift, and a drift that rises by 120 nm and returns to -40 nm.
+// One drift falls. The other rises by 120 nm and falls to -40 nm at the end.
 TEST(RunDrift, RangeIsHighestMinusLowest) {
   Log log;
   log.noise_m = 0.1 * kNoise;
@@ -380,14 +380,14 @@ TEST(RunDrift, RangeIsHighestMinusLowest) {
   SeriesDrift found = DriftOfRun(log.points()).found().errors[kDy];
   EXPECT_NEAR(found.range, 200e-9, 5e-9);
   EXPECT_NEAR(found.change, -200e-9, 5e-9);
-  log.drift = [&](double t) {  // 4 h x (1 - x) less 40 nm at the end
+  log.drift = [&](double t) {  // parabola 4 h x (1 - x), and -40 nm at the end
     const double x = t / log.length_s();
     return 480e-9 * x * (1 - x) - 40e-9 * x;
   };
   found = DriftOfRun(log.points()).found().errors[kDy];
   EXPECT_NEAR(found.range, 480e-9 * 0.25 * std::pow(1 - 4. / 48, 2) + 40e-9, 6e-9);
   EXPECT_NEAR(found.change, -40e-9, 5e-9);
-  // Without a drift all values are 0.
+  // Without a drift all results are 0.
   found = DriftOfRun(Log().points()).found().errors[kDz];
   EXPECT_EQ(found.order, 0);
   EXPECT_EQ(found.change, 0);

@@ -1,6 +1,6 @@
-// A drift in correlated noise, compared with generalised least squares with the whole covariance
-// matrix of the visits, which the program does not form. Legendre polynomials by their closed
-// forms.
+// A drift in correlated noise is compared with generalised least squares. The test forms the whole
+// covariance matrix of the visits, which the program does not form. The Legendre polynomials are
+// calculated by their closed forms.
 #include "algo/drift/slow_noise.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,9 @@
 namespace mdof::algo {
 namespace {
 
-// The correlation times are 1, 2, 4 ... times the mean interval of the visits, up to eight times
-// the log; the ratio of slow to white noise is 1/4, 1, 4 or more.
+// Correlation times: 1, 2, 4 ... times the mean interval between visits, up to eight times the
+// length of the log.
+// Ratios of slow to white noise: 1/4, 1, 4 and more.
 TEST(SlowNoises, RangeFromWhiteNoiseToRandomWalk) {
   const std::vector<SlowNoise> all = slow_noises({2, 3, 20, 22});
   ASSERT_EQ(all.size(), 1 + 5 * 5u);
@@ -31,10 +32,12 @@ TEST(SlowNoises, RangeFromWhiteNoiseToRandomWalk) {
     }
 }
 
-// The longest correlation time is at most eight times the log.
+// The longest correlation time is at most eight times the length of the log.
 TEST(SlowNoises, CorrelationTimesReachEightLogs) {
-  EXPECT_EQ(slow_noises({0, 1}).size(), 1 + 4 * 5u);     // 1, 2, 4, 8 of one
-  EXPECT_EQ(slow_noises({0, 1, 2}).size(), 1 + 5 * 5u);  // up to 16 of two
+  // 1, 2, 4, 8 times the interval; the log is 1 interval.
+  EXPECT_EQ(slow_noises({0, 1}).size(), 1 + 4 * 5u);
+  // Up to 16 times the interval; the log is 2 intervals.
+  EXPECT_EQ(slow_noises({0, 1, 2}).size(), 1 + 5 * 5u);
 }
 
 DriftRows uneven_rows() {
@@ -95,14 +98,15 @@ TEST(WeighedFitByMatrices, EqualsGeneralisedLeastSquares) {
   }
 }
 
-// A column of zeros has no solution.
+// A column of zeros makes the system singular, so it has no solution.
 TEST(WeighedFitByMatrices, IsNotSolvedWithAZeroColumn) {
   DriftRows rows = uneven_rows();
   rows.polynomials.col(1).setZero();
   EXPECT_FALSE(weighed_fit(rows, {2, 0.3}).solved);
 }
 
-// Runs over all places in alternating directions; each run is slower than the one before.
+// Each run visits all places in the direction opposite to the run before, and takes more time than
+// the run before.
 std::vector<TimedVisit> many_visits(std::size_t places, int runs) {
   std::vector<TimedVisit> visits;
   double time_s = 50;
@@ -145,7 +149,7 @@ TEST(DriftDesignByHand, PolynomialsAreLegendreFromTheFirstVisit) {
   }
 }
 
-// Rows are in the order of time; the mean of its place is subtracted from each row.
+// Rows are in the order of time. The mean of the rows of a place is subtracted from each of them.
 TEST(DriftDesignByHand, RowsHaveNoMeansOfPlaces) {
   std::vector<TimedVisit> visits = many_visits(3, 8);
   std::swap(visits[1], visits[9]);
@@ -181,8 +185,8 @@ TEST(DriftDesignByHand, RowsHaveNoMeansOfPlaces) {
   EXPECT_EQ(rows.freedom(), 24 - 3 - design.orders());
 }
 
-// From 49 places on two neighbours share a row, from 97 on three: the row is the mean of
-// consecutive visits.
+// From 49 places on two neighbouring visits share a row, from 97 places on three. The row is the
+// mean of consecutive visits.
 TEST(DriftDesignByHand, NeighboursOfManyPlacesShareARow) {
   for (const auto& [places, each] : {std::pair(48u, 1u), std::pair(49u, 2u), std::pair(97u, 3u)}) {
     const DriftDesign design(many_visits(places, 2));
@@ -192,7 +196,7 @@ TEST(DriftDesignByHand, NeighboursOfManyPlacesShareARow) {
     const DriftRows rows = design.rows(y);
     const std::size_t of_run = (places + each - 1) / each;
     EXPECT_EQ(rows.places, of_run);
-    // At the reversal the last place has one row, if neighbours share one.
+    // If neighbours share a row, the two visits of the last place at the reversal are in one row.
     ASSERT_EQ(rows.place.size(), 2 * of_run - (each > 1 ? 1 : 0));
     EXPECT_EQ(rows.place[1], 1u);
     EXPECT_EQ(rows.place.back(), 0u);
@@ -207,13 +211,13 @@ TEST(DriftDesignByHand, NeighboursOfManyPlacesShareARow) {
   }
 }
 
-// Differences between places are not drift: an order needs 2 % of its variance between visits of a
-// place.
+// Differences between places are not drift. An order is used if at least 2 % of its variance is
+// between visits of the same place.
 TEST(DriftDesignByHand, FreedomIsVisitsLessPlacesAndOrders) {
   const auto orders = [](std::size_t places, int runs) {
     return DriftDesign(many_visits(places, runs)).orders();
   };
-  // One place with repeated visits: the orders leave four degrees of freedom.
+  // One place with repeated visits. An order is used if at least four degrees of freedom remain.
   EXPECT_EQ(orders(1, 5), 0);
   EXPECT_EQ(orders(1, 6), 1);
   EXPECT_EQ(orders(1, 7), 2);
@@ -221,7 +225,7 @@ TEST(DriftDesignByHand, FreedomIsVisitsLessPlacesAndOrders) {
   EXPECT_EQ(orders(1, 20), 6);
   EXPECT_EQ(DriftDesign(many_visits(1, 11)).freedom(), 11 - 1 - 6);
   EXPECT_EQ(DriftDesign(many_visits(1, 6)).freedom(), 4);
-  EXPECT_EQ(DriftDesign(many_visits(1, 5)).freedom(), 0);  // no order
+  EXPECT_EQ(DriftDesign(many_visits(1, 5)).freedom(), 0);  // no order is used
 }
 
 }  // namespace

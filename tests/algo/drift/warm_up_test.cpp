@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kPerHour = 1e-9 / 3600;  // nm/h
+constexpr double kPerHour = 1e-9 / 3600;  // 1 nm/h
 
 ParkedReadings readings(std::size_t steps, double step_s, double limit_nm_per_h,
                         const std::function<double(double)>& at_nm) {
@@ -22,14 +22,15 @@ ParkedReadings readings(std::size_t steps, double step_s, double limit_nm_per_h,
   return r;
 }
 
-// Small noise without drift.
+// A small variation without drift.
 double steady(double s) {
   return 0.01 * std::sin(1.3 * s);
 }
 
-// 2 µm in total with a time constant of 20 min: the rate is 6000 exp(-t / 20 min) nm/h, and below
-// 100 nm/h after 20 min · ln 60 = 81.9 min. The window of 5 min from 80 min has the mean rate 98 ±
-// 1 nm/h, within two u of the limit; the window from 85 min has 76 nm/h.
+// The drift is 2 µm in total with a time constant of 20 min. Its rate is 6000 exp(-t / 20 min) nm/h
+// and falls below 100 nm/h after 20 min · ln 60 = 81.9 min. The window of 5 min from 80 min has a
+// mean rate of 98 ± 1 nm/h, which is within two u of the limit. The window from 85 min has a mean
+// rate of 76 nm/h.
 TEST(WarmUp, ExponentialIsReadyBelowTheLimit) {
   const auto r = readings(4 * 120, 30, 100, [](double s) { return -2000 * std::exp(-s / 1200); });
   const WarmUp w = warm_up(r);
@@ -59,15 +60,15 @@ TEST(WarmUp, LogsOfSecondsAreNotReady) {
   EXPECT_TRUE(warm_up(readings(60, 10, 1e4, steady)).ready_after_s);
 }
 
-// A dead probe has the smallest drift, but it is not ready.
+// A probe that does not work has a constant reading and the smallest drift. It must not be ready.
 TEST(WarmUp, ConstantReadingIsUnknown) {
   const WarmUp w = warm_up(readings(60, 30, 100, [](double) { return 1.5; }));
   EXPECT_EQ(w.windows[0][0].verdict, DriftVerdict::unknown);
   EXPECT_FALSE(w.ready_after_s);
 }
 
-// By hand: ten readings are 0 except the last, 1 nm: slope 4.5 / 82.5 per step, squared residuals
-// 0.9 - 4.5²/82.5, divided by 8 and by 82.5.
+// Calculated by hand: the last of ten readings is 1 nm, the others are 0. The slope is 4.5 / 82.5
+// per step; the sum of the squared residuals is 0.9 - 4.5²/82.5, divided by 8 and by 82.5.
 TEST(WarmUp, RateAndItsUncertaintyByHand) {
   const auto r = readings(10, 1, 1e6, [](double s) { return s == 9 ? 1.0 : 0.0; });
   const DriftWindow w = warm_up(r).windows[0][0];
@@ -112,7 +113,7 @@ TEST(WarmUp, MissingTemperatureExcludesItsReading) {
     r.temperature_C.push_back(20 + std::sin(static_cast<double>(i) * 30 / 200));
   for (const std::size_t i : {0U, 7U, 39U}) {
     r.temperature_C[i] = std::nan("");
-    r.series[0].value[i] += 1e-3;  // its temperature is unknown
+    r.series[0].value[i] += 1e-3;  // the temperature of this reading is unknown
   }
   const WarmUp w = warm_up(r);
   EXPECT_NEAR(w.with_temperature[0].slope_per_K, -30e-9, 1e-15);

@@ -1,4 +1,4 @@
-// The errors that a budget names because they have no cause.
+// Tests which errors a budget reports because no source acts on them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 namespace mdof::algo {
 namespace {
 
-// A squareness is one error of two axes: the budget names it once, and only if neither axis has a
-// cause for it.
+// A squareness is one error of two axes. The budget reports it once, and only if no source acts on
+// it at either axis.
 TEST(MachineBudget, NamesASquarenessWithoutACauseOnce) {
   std::string text = "name = \"m\"\nmachine = {chain = \"w-X-b-Y-Z-t\"}\n";
   for (const char* id : {"X", "Y", "Z"})
@@ -40,9 +40,9 @@ TEST(MachineBudget, NamesASquarenessWithoutACauseOnce) {
   };
   using Names = std::vector<std::string>;
   EXPECT_EQ(squares("", 0), (Names{"EA0Z", "EB0Z", "EC0Y"}));
-  EXPECT_EQ(squares("X", 5), (Names{"EA0Z", "EB0Z"}));  // EC0X
-  EXPECT_EQ(squares("Y", 5), (Names{"EA0Z", "EB0Z"}));  // EC0Y
-  EXPECT_EQ(squares("X", 4), (Names{"EA0Z", "EC0Y"}));  // EB0X
+  EXPECT_EQ(squares("X", 5), (Names{"EA0Z", "EB0Z"}));  // source of EC0X
+  EXPECT_EQ(squares("Y", 5), (Names{"EA0Z", "EB0Z"}));  // source of EC0Y
+  EXPECT_EQ(squares("X", 4), (Names{"EA0Z", "EC0Y"}));  // source of EB0X
   EXPECT_EQ(squares("Z", 3), (Names{"EB0Z", "EC0Y"}));
 }
 

@@ -13,7 +13,7 @@ const char* const kChains[] = {"XYZ", "XYZC", "XYZABC", "XYZmn", "XYZBmnopqrstuv
 constexpr SourceShape kShapes[] = {SourceShape::normal, SourceShape::rectangular,
                                    SourceShape::triangular, SourceShape::u_shaped};
 
-// Adds sources that act on up to four errors each, location errors of axes among them.
+// Adds sources. Each source acts on up to four errors, and some act on location errors of axes.
 void add_sources(Machine& machine, test::RandomMachines& random, int count) {
   for (int i = 0; i < count; ++i) {
     ErrorSource source{
@@ -34,7 +34,8 @@ void add_sources(Machine& machine, test::RandomMachines& random, int count) {
   }
 }
 
-// The machine with the effect of each source, at a value in its unit, added to its errors.
+// A copy of the machine at which each source has a value, in the unit of the source. The effects of
+// the sources are added to the errors.
 Machine with_sources_at(Machine machine, const Command& at, const std::vector<double>& value) {
   for (std::size_t s = 0; s < machine.sources.size(); ++s)
     for (const SourceEffect& e : machine.sources[s].acts_on) {
@@ -70,8 +71,8 @@ BudgetModel model_of(const Machine& machine, const Command& at,
   return budget_model(machine, at, MachineApproach::mean, stage).value();
 }
 
-// random_machine.h calculates with long double matrices, independently of the kernel. Limit: 1e-9
-// µm.
+// The expected tool error comes from the long double matrices of random_machine.h, which shares no
+// code with the kernel. Limit: 1e-9 µm.
 TEST(MachineBudgetTrials, MatchTheProductOfMatrices) {
   test::RandomMachines random(11);
   for (int i = 0; i < 60; ++i) {
@@ -92,7 +93,7 @@ TEST(MachineBudgetTrials, MatchTheProductOfMatrices) {
   }
 }
 
-// A source changes all its errors together. Limit: 1e-9 of the sensitivity.
+// A source changes all errors that it acts on together. Limit: 1e-9 of the sensitivity.
 TEST(MachineBudget, SensitivitiesMatchTheProduct) {
   test::RandomMachines random(12);
   for (int i = 0; i < 40; ++i) {
@@ -108,7 +109,7 @@ TEST(MachineBudget, SensitivitiesMatchTheProduct) {
         return Eigen::Vector3d(
             exact_error(m, at, values_at(m, at, MachineApproach::mean)).head<3>());
       };
-      constexpr double h = 10;  // up to 1 mrad
+      constexpr double h = 10;  // errors up to 1 mrad
       const Eigen::Vector3d slope =
           (8 * (with(h) - with(-h)) - (with(2 * h) - with(-2 * h))) / (12 * h);
       const Eigen::Vector3d& c = model.causes[s].sensitivity;
@@ -121,7 +122,7 @@ TEST(MachineBudgetTrials, SameBitsForAnyInstructionSetAndBlockSize) {
   test::RandomMachines random(13);
   auto machine = random.machine("XYZBmno", 0, 0, 0.3);
   machine = without_errors(machine);
-  add_sources(machine, random, 9);  // an odd number: the last block of draws is half used
+  add_sources(machine, random, 9);  // an odd number: half of the last block of draws is not used
   const auto model = model_of(machine, random.command(0.3));
   constexpr std::size_t n = 700;
   const auto all_of = [&](InstructionSet set, std::size_t cut) {
@@ -139,7 +140,7 @@ TEST(MachineBudgetTrials, SameBitsForAnyInstructionSetAndBlockSize) {
       EXPECT_EQ(all_of(set, cut), expected) << to_string(set) << " " << cut;
 }
 
-// u is the standard deviation of every distribution, and `scale` multiplies it.
+// For each shape of the distribution, u is its standard deviation; `scale` multiplies u.
 TEST(MachineBudgetTrials, ShapesHaveTheDeclaredU) {
   for (const SourceShape shape : kShapes) {
     Machine machine;
@@ -176,7 +177,7 @@ double volume_p95_um(const Machine& machine) {
   return statistics.overall({0.95, {0.95}})[3].quantiles[0].value;
 }
 
-// Table 2 of the paper: three screws of ±0.5 µm, or four causes.
+// Table 2 of the paper: three screws of ±0.5 µm, compared with four independent causes.
 TEST(MachineBudget, TreatsOneScrewAsOneCause) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   EXPECT_NEAR(volume_p95_um(machine), 0.645, 0.001);
@@ -184,7 +185,8 @@ TEST(MachineBudget, TreatsOneScrewAsOneCause) {
   const Eigen::Vector3d most = budget_u_m(model) * std::sqrt(3.0) * 1e6;
   EXPECT_NEAR(most[0], 0.450, 5e-4);
   EXPECT_NEAR(most[1], 0.242, 5e-4);
-  // The effects of one screw partly cancel; independent causes in each joint do not.
+  // The effects of one screw on several joints partly cancel. The effects of independent causes at
+  // the joints do not.
   ErrorSource one = machine.sources[0];
   machine.sources.clear();
   for (const char* name : {"X", "Y", "Z", "joint-10"}) {
@@ -199,19 +201,19 @@ TEST(MachineBudget, TreatsOneScrewAsOneCause) {
 TEST(MachineBudget, MeasuredErrorsReplaceAssumedOnes) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   const std::size_t x = static_cast<std::size_t>(machine.find("X") - machine.frames.data());
-  // 3 and 4 µm: a root mean square of 3.536, with u 0.1.
+  // EXX is measured as 3 and -4 µm with u = 0.1 µm. Its root mean square is 3.536 µm.
   machine.frames[x].error[0] = {{0, 0.06}, {3e-6, -4e-6}, {}, {1e-7, 1e-7}, {}};
   const Command at = {0.06, 0, 0, 0, 0, 0};
   const auto designed = model_of(machine, at);
   const auto measured = model_of(machine, at, BudgetStage::measured);
   EXPECT_EQ(measured.replaced, (std::vector<std::string>{"screw B on EXX", "tilt of X on EXX"}));
-  // Designed: 0.9 times the screw, and 25.4 µm by the tilt over 60 mm; the measured value is not
-  // used.
+  // The designed budget contains 0.9 times the screw, and 25.4 µm from the tilt over 60 mm. It does
+  // not use the measured value.
   EXPECT_NEAR(budget_u_m(designed)[0] * 1e6, std::hypot(0.9 * 0.288675, 25.357), 0.001);
   EXPECT_EQ(designed.values[x].error[0], 0);
   EXPECT_NEAR(budget_u_m(measured)[0] * 1e6, 0.1, 1e-9);
   EXPECT_EQ(measured.values[x].error[0], -4e-6);
-  // The screw B still acts on joint 10.
+  // Joint 10 is not measured, so the screw of B still acts on it.
   EXPECT_NEAR(budget_u_m(measured)[2], budget_u_m(designed)[2], 1e-15);
   const auto rows = designed_against_measured(machine, at);
   ASSERT_EQ(rows.size(), 1u);
@@ -228,7 +230,8 @@ TEST(MachineBudget, RefusesACauseBeyondTheModel) {
   EXPECT_NE(model.error().message.find("screw C"), std::string::npos);
 }
 
-// A source acts on an error of a body or on an error of its line: these are different errors.
+// A source can act on an error of a body or on the location error of an axis line. These errors are
+// different.
 TEST(MachineBudget, SeparatesErrorsOfLinesAndBodies) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   const auto x = static_cast<std::size_t>(machine.find("X") - machine.frames.data());
@@ -249,7 +252,7 @@ TEST(MachineBudget, SeparatesErrorsOfLinesAndBodies) {
   if (!has_location(machine.frames[x], 5)) return;
   ASSERT_TRUE(with_source(true, 1));
   EXPECT_TRUE(names(*with_source(true, 1)));
-  // The message names the error that is too large.
+  // The message reports the error that is too large.
   const auto body = with_source(false, 1e6), line = with_source(true, 1e6);
   ASSERT_FALSE(body);
   ASSERT_FALSE(line);
@@ -262,7 +265,8 @@ TEST(MachineBudget, SeparatesErrorsOfLinesAndBodies) {
       << line.error().message;
 }
 
-// The largest value of the distribution (for u = 1, times u) plus the error must be below 10 mm.
+// The error plus the largest value of the source (largest value for u = 1, times u) must be below
+// 10 mm.
 TEST(MachineBudget, RefusesACauseByItsLargestValue) {
   const auto exceeds_limit = [](SourceShape shape, double u_um, double value_m) {
     Machine machine;
@@ -282,8 +286,8 @@ TEST(MachineBudget, RefusesACauseByItsLargestValue) {
   }
 }
 
-// The limits are 10 mm for the three lengths and 0.1 rad for the three angles; the message names
-// the error.
+// The limits are 10 mm for the three displacements and 0.1 rad for the three angles. The message
+// reports the error.
 TEST(MachineBudget, EachErrorOfABodyHasItsLimit) {
   const auto refusal = [](std::size_t k, double u) {
     Machine machine;
@@ -305,8 +309,8 @@ TEST(MachineBudget, EachErrorOfABodyHasItsLimit) {
   }
 }
 
-// Each of three causes moves one coordinate. Marked causes take their values from a second,
-// independent draw.
+// Each of three causes moves one coordinate. Marked causes have the values of a second, independent
+// draw.
 TEST(MachineBudgetTrials, MixedTrialsTakeTheMarkedCausesFromTheSecondDraw) {
   Machine machine;
   machine.frames.resize(1);
@@ -341,10 +345,12 @@ TEST(MachineBudgetTrials, MixedTrialsTakeTheMarkedCausesFromTheSecondDraw) {
     product += first[j] * other[j];
     square += first[j] * first[j];
   }
-  EXPECT_LT(std::abs(product), 0.15 * square);  // 900 independent numbers: about 1/30
+  // The correlation of 900 independent numbers is about 1/30.
+  EXPECT_LT(std::abs(product), 0.15 * square);
 }
 
-// EXX is 1 and 3 µm forward, 3 and 5 µm reverse: means of 2 and 4 µm, u 0.5 µm. EYY is 6 µm.
+// EXX is 1 and 3 µm forward, 3 and 5 µm reverse. Its means are 2 and 4 µm with u = 0.5 µm. EYY is 6
+// µm.
 TEST(MachineBudget, ComparesDesignedAndMeasuredByHand) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   machine.sources.clear();
@@ -358,7 +364,7 @@ TEST(MachineBudget, ComparesDesignedAndMeasuredByHand) {
     machine.sources.push_back(source);
   }
   const auto rows = designed_against_measured(machine, {});
-  ASSERT_EQ(rows.size(), 2u);  // EYY has no design value: it is first
+  ASSERT_EQ(rows.size(), 2u);  // EYY has no design value and comes first
   EXPECT_EQ(rows[0].name, "EYY");
   EXPECT_FALSE(rows[0].has_design);
   EXPECT_EQ(rows[0].k, 1u);
@@ -368,10 +374,12 @@ TEST(MachineBudget, ComparesDesignedAndMeasuredByHand) {
   EXPECT_TRUE(rows[1].has_design);
   EXPECT_NEAR(rows[1].designed_u, 5e-6, 1e-18);
   EXPECT_NEAR(rows[1].measured_u, 1e-6 * std::sqrt((4 + 16) / 2.0 + 0.25), 1e-18);
-  EXPECT_NEAR(rows[1].measured_effect_m, rows[1].measured_u, 1e-18);  // the derivative is 1
+  // The tool moves by EXX, so the derivative is 1.
+  EXPECT_NEAR(rows[1].measured_effect_m, rows[1].measured_u, 1e-18);
 }
 
-// EC0Y is 5 urad with u = 2 urad: the measured value is the root of the sum of both squares.
+// EC0Y is 5 urad with u = 2 urad. The measured value of the budget is the root of the sum of both
+// squares.
 TEST(MachineBudget, ErrorOfALineIncludesItsUncertainty) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   const auto y = static_cast<std::size_t>(machine.find("Y") - machine.frames.data());

@@ -1,4 +1,5 @@
-// Reach of the arms of a tilt drive; requirements and results of circular readings of a table.
+// Reach of the arms of a tilt drive, and requirements and results of circular readings of a rotary
+// table.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -13,8 +14,8 @@
 namespace mdof::algo {
 namespace {
 
-// Angles without a pattern: the test calculates coefficients and u by the inverse of the normal
-// equations.
+// The angles have no pattern. The test calculates the coefficients and their u by the inverse of
+// the normal equations.
 TEST(PerpendicularityEdges, UnevenAnglesHaveTheirOwnU) {
   test::NoPattern random(9);
   CircleReadings r;
@@ -46,7 +47,7 @@ TEST(PerpendicularityEdges, UnevenAnglesHaveTheirOwnU) {
   }
   EXPECT_NEAR(p->EA0C_rad, x[2] / 0.07, 1e-15);
   EXPECT_NEAR(p->EB0C_rad, -x[1] / 0.07, 1e-15);
-  // tilt_known needs both tilts.
+  // tilt_known is true only if both tilts are given.
   r.tilt_a_rad.assign(25, 0.0);
   EXPECT_FALSE(perpendicularity(r, highest)->tilt_known);
   r.tilt_b_rad.assign(25, 0.0);
@@ -56,7 +57,7 @@ TEST(PerpendicularityEdges, UnevenAnglesHaveTheirOwnU) {
   EXPECT_FALSE(perpendicularity(r, highest)->axes_known);
 }
 
-// Fourteen readings at seven angles determine no more harmonics than seven readings.
+// Fourteen readings at seven angles determine only as many harmonics as seven readings.
 TEST(PerpendicularityEdges, SevenAnglesDoNotShowFiveHarmonics) {
   CircleReadings r;
   r.radius_m = 99.5;
@@ -70,7 +71,7 @@ TEST(PerpendicularityEdges, SevenAnglesDoNotShowFiveHarmonics) {
   EXPECT_TRUE(perpendicularity(r, 3));
 }
 
-// The arms reach a quarter of a turn, but not more.
+// The arms reach a quarter turn, but not more.
 TEST(TiltDriveEdges, ArmsReachAQuarterOfATurn) {
   const CoPlanarDrive drive{0.45, 17e-3};
   PlatformMotion platform{};
@@ -84,7 +85,7 @@ TEST(TiltDriveEdges, ArmsReachAQuarterOfATurn) {
   EXPECT_TRUE(platform_for(drive, screws));
   screws[kScrewC].position = -whole_m * (1 + 1e-9);
   EXPECT_FALSE(platform_for(drive, screws));
-  // From 30 degrees a step of half the arm reaches 90.
+  // From 30 degrees a travel of half the arm turns the platform by 60 degrees, to 90 degrees.
   const double step_m = 0.5 * drive.arm_m / platform_ratio(drive);
   const auto reached = rotation_step(drive, std::numbers::pi / 6, step_m * (1 - 1e-9));
   ASSERT_TRUE(reached);
@@ -92,7 +93,7 @@ TEST(TiltDriveEdges, ArmsReachAQuarterOfATurn) {
   EXPECT_FALSE(rotation_step(drive, std::numbers::pi / 6, step_m * (1 + 1e-9)));
 }
 
-// A platform at rest needs screws at rest, and vice versa.
+// If the platform is at rest, the screws must be at rest, and vice versa.
 TEST(TiltDriveEdges, PlatformAndScrewsRestTogether) {
   const CoPlanarDrive drive{0.45, 17e-3};
   PlatformMotion platform{};

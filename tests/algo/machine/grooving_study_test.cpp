@@ -1,5 +1,5 @@
-// The study compared with a machine that this file writes out: small angles, levers by hand, no
-// chain.
+// The study is compared with a machine that this file calculates separately: small angles, levers
+// by hand, no kinematic chain.
 #include "algo/machine/study/grooving_study.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kWidth = 0.4, kMiddle = 0.2, kHeight = 0.12, kArm = 0.15;
-constexpr double kRounding = 3e-10;  // second order: 10 µm at 25 µrad
-// Negligible noise; without any noise no uncertainty can be stated.
+constexpr double kRounding = 3e-10;  // second-order terms: 10 µm at 25 µrad
+// Negligible noise. Without any noise, no uncertainty could be stated.
 constexpr GroovingInstruments kQuiet = {1e-15, 1e-15, 1e-15, 1e-15, 1e-15, 2};
 
 double between(const ErrorFunction& f, double at) {
@@ -30,8 +30,9 @@ double between(const ErrorFunction& f, double at) {
 
 using Three = std::array<double, 3>;
 
-// Y carries the work and moves back, X carries the tool, 120 mm above both guides. The errors of X
-// refer to its carriage, the errors of Y to the bed in the middle of the travel of X.
+// Y carries the work and moves against its command. X carries the tool, 120 mm above both guides.
+// The errors of X are stated at the carriage of X, the errors of Y at the bed in the middle of the
+// travel of X.
 struct ByHand {
   Machine machine = grooving_machine();
   const MachineFrame& x = *machine.find("X");
@@ -69,7 +70,7 @@ double range(const std::vector<double>& values) {
          *std::min_element(values.begin(), values.end());
 }
 
-// Readings of two lasers and a square, and the errors by Eq. 1.
+// Readings of two lasers and of a square, and the errors that Eq. 1 calculates from them.
 struct Seen {
   std::vector<double> at = nodes(40), along_x, beside_x, along_y, beside_y;
   double slopes = 0;
@@ -88,7 +89,7 @@ struct Seen {
       for (std::size_t i = 0; i < at.size(); ++i) (*beside)[i] -= first + slope * at[i];
     }
   }
-  // The line of X is turned by the amount by which the axes enclose less than 90°.
+  // The line of X is turned by the angle that is missing to 90° between the axes.
   Three by_equation_1(std::size_t i, std::size_t j) const {
     return {along_x[i] + beside_y[j], beside_x[i] + along_y[j] + slopes * at[i], 0};
   }
@@ -119,7 +120,7 @@ void compare(const GroovingState& state, const ErrorAt& error) {
   EXPECT_NEAR(state.estimated.y_m, range(estimated[1]), kRounding);
   EXPECT_NEAR(state.actual.x_m, range(actual[0]), kRounding);
   EXPECT_NEAR(state.actual.y_m, range(actual[1]), kRounding);
-  // The law of cosines, for lines between the actual tool positions.
+  // Squared distance between two actual tool positions, for the law of cosines.
   const auto square = [&](double x0, double y0, double x1, double y1) {
     const Three a = error(x0, y0), b = error(x1, y1);
     return std::pow(x1 + b[0] - x0 - a[0], 2) + std::pow(y1 + b[1] - y0 - a[1], 2) +
@@ -160,20 +161,20 @@ TEST(GroovingStudy, PlaneMatchesTheCalculationByHand) {
   compare(study->before, [&](double x, double y) { return hand.error(x, y); });
   compare(study->after,
           [&](double x, double y) { return hand.corrected(study->corrections, x, y); });
-  // At the nodes of the grid of 20 mm the corrections cancel the errors by Eq. 1.
+  // At the nodes of the grid of 20 mm, the corrections cancel the errors by Eq. 1.
   const Seen seen([&](double x, double y) { return hand.error(x, y); });
   EXPECT_EQ(study->corrections.command_m[0].size(), 21U);
   for (const std::size_t i : {0U, 4U, 26U, 40U})
     for (const std::size_t j : {0U, 14U, 40U}) {
       const auto by = volumetric_at(study->corrections, {seen.at[i], seen.at[j], 0});
       const Three e = seen.by_equation_1(i, j);
-      EXPECT_NEAR(by.correction_m[0], -e[0], 2e-9);  // the error at the corrected command
+      EXPECT_NEAR(by.correction_m[0], -e[0], 2e-9);  // the error applies at the corrected command
       EXPECT_NEAR(by.correction_m[1], -e[1], 2e-9);
       EXPECT_EQ(by.correction_m[2], 0);
     }
 }
 
-// The first harmonic over 72 equal angles, by Fourier sums.
+// The expected first harmonic over 72 equal angles comes from Fourier sums.
 TEST(GroovingStudy, TableMatchesTheCalculationByHand) {
   const ByHand hand;
   const auto study = grooving_study(5, kQuiet);
@@ -183,7 +184,7 @@ TEST(GroovingStudy, TableMatchesTheCalculationByHand) {
   EXPECT_EQ(table.EA0C_rad, a0);
   EXPECT_EQ(table.EB0C_rad, b0);
   EXPECT_EQ(table.radius_m, kArm);
-  std::array<std::vector<double>, 3> height;  // as read, without tilt, without tilt and axes
+  std::array<std::vector<double>, 3> height;  // as read; without tilt; without tilt and axes
   std::vector<double> left;
   std::array<double, 3> a{}, b{};
   constexpr std::size_t kCount = 72;
@@ -193,7 +194,7 @@ TEST(GroovingStudy, TableMatchesTheCalculationByHand) {
     const double x = kMiddle + c, y = kMiddle + s;
     const double tilt = between(hand.c.error[3], angle) * s - between(hand.c.error[4], angle) * c;
     const double off = -hand.error(x, y)[2];
-    // Indicators along X and Y, read every 10 mm from 0 on.
+    // Indicators along X and Y are read every 10 mm from 0 on.
     const auto along = [&](bool is_x, double at) {
       const auto z = [&](double p) {
         return is_x ? hand.error(p, kMiddle)[2] : hand.error(kMiddle, p)[2];
@@ -233,7 +234,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-// Noise of one instrument at a time; results that do not use this instrument do not change.
+// One instrument at a time has noise. Results that do not use this instrument must not change.
 TEST(GroovingStudy, TheNoiseOfEachInstrumentIsInWhatItReads) {
   const auto quiet = grooving_study(1, kQuiet);
   ASSERT_TRUE(quiet);
@@ -262,7 +263,7 @@ TEST(GroovingStudy, TheNoiseOfEachInstrumentIsInWhatItReads) {
   constexpr double kStill = 1e-13;
   GroovingInstruments by = kQuiet;
   by.repeats = 4;
-  by.position_m = 100e-9;  // mean of four: 50 nm; the reference at 0 has the same noise
+  by.position_m = 100e-9;  // u of the mean of four is 50 nm; the reference at 0 has the same noise
   const Off laser = off(by, 8);
   EXPECT_NEAR(rms(laser.readings), 50e-9 * std::sqrt(2), 20e-9);
   EXPECT_EQ(rms(laser.first), 0);
@@ -275,35 +276,36 @@ TEST(GroovingStudy, TheNoiseOfEachInstrumentIsInWhatItReads) {
               1e-15);
 
   by = kQuiet;
-  by.square_rad = 1e-6;  // once, for any number of repeats
+  by.square_rad = 1e-6;  // one square, also for several repeats
   const Off square = off(by, 30);
   EXPECT_NEAR(rms(square.angle), 1e-6, 0.35e-6);
   EXPECT_LT(rms(square.readings) + rms(square.both) + rms(square.raw), kStill);
 
   by = kQuiet;
   by.repeats = 9;
-  by.line_m = 900e-9;  // mean of nine: 300 nm; two diagonals of 4 · 400 mm · sin 45°
+  by.line_m = 900e-9;  // u of the mean of nine is 300 nm; two diagonals of 4 · 400 mm · sin 45°
   const Off lines = off(by, 30);
   EXPECT_NEAR(rms(lines.both), 300e-9 / kWidth, 0.3 * 300e-9 / kWidth);
   EXPECT_NEAR(rms(lines.one_diagonal), 300e-9 * 2 / kWidth, 0.3 * 300e-9 * 2 / kWidth);
   EXPECT_LT(rms(lines.readings) + rms(lines.angle) + rms(lines.raw), kStill);
 
   by = kQuiet;
-  by.height_m = 60e-9;  // at each of 72 angles, once: √(2/72)/r
+  by.height_m = 60e-9;  // noise of each of 72 angles, read once: √(2/72)/r
   const Off indicator = off(by, 30);
   const double u = 60e-9 * std::sqrt(2. / 72) / kArm;
   EXPECT_NEAR(rms(indicator.raw), u, 0.35 * u);
   EXPECT_GT(rms(indicator.axes),
-            1.2 * rms(indicator.raw));  // heights along the axes, too
+            1.2 * rms(indicator.raw));  // the heights along the axes also have noise
   EXPECT_LT(rms(indicator.readings) + rms(indicator.angle) + rms(indicator.both), kStill);
 
   by = kQuiet;
-  by.tilt_rad = 1e-6;  // times the lever, twice: √((3/4 + 1/4) · 2/72)
+  by.tilt_rad = 1e-6;  // acts with the lever, twice: √((3/4 + 1/4) · 2/72)
   const Off level = off(by, 30);
   EXPECT_LT(rms(level.raw) + rms(level.readings), kStill);
   EXPECT_NEAR(rms(level.tilted), 1e-6 * std::sqrt(2. / 72), 0.35e-6 * std::sqrt(2. / 72));
 
-  // The defaults of the header: 50 nm, 0.3 µrad, 100 nm, 20 nm and 0.1 µrad, five times each.
+  // The defaults in the header are 50 nm, 0.3 µrad, 100 nm, 20 nm and 0.1 µrad, with five repeats
+  // each.
   const Off typical = off({}, 30);
   const double rms_from_lines = 100e-9 / std::sqrt(5.) / kWidth;
   const double rms_from_heights = 20e-9 / kArm * std::sqrt(2. / 72);
@@ -332,8 +334,9 @@ TEST(GroovingStudy, MachineIsCloseToThatOfThePaper) {
     for (std::size_t k = 0; k < kBodyErrors; ++k) EXPECT_TRUE(frame.error[k].known());
 }
 
-// The machine for which README and CAMPAIGNS state results: slope over the travel, and waves with
-// size, length (m, or turns of a circle) and phase (turns).
+// The errors of the machine for which README and CAMPAIGNS state results. An error is a slope over
+// the travel plus waves; each wave has a size, a length (m, or turns of a circle) and a phase
+// (turns).
 struct Shape {
   std::string axis;
   std::size_t k;

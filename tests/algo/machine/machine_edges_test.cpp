@@ -1,4 +1,5 @@
-// Limits, wrapped angles and names in the results for machines, just below and above each limit.
+// Tests limits from just below and just above, angles beyond one turn, and names of errors in the
+// results for machines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2;
 
-// n angles from `from` on, `step` apart.
+// A path with n angles from `from_rad` on, in steps of `step_rad`.
 CircularPath circular_path_from(double from_rad, double step_rad, std::size_t n) {
   CircularPath path;
   for (std::size_t i = 0; i < n; ++i) {
@@ -29,18 +30,20 @@ TEST(CircularEdges, NeedEightAnglesAndNoGapAboveAQuarter) {
   const double seventh_turn_rad = 2 * std::numbers::pi / 7;
   EXPECT_FALSE(circular_figures(circular_path_from(0, seventh_turn_rad, 7)));
   EXPECT_TRUE(
-      circular_figures(circular_path_from(0, seventh_turn_rad, 8)));  // the eighth equals the first
-  // Ten angles leave a gap of a quarter turn, or of 2 mrad more, anywhere and in any turn.
+      // The eighth angle equals the first.
+      circular_figures(circular_path_from(0, seventh_turn_rad, 8)));
+  // Ten angles leave a gap of a quarter turn, or of a quarter turn plus 2 mrad. The gap can begin
+  // at any angle and in any turn.
   for (const double from : {0.0, 1.0, 4.0, -3.0, 60.0, -60.0}) {
     EXPECT_TRUE(circular_figures(circular_path_from(from, 3 * kRightAngle / 9, 10))) << from;
     EXPECT_FALSE(circular_figures(circular_path_from(from, (3 * kRightAngle - 2e-3) / 9, 10)))
         << from;
   }
-  // Half of the angles are one turn further: the circle is the same.
+  // Half of the angles are increased by one turn. The circle is the same.
   CircularPath turned = circular_path_from(0, 2 * std::numbers::pi / 12, 12);
   for (std::size_t i = 0; i < 12; i += 2) turned.angle_rad[i] += 2 * std::numbers::pi;
   EXPECT_TRUE(circular_figures(turned));
-  // The widest gap is between two others.
+  // The widest gap is between angles that are not the first and the last.
   CircularPath gap = circular_path_from(0, 0.1, 63);
   for (std::size_t i = 45; i-- > 25;) {
     gap.angle_rad.erase(gap.angle_rad.begin() + static_cast<std::ptrdiff_t>(i));
@@ -102,11 +105,11 @@ Machine plane_machine() {
   return m;
 }
 
-// The backlash of Y depends on its direction, which reverses at 90 and 270 degrees; an axis at rest
-// has the mean of both directions.
+// The backlash of Y depends on the direction of Y, which reverses at 90 and 270 degrees. An axis at
+// rest has the mean of both directions.
 TEST(CircularEdges, EachAxisHasTheErrorsOfItsDirection) {
   Machine m = plane_machine();
-  m.frames[1].error[1] = {{}, {0}, {4e-6}, {}, {}};  // EYY: 4 µm when Y decreases, mean 2 µm
+  m.frames[1].error[1] = {{}, {0}, {4e-6}, {}, {}};  // EYY: 4 µm if Y decreases; mean 2 µm
   CircleRequest request;
   request.centre = {0.1, 0.1};
   request.radius_m = 0.02;
@@ -115,13 +118,13 @@ TEST(CircularEdges, EachAxisHasTheErrorsOfItsDirection) {
   ASSERT_TRUE(circle) << circle.error().message;
   for (std::size_t i = 0; i < 12; ++i) {
     const double sine = std::sin(circle->path.angle_rad[i]);
-    // Counter-clockwise, Y decreases after 90 degrees and up to 270 degrees.
+    // In counter-clockwise motion, Y decreases after 90 degrees and up to 270 degrees.
     const double ccw = i > 3 && i <= 9 ? 2e-6 : -2e-6;
     const double cw = i >= 3 && i < 9 ? -2e-6 : 2e-6;
     EXPECT_NEAR(circle->path.ccw_m[i], ccw * sine, 2e-10) << i;
     EXPECT_NEAR(circle->path.cw_m[i], cw * sine, 2e-10) << i;
   }
-  // A rotary axis about X is not the axis X.
+  // The rotary axis A about X must not be treated as the axis X.
   m.frames.insert(m.frames.begin(), frame_of("A", 0, FrameKind::rotary));
   m.frames[0].error[0] = {{}, {0}, {6e-6}, {}, {}};
   m.frames[2].error[1] = {};
@@ -132,7 +135,7 @@ TEST(CircularEdges, EachAxisHasTheErrorsOfItsDirection) {
 
 TEST(CircularEdges, NamesMissingErrorsAndShortTables) {
   Machine m = plane_machine();
-  m.frames[0].error[0] = {{0, 0.11}, {0, 1e-6}, {}, {}, {}};  // EXX, up to 110 mm
+  m.frames[0].error[0] = {{0, 0.11}, {0, 1e-6}, {}, {}, {}};  // the table of EXX ends at 110 mm
   CircleRequest request;
   request.centre = {0.1, 0.1};
   request.radius_m = 0.02;
@@ -152,7 +155,7 @@ TEST(CircularEdges, RadiusIsAtMostTenMetres) {
   EXPECT_EQ(request.first, 0u);
   EXPECT_EQ(request.second, 1u);
   EXPECT_EQ(request.angles, 360u);
-  EXPECT_FALSE(predicted_circle(plane_machine(), request));  // no radius
+  EXPECT_FALSE(predicted_circle(plane_machine(), request));  // the request has no radius
   request.radius_m = 10;
   request.angles = 8;
   EXPECT_TRUE(predicted_circle(plane_machine(), request));
@@ -163,7 +166,7 @@ TEST(CircularEdges, RadiusIsAtMostTenMetres) {
   EXPECT_FALSE(predicted_circle(plane_machine(), request));
 }
 
-// Lines along axes that enclose 90 degrees + error.
+// Lengths of the lines of a plane whose axes enclose 90 degrees + error.
 DiagonalLines lines_at_angle_error(double error, bool two) {
   const double x = 0.4, y = 0.3, s = std::sin(error);
   DiagonalLines lines{{{x}}, {{y}}, {{std::sqrt(x * x + y * y - 2 * x * y * s)}}, {}, 1e-7};
@@ -179,8 +182,8 @@ TEST(DiagonalEdges, AxesAreWithinSixDegreesOfSquare) {
     }
 }
 
-// Far from a right angle the sensitivities differ from those at a right angle; the test uses
-// central differences.
+// Far from a right angle, the sensitivities differ from the sensitivities at a right angle.
+// Expected: central differences.
 TEST(DiagonalEdges, SensitivitiesFarFromARightAngle) {
   for (const bool two : {false, true}) {
     DiagonalLines lines = lines_at_angle_error(0.08, two);
@@ -229,7 +232,7 @@ TEST(PlaneMapEdges, RangeIsGivenOrCommonToTheTables) {
   EXPECT_EQ(*range_of(x), (std::array<double, 2>{0.02, 0.1}));
   x.error[5] = {{-0.1, 0.08}, {0, 1e-6}, {}, {}, {}};
   EXPECT_EQ(*range_of(x), (std::array<double, 2>{0.02, 0.08}));
-  x.error[0] = {{0.08, 0.3}, {0, 1e-6}, {}, {}, {}};  // only one position is common
+  x.error[0] = {{0.08, 0.3}, {0, 1e-6}, {}, {}, {}};  // the tables have only one position in common
   EXPECT_FALSE(range_of(x));
   x.range = {-1, 2};
   EXPECT_EQ(*range_of(x), (std::array<double, 2>{-1, 2}));
@@ -237,7 +240,7 @@ TEST(PlaneMapEdges, RangeIsGivenOrCommonToTheTables) {
 
 TEST(PlaneMapEdges, StepsAreEqualAndAtLeastOne) {
   EXPECT_EQ(steps_over({1, 1.001}, 0.01), (std::vector<double>{1, 1.001}));
-  EXPECT_EQ(steps_over({0, 1}, 0.4).size(), 4u);  // 2.5 rounds away from 0
+  EXPECT_EQ(steps_over({0, 1}, 0.4).size(), 4u);  // 2.5 steps are rounded to 3
   EXPECT_EQ(steps_over({0, 1}, 0.41).size(), 3u);
   const auto at = steps_over({2, 8}, 2);
   EXPECT_EQ(at, (std::vector<double>{2, 4, 6, 8}));
@@ -247,8 +250,9 @@ TEST(PlaneMapEdges, FollowsTheOptionsOfTheRequest) {
   Machine m = plane_machine();
   m.frames.push_back(frame_of("Z", 2));
   m.frames[2].error[0] = {{0, 0.1}, {0, 10e-6}, {}, {}, {}};  // EXZ
-  m.frames[0].error[1] = {{}, {2e-6}, {4e-6}, {}, {}};        // EYX, by direction
-  m.frames[0].error[5] = {{}, {1e-5}, {}, {}, {}};            // ECX
+  // EYX, with a value for each direction.
+  m.frames[0].error[1] = {{}, {2e-6}, {4e-6}, {}, {}};
+  m.frames[0].error[5] = {{}, {1e-5}, {}, {}, {}};  // ECX
   m.tool_m = {0, 0.1, 0};
   PlaneMapRequest request;
   EXPECT_EQ(request.first, 0u);
@@ -271,7 +275,8 @@ TEST(PlaneMapEdges, FollowsTheOptionsOfTheRequest) {
   EXPECT_NEAR(plane_map(m, request)->points[0].error[0], 5e-6, 1e-12);
   request.others[2] = 0.15;
   EXPECT_EQ(plane_map(m, request)->beyond, std::vector<std::string>{"EXZ"});
-  // Errors without u and unmeasured errors, for the three components of the position.
+  // Expected names: the errors without u and the unmeasured errors that act on the three components
+  // of the position.
   const auto has = [](const std::vector<std::string>& names, const char* name) {
     return std::count(names.begin(), names.end(), name) == 1;
   };
@@ -290,7 +295,7 @@ TEST(PlaneMapEdges, ExtremeHasTheLargestSize) {
     extremes.add(point);
   }
   const MapExtreme first = extremes.found()[0];
-  EXPECT_EQ(first.point, 1u);  // the first of equal size
+  EXPECT_EQ(first.point, 1u);  // the first of two points with equal size
   EXPECT_EQ(first.value, -5);
   EXPECT_EQ(first.range, 10);
   EXPECT_EQ(first.u, 5);
@@ -301,7 +306,7 @@ TEST(PlaneMapEdges, ExtremeHasTheLargestSize) {
   EXPECT_EQ(one.found()[0].range, 0);
 }
 
-// Without errors the first step finds no residual.
+// The machine has no errors, so the first step leaves no residual.
 TEST(CompensatingEdges, PerfectMachineNeedsOneStep) {
   const Machine m = plane_machine();
   const auto found = compensating_command(m, {0.1, 0.2}, MachineApproach::mean);
@@ -311,8 +316,8 @@ TEST(CompensatingEdges, PerfectMachineNeedsOneStep) {
   EXPECT_EQ(found->command, (Command{0.1, 0.2}));
 }
 
-// An error that is known at one position applies everywhere, and is named as beyond its table
-// elsewhere.
+// An error with a value at one position has this value at all positions. At other positions the
+// result reports the error as beyond its table.
 TEST(MachineEdges, ErrorAtOnePositionIsBeyondElsewhere) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   MachineFrame& x =
@@ -326,7 +331,7 @@ TEST(MachineEdges, ErrorAtOnePositionIsBeyondElsewhere) {
   }
 }
 
-// -0.04 + 0.09 · 6/6 is one step of rounding above 0.05, which would be beyond its table.
+// -0.04 + 0.09 · 6/6 exceeds 0.05 by one rounding step and would be beyond the table.
 TEST(PlaneMap, LastStepIsTheEndOfTheRange) {
   const auto at = steps_over({-0.04, 0.05}, 0.015);
   ASSERT_EQ(at.size(), 7u);

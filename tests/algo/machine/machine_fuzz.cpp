@@ -1,6 +1,6 @@
-// MACHINE.toml: the parser reads it or refuses it with a reason. For a machine that was read, the
-// tool error is finite at any position of its axes; each trial of its budget is finite, or the
-// budget is refused. Files that the text names are not read.
+// Fuzzer for MACHINE.toml. The parser must read the text or refuse it with a reason. For a machine
+// that was read, the tool error must be finite at any position of the axes. Each trial of the
+// budget must be finite, or the budget must be refused. Files that the text names are not read.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

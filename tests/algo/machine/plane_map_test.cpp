@@ -1,4 +1,4 @@
-// The map of a plane compared with the calculation of its single points.
+// The map of a plane is compared with a separate calculation of each point.
 #include "algo/machine/plane_map.h"
 
 #include <gtest/gtest.h>
@@ -8,10 +8,11 @@
 namespace mdof::algo {
 namespace {
 
-// Limits: 1e-14 m, as for a single point against long double; 1e-9 for u.
+// Limits of the differences. 1e-14 m is also the limit of a single point against long double;
+// kSameU is relative.
 constexpr double kSameError_m = 1e-14, kSameU = 1e-9;
 
-// Declares u of tables and lines, some correlated, some not declared.
+// Declares u of tables and of axis lines. Some errors are correlated, some have no declared u.
 void declare_u(Machine& machine, test::RandomMachines& random) {
   for (MachineFrame& frame : machine.frames) {
     for (std::size_t k = 0; k < kBodyErrors; ++k) {
@@ -23,7 +24,7 @@ void declare_u(Machine& machine, test::RandomMachines& random) {
     if (frame.kind != FrameKind::linear) continue;
     ErrorCovariance& all = frame.covariance;
     all.position = {0, 0.3};
-    for (std::size_t p = 0; p < 3; ++p) {  // common to the axes: the scale of a probe
+    for (std::size_t p = 0; p < 3; ++p) {  // quantities common to the axes: the scale of a probe
       SharedPart& part = all.shared.emplace_back();
       part.at.resize(2);
       for (auto& at : part.at)
@@ -90,7 +91,8 @@ TEST(PlaneMap, MatchesItsSinglePoints) {
   EXPECT_LT(worst.u, kSameU);
 }
 
-// The lever is 0 at the first corner only: u of the rotation is unknown all the same.
+// At the first corner the lever of ECX is 0, at the others it is not. The map must still report
+// that u of ECX is unknown.
 TEST(PlaneMap, NamesErrorsThatCountAtAnyCorner) {
   Machine m;
   m.frames.resize(2);
@@ -102,8 +104,9 @@ TEST(PlaneMap, NamesErrorsThatCountAtAnyCorner) {
     f.range = {0, 0.1};
     for (auto& e : f.error) e.forward = {0};
   }
-  m.frames[0].error[1] = {{0, 0.05}, {0, 1e-6}, {}, {1e-7, 1e-7}, {}};  // EYX, too short
-  m.frames[1].error[5].forward.clear();                                 // ECY
+  // EYX, whose table ends at 50 mm.
+  m.frames[0].error[1] = {{0, 0.05}, {0, 1e-6}, {}, {1e-7, 1e-7}, {}};
+  m.frames[1].error[5].forward.clear();  // ECY, not measured
   PlaneMapRequest request;
   request.step_m = 0.05;
   const auto map = plane_map(m, request);

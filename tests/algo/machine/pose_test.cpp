@@ -1,5 +1,5 @@
-// Rotations compared with rotations of a vector about one axis after the other, by sine and cosine
-// of the standard library.
+// Rotations are compared with rotations of a vector about one axis after the other, by sine and
+// cosine of the standard library.
 #include "algo/machine/pose.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-// Counter-clockwise, seen from the end of axis k.
+// Rotates v about axis k, counter-clockwise if seen from the positive end of the axis.
 Eigen::Vector3d turned(Eigen::Vector3d v, int k, double angle_rad) {
   const int i = (k + 1) % 3, j = (k + 2) % 3;
   const double s = std::sin(angle_rad), c = std::cos(angle_rad);

@@ -1,5 +1,6 @@
-// Machines with random chains and errors, and their tool position by 4x4 matrices in long double,
-// written from the definitions in algo/machine/README.md without code of algo/ or Eigen.
+// Machines with random chains and errors. Their tool position is calculated by 4x4 matrices in long
+// double. The matrices follow the definitions in algo/machine/README.md and use no code of algo/ or
+// Eigen.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +21,8 @@ class RandomMachines {
     return low + (high - low) * static_cast<double>(source_()) / 4294967296.0;
   }
 
-  // Axes of `letters` in random order on either side; errors up to shift_m and turn_rad, positions
-  // up to size_m.
+  // A machine with the axes `letters` in random order; each axis is on the side of the work or of
+  // the tool. Errors are up to shift_m and turn_rad, positions up to size_m.
   Machine machine(std::string letters, double shift_m, double turn_rad, double size_m,
                   bool line_errors = true) {
     for (std::size_t i = letters.size(); i > 1; --i)
@@ -46,7 +47,7 @@ class RandomMachines {
     return {between(-size_m, size_m), between(-size_m, size_m), between(-size_m, size_m)};
   }
 
-  // A rod that moves with a linear axis, along any direction.
+  // Makes f a rod that moves with a linear axis; the direction of its motion is random.
   void follow(MachineFrame& f, const std::string& letters) {
     const std::size_t axis = letters.find_first_of("XYZ");
     f.moves_with = letters[axis];
@@ -83,7 +84,7 @@ class RandomMachines {
   std::mt19937 source_;
 };
 
-// ---- 4x4 in long double ----
+// ---- 4x4 matrices in long double ----
 
 using Real = long double;
 using Matrix4 = std::array<std::array<Real, 4>, 4>;
@@ -110,7 +111,7 @@ inline Matrix4 shifted(const Vec3& by, Real sign = 1) {
   return shifted(std::array<Real, 3>{sign * by[0], sign * by[1], sign * by[2]});
 }
 
-// Rotation about X, Y or Z, as in a textbook.
+// Matrix of a rotation about X, Y or Z.
 inline Matrix4 turned(std::size_t about, Real angle) {
   const Real c = std::cos(angle), s = std::sin(angle);
   if (about == 0) return {{{1, 0, 0, 0}, {0, c, -s, 0}, {0, s, c, 0}, {0, 0, 0, 1}}};
@@ -122,7 +123,7 @@ inline Matrix4 turned_xyz(Real a, Real b, Real c) {
   return times(turned(2, c), times(turned(1, b), turned(0, a)));
 }
 
-// Gauss-Jordan elimination with pivots; it does not use that the matrix is rigid.
+// Inverse by Gauss-Jordan elimination with pivots. It does not assume that the matrix is rigid.
 inline Matrix4 inverse(Matrix4 m) {
   Matrix4 r = same();
   for (std::size_t i = 0; i < 4; ++i) {
@@ -175,7 +176,7 @@ inline Matrix4 frame_matrix(const MachineFrame& f, Real command, bool with_error
   return times(times(shifted(to), times(turned_xyz(e[3], e[4], e[5]), shifted(away))), motion);
 }
 
-// Pose of the tool in the coordinates of the work.
+// Pose of the tool in the coordinate system of the work.
 inline Matrix4 tool_matrix(const Machine& machine, const algo::Command& command, bool with_errors) {
   Matrix4 work = same(), tool = same();
   for (const MachineFrame& f : machine.frames) {

@@ -10,7 +10,7 @@ namespace {
 constexpr double kDeg = 3.14159265358979323846 / 180;
 constexpr CoPlanarDrive kDrive{25.84 * kDeg, 17e-3};
 
-// The numbers of the paper, sections 3.2 to 3.4, and results of its Eq. 5 and 6.
+// Expected: the numbers of the paper, sections 3.2 to 3.4, and results of Eq. 5 and 6 of the paper.
 TEST(TiltDrive, HasTheRatiosAndResolutionsOfThePaper) {
   EXPECT_NEAR(1000 * platform_ratio(kDrive), 900, 0.05);
   EXPECT_NEAR(1000 * platform_ratio({26.34 * kDeg, 17e-3}), 896.2, 0.05);
@@ -26,7 +26,7 @@ TEST(TiltDrive, HasTheRatiosAndResolutionsOfThePaper) {
 TEST(TiltDrive, TiltErrorMovesThePlatformWithTheTravel) {
   EXPECT_NEAR(platform_tilt_effect(kDrive, 60e-3, 0.05 * kDeg), -25.4e-6, 0.05e-6);
   EXPECT_NEAR(spindle_tilt_effect(kDrive, 40e-3, 0.05 * kDeg), 89e-6, 0.5e-6);
-  // The screw does not move while the tilt angle changes: by differences of the kinematics.
+  // The tilt angle changes while the screw does not move. Expected: differences of the kinematics.
   const CoPlanarDrive other{kDrive.tilt_rad + 1e-6, kDrive.arm_m};
   PlatformMotion at{};
   at[kPlatformX].position = 60e-3;
@@ -50,7 +50,7 @@ TEST(TiltDrive, ScrewsFollowTheirEquations) {
   EXPECT_NEAR(screws[kScrewD].position * std::tan(25.84 * kDeg), -5e-3, 1e-15);
 }
 
-PlatformMotion motion_at(double t) {  // X, Y, Z, B as polynomials of time
+PlatformMotion motion_at(double t) {  // position of X, Y, Z and B as polynomials of the time
   const double p[4][3] = {
       {0.01, 0.02, 0.3}, {-0.005, 0.01, -0.2}, {0.004, -0.03, 0.1}, {0.5, 0.8, -2}};
   PlatformMotion m;

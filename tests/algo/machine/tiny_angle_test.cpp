@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-// Within 1 ulp up to 0.1 rad, as documented.
+// The error is at most 1 ulp up to 0.1 rad, as documented.
 TEST(TinyAngle, MatchesTheStandardLibrary) {
   for (int k = -1000; k <= 1000; ++k) {
     const double x = 1e-4 * k, sine = std::sin(x), cosine = std::cos(x);

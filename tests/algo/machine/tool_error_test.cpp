@@ -10,7 +10,7 @@ namespace {
 
 const char* const kChains[] = {"XYZ", "XYZC", "XYZAC", "XYZABC", "XYZmn", "XY", "XYZCmnopqrstuv"};
 
-// Limit: 1e-14 m and 1e-14 rad over 10,000 random machines.
+// Largest permitted difference over 10,000 random machines: 1e-14 m and 1e-14 rad.
 TEST(MachineModel, MatchesTheProductOfMatrices) {
   test::RandomMachines random(1);
   double worst_place = 0, worst_angle = 0;
@@ -47,10 +47,11 @@ TEST(MachineModel, LinearIsWithinItsBound) {
     EXPECT_LE(angle, e.bound.angle_rad);
     closest = std::max(closest, place / e.bound.place_m);
   }
-  EXPECT_GT(closest, 0.02);  // the bound is not too wide
+  EXPECT_GT(closest, 0.02);  // one difference must be above 2 % of its bound
 }
 
-// u is 0 if all errors that count have the declared u 0, and unknown if one has no declared u.
+// The declared u of all errors that affect the position is 0, so u is 0. If one of them has no
+// declared u, u is unknown.
 TEST(MachineModel, DeclaredZeroIsAKnownU) {
   Machine machine = test::RandomMachines(9).machine("XYZ", 0, 0, 0.3);
   for (MachineFrame& frame : machine.frames) {
@@ -65,9 +66,9 @@ TEST(MachineModel, DeclaredZeroIsAKnownU) {
   EXPECT_TRUE(std::isnan(tool_error(machine, command, MachineApproach::mean).u[0]));
 }
 
-// For one error at a time: the derivative equals the slope of the full product, by differences of
-// fourth order at several distances (their errors are h^4/30 and rounding/h). Limit: 1e-9 of its
-// size.
+// Tests one error at a time. The expected derivative is the slope of the full product, by
+// differences of fourth order at several distances h; their errors are h^4/30 and rounding/h.
+// Limit: 1e-9 of the derivative.
 TEST(MachineModel, DerivativesMatchTheProduct) {
   test::RandomMachines random(3);
   double worst = 0;
@@ -97,7 +98,8 @@ TEST(MachineModel, DerivativesMatchTheProduct) {
   EXPECT_LT(worst, 1e-9);
 }
 
-// X, which carries the work or the tool, and Z, with the tool at 100 mm: signs and levers by hand.
+// A machine with X, which carries the work or the tool, and Z; the tool is at 100 mm. Signs and
+// levers are calculated by hand.
 Machine by_hand(bool x_carries_work) {
   Machine m;
   m.frames.resize(2);
@@ -123,16 +125,17 @@ TEST(MachineModel, SignsAndLeversByHand) {
       return tool_error(one, at, MachineApproach::mean).linear;
     };
     EXPECT_NEAR(error_of(1, 1e-6, false)[1], side * 1e-6, 1e-15);  // EYX
-    // EBX about the origin of the machine: the tool is 120 mm above.
+    // EBX rotates about the origin of the machine; the tool is 120 mm above it.
     EXPECT_NEAR(error_of(4, 1e-6, false)[0], side * 0.12e-6, 1e-15);
-    // With a tool axis the tool has moved 50 mm along X; over a table it has not moved.
+    // If X carries the tool, the tool has moved 50 mm along X. If X carries the work, it has not
+    // moved.
     EXPECT_NEAR(error_of(4, 1e-6, false)[2], work ? 0 : -0.05e-6, 1e-15);
     EXPECT_NEAR(error_of(4, 1e-6, true)[2], work ? -0.05e-6 : 0, 1e-15);
     EXPECT_NEAR(error_of(4, 1e-6, true)[4], side * 1e-6, 1e-15);
   }
 }
 
-// The angle from +X to +Y is 90° + EC0Y: the line of Y is tilted towards -X.
+// The angle from +X to +Y is 90° + EC0Y, so the line of Y is tilted towards -X.
 TEST(MachineModel, SquarenessHasTheSignOfItsName) {
   auto m = by_hand(false);
   m.frames[1].id = "Y";
@@ -142,7 +145,7 @@ TEST(MachineModel, SquarenessHasTheSignOfItsName) {
   const auto e = tool_error(m, at, MachineApproach::mean);
   EXPECT_NEAR(e.exact[0], -1e-6, 1e-14);
   EXPECT_NEAR(e.linear[0], -1e-6, 1e-18);
-  EXPECT_EQ(e.exact[5], 0);  // the tilt of a line rotates no body
+  EXPECT_EQ(e.exact[5], 0);  // the tilt of an axis line rotates no body
   EXPECT_EQ(e.no_u[0], std::vector<std::string>{"EC0Y"});
 }
 
@@ -172,8 +175,8 @@ TEST(MachineModel, HoldsAndReportsTheEndOfATable) {
   EXPECT_EQ(beyond.beyond, std::vector<std::string>{"EXX"});
 }
 
-// A stop is never exactly at its target: up to 2 % of an interval beyond the end is accepted, as
-// for a compensation table.
+// An axis never stops exactly at its target. Positions up to 2 % of an interval beyond the end are
+// accepted, as for a compensation table.
 TEST(MachineModel, StopNearTheEndIsNotBeyond) {
   const std::vector<double> position{-0.01, 0, 0.04};
   for (const auto& [at_m, beyond] : {std::pair(-0.01 - 0.19e-3, false),
@@ -186,7 +189,7 @@ TEST(MachineModel, StopNearTheEndIsNotBeyond) {
   }
 }
 
-// Where an angle is zeroed, the angle and its u are 0.
+// At the position where an angle is set to 0, the angle and its u are 0.
 TEST(MachineModel, UIsLinearBetweenPositions) {
   auto m = by_hand(false);
   MachineFrame& x = m.frames[0];
@@ -214,8 +217,8 @@ TEST(MachineModel, UIsLinearBetweenPositions) {
   }
 }
 
-// The bound has 2 · rotations · shifts to second order: a shifted line of a rotary axis counts
-// twice, because the frame goes to the line and back; a shifted line of a linear axis counts once.
+// To second order the bound is 2 · rotations · shifts. A shifted line of a rotary axis counts
+// twice, because the frame moves to the line and back. A shifted line of a linear axis counts once.
 TEST(MachineModel, BoundCountsAShiftedRotaryLineTwice) {
   test::RandomMachines random(6);
   const auto machine = random.machine("XYZC", 0, 0, 0.3);
@@ -238,27 +241,28 @@ TEST(MachineModel, BoundCountsAShiftedRotaryLineTwice) {
 TEST(MachineModel, UncertaintyIsTheRootSumOfSquares) {
   auto m = by_hand(true);
   m.frames[0].error[0] = {{}, {1e-6}, {}, {0.3e-6}, {}};
-  m.frames[0].error[4] = {{}, {0}, {}, {2e-6}, {}};  // lever of 120 mm
-  m.frames[1].location[4] = {0, 5e-6};               // over 20 mm
+  m.frames[0].error[4] = {{}, {0}, {}, {2e-6}, {}};  // acts with a lever of 120 mm
+  m.frames[1].location[4] = {0, 5e-6};               // acts over 20 mm
   const auto e = tool_error(m, {0.05, 0, 0.02, 0, 0, 0}, MachineApproach::mean);
   EXPECT_NEAR(e.u[0], std::hypot(0.3e-6, 0.24e-6, 0.1e-6), 1e-15);
   EXPECT_NEAR(e.u[4], 2e-6, 1e-15);
 }
 
-// Limit: 1 pm for errors of 50 µm and 200 µrad in a cube of 100 mm.
+// Limit of the residual: 1 pm for errors of 50 µm and 200 µrad in a cube of 100 mm.
 TEST(Compensating, CorrectsThePositionCompletely) {
   test::RandomMachines random(4);
   double worst = 0;
   for (int i = 0; i < 2000; ++i) {
     const auto machine = random.machine(i % 2 == 0 ? "XYZ" : "XYZC", 50e-6, 200e-6, 0.1);
     auto wanted = random.command(0.098);
-    for (std::size_t k = 0; k < 3; ++k) wanted[k] += 0.001;  // 1 mm inside the ends of the tables
-    wanted[5] /= 10;  // at a quarter of a turn an axis beyond C may lie along another
+    // At least 1 mm inside the ends of the tables.
+    for (std::size_t k = 0; k < 3; ++k) wanted[k] += 0.001;
+    wanted[5] /= 10;  // at a quarter turn of C two linear axes can be parallel
     const auto c = compensating_command(machine, wanted, MachineApproach::mean);
     ASSERT_TRUE(c);
     EXPECT_TRUE(c->converged);
     EXPECT_LE(c->steps, 8);
-    // Checked by the independent matrices.
+    // Expected position: the independent matrices.
     const auto reached = test::tool_matrix(machine, c->command, true);
     const auto nominal = test::tool_matrix(machine, wanted, false);
     for (std::size_t k = 0; k < 3; ++k)
@@ -280,7 +284,7 @@ TEST(Compensating, NamesTablesThatEndBefore) {
 
 TEST(Compensating, ReportsTheResidualOfTwoAxes) {
   auto m = by_hand(true);
-  m.frames[0].error[1].forward = {3e-6};  // EYX, and no Y
+  m.frames[0].error[1].forward = {3e-6};  // EYX; the machine has no Y to correct it
   m.frames[0].error[0].forward = {2e-6};
   const auto c = compensating_command(m, {0.05, 0, 0, 0, 0, 0}, MachineApproach::mean);
   ASSERT_TRUE(c);
@@ -291,7 +295,7 @@ TEST(Compensating, ReportsTheResidualOfTwoAxes) {
   EXPECT_FALSE(compensating_command(m, {}, MachineApproach::mean));
 }
 
-// Shifts and rotations count equally for all three axes.
+// Shifts and rotations have the same weight in the bound for all three axes.
 TEST(MachineModel, BoundTreatsAllAxesEqually) {
   const auto bound = [](std::size_t shift, std::size_t turn) {
     auto m = by_hand(true);

@@ -1,5 +1,5 @@
-// Published values for air and for tilted targets, and a tilted disc that is integrated
-// numerically.
+// Tests the permittivity of air and the effect of tilted targets. Expected: published values, and
+// the numerical integral over a tilted disc.
 #include "algo/probe_physics/gap.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ ProbePhysics electrode(double radius_m, double factor) {
   return physics;
 }
 
-// The gap that a probe without fringing field reads over a tilted target: A / ∫ dA/(d + ρ θ cos φ),
-// integrated over rings and angles by the midpoint rule.
+// The gap that a probe without fringing field indicates over a tilted target: A / ∫ dA/(d + ρ θ cos
+// φ). The integral over rings and angles is calculated by the midpoint rule.
 double disc_shows_m(double radius_m, double gap_m, double tilt_rad) {
   constexpr int kRings = 400, kAngles = 400;
   double sum = 0;
@@ -82,7 +82,7 @@ TEST(ProbeAir, PermittivityMatchesPublishedValues) {
   EXPECT_NEAR(air_permittivity_slope(kDry, 0) * 1e6, -1.8, 0.05);
   EXPECT_NEAR(air_permittivity_slope(kDry, 1) * 1e6, 5.3, 0.05);
   EXPECT_NEAR(air_permittivity_slope(kDry, 2) * 1e6, 2.0, 0.05);
-  // Another source for the water vapour: Magnus (WMO), 6.112 exp(17.62 t/(243.12 + t)) hPa.
+  // The vapour pressure from another source: Magnus (WMO), 6.112 exp(17.62 t/(243.12 + t)) hPa.
   for (const double t : {0.0, 10.0, 25.0, 40.0}) {
     const double e_hPa = 6.112 * std::exp(17.62 * t / (243.12 + t)), T_K = t + 273.15;
     const double damp = air_permittivity({t, 100, 100}) - air_permittivity({t, 100, 0});

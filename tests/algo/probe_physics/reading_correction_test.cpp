@@ -1,5 +1,6 @@
-// Readings with errors by tilt and permittivity of air, from published formulas: the remaining
-// errors after the correction, and whether the stated uncertainty covers the unknown parameters.
+// Published formulas give readings with the errors of a tilt and of the permittivity of air. The
+// tests check the errors that remain after the correction, and whether the stated uncertainty
+// covers unknown parameters.
 #include "algo/probe_physics/reading_correction.h"
 
 #include <gtest/gtest.h>
@@ -47,14 +48,16 @@ Errors5 tilting(double d) {
           0.8e-3 * d / 0.04};
 }
 
-// ε - 1 from the coefficients; at 20 °C they give 537 ppm, -1.83 ppm/K, 5.3 ppm/kPa, 2.03 ppm/%.
+// ε from the published coefficients. At 20 °C, ε - 1 is 537 ppm; it changes by -1.83 ppm/K, 5.3
+// ppm/kPa and 2.03 ppm/%.
 double expected_permittivity(double t_C, double p_kPa, double rh) {
   const double T = t_C + 273.15,
                e_kPa = rh / 100 * 0.61094 * std::exp(17.625 * t_C / (t_C + 243.04));
   return 1 + 2e-6 * (776 * p_kPa / T + 3.73e6 * e_kPa / (T * T));
 }
 
-// Reading of probe k for the errors `e`, calculated by hand with the angles that tilt its target.
+// Reading of probe k for the errors `e`, calculated by hand with the angles between the probe and
+// its target.
 double shown_m(std::size_t k, const Errors5& e, double s_m, double factor, double ratio) {
   const double along = e[kEx], across = k < 3 ? e[kEy] : e[kEz];
   const double gap_m = kStandoff_m - s_m;
@@ -77,7 +80,7 @@ SyntheticRun disturbed_run(const Rig& rig, const TrueConditions& nature) {
   return run;
 }
 
-// The run, corrected and solved as in the pipeline.
+// The run after correction and solution, as in the pipeline.
 Run corrected(const Rig& rig, Run run) {
   const Solver solver = Solver::create(rig, Model::rigid).value();
   const ReadingCorrection correction(rig, solver, {rig.physics->tilt, rig.physics->dielectric});
@@ -93,7 +96,8 @@ Run corrected(const Rig& rig, Run run) {
   return run;
 }
 
-// The difference to the first point; errors common to all points belong to the zero.
+// Errors of point j relative to the first point. An error that is common to all points belongs to
+// the zero.
 Errors5 off(const Run& run, const Run& truth, std::size_t j) {
   Errors5 e{};
   for (std::size_t k = 0; k < 5; ++k)
@@ -139,8 +143,8 @@ TEST(ReadingCorrection, EachCorrectionHasItsSwitch) {
   square.factor.assign(5, 0.0);
   const auto in_air = disturbed_run(air, square).measure();
   const auto fine = corrected(air, in_air);
-  // The correction for air refers to the conditions of the calibration, so the first point changes
-  // too.
+  // The correction for air is relative to the conditions of the calibration, so it also changes the
+  // first point.
   for (std::size_t j = 0; j < truth.points.size(); ++j)
     EXPECT_NEAR(fine.points[j].errors.local[kDz], truth.points[j].errors.local[kDz], 1e-10);
   EXPECT_GT(std::abs(in_air.points[0].errors.local[kDz] - truth.points[0].errors.local[kDz]), 3e-9);
@@ -155,7 +159,8 @@ TEST(ReadingCorrection, ReportsClosedGapsAndTouchingElectrodes) {
   EXPECT_NE(out.why_not.find("standoff_um"), std::string::npos);
   EXPECT_EQ(out.closed, 4U);
   EXPECT_TRUE(std::isnan(out.readings_m[4]));
-  // 21.5 mrad bring the edge of the electrode, at 2 mm, nearer by 43 µm; 35 µm are left.
+  // A tilt of 21.5 mrad brings the edge of the electrode, at a radius of 2 mm, nearer by 43 µm. The
+  // remaining gap is 35 µm.
   out = correction.correct(0, {215e-6, 0, 0, 0, 0}, {}, {20, 100, 50});
   EXPECT_NE(out.why_not.find("touch"), std::string::npos) << out.why_not;
 }
@@ -176,8 +181,8 @@ struct Inside {
   double percent() const { return 100.0 * count / of; }
 };
 
-// Tilt factors, temperature, pressure and humidity are random; the errors at the last target are
-// compared.
+// Tilt factors, temperature, pressure and humidity are drawn at random. The errors at the last
+// target are compared with the stated uncertainty.
 TEST(ReadingCorrection, StatedUncertaintyCoversUnknownParameters) {
   std::string toml = physics_toml(kBoth);
   for (std::size_t at = 0; (at = toml.find("u_linearity_um = 0.002", at)) != std::string::npos;)

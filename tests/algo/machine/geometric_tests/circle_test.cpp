@@ -1,4 +1,5 @@
-// The circular test compared with results by hand for one error of the machine at a time.
+// The circular test is compared with results calculated by hand for one error of the machine at a
+// time.
 #include "algo/machine/geometric_tests/circle.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +48,8 @@ TEST(CircularTest, PerfectMachineHasNoDeviations) {
 }
 
 TEST(CircularTest, SquarenessGivesAnEllipseAt45Degrees) {
-  // EC0Y = a: the tool is at x - a y; its radius R - a R sin cos: ± a R / 2, smallest at 45°.
+  // EC0Y = a: the tool is at x - a y, so the radius is R - a R sin cos. It changes by ± a R / 2 and
+  // is smallest at 45°.
   const Machine m = flat_machine("", "EC0Y_urad = 100");
   const CircularFigures f = figures(m);
   EXPECT_NEAR(f.G_ccw_m, 100e-6 * kCircle_m, 1e-9);
@@ -57,12 +59,12 @@ TEST(CircularTest, SquarenessGivesAnEllipseAt45Degrees) {
   EXPECT_NEAR(f.F_ccw_m[1], -50e-6 * kCircle_m, 1e-9);
   EXPECT_NEAR(f.H_m, 0, 1e-12);
   const auto path = predicted(m, 8).path;
-  EXPECT_NEAR(path.ccw_m[1], -50e-6 * kCircle_m, 1e-9);  // at 45°
+  EXPECT_NEAR(path.ccw_m[1], -50e-6 * kCircle_m, 1e-9);  // angle 45°
   EXPECT_NEAR(path.ccw_m[3], +50e-6 * kCircle_m, 1e-9);
 }
 
 TEST(CircularTest, ScaleErrorGivesAnEllipseAlongItsAxis) {
-  // EXX = s x: r = R + s R cos²: mean s R / 2, range s R.
+  // EXX = s x: the radius is r = R + s R cos². Its mean is larger by s R / 2, its range is s R.
   const CircularFigures f = figures(flat_machine("EXX_um = [[0, 0], [100, 30]]", ""));
   EXPECT_NEAR(f.G_ccw_m, 300e-6 * kCircle_m, 2e-9);
   EXPECT_NEAR(f.D_m, 150e-6 * kCircle_m, 1e-9);
@@ -71,14 +73,16 @@ TEST(CircularTest, ScaleErrorGivesAnEllipseAlongItsAxis) {
 }
 
 TEST(CircularTest, BacklashGivesStepsAndHysteresis) {
-  // X is 4 µm further when it decreases. Counter-clockwise it decreases from 0° to 180°: there r is
-  // larger by 4 µm cos, in the other half r is unchanged. Clockwise the halves are exchanged.
+  // X is 4 µm further when it decreases. In counter-clockwise motion X decreases from 0° to 180°.
+  // There r is larger by 4 µm cos; in the other half r is unchanged. In clockwise motion the two
+  // halves are exchanged.
   const auto path = predicted(flat_machine("EXX_um = [[0, 0, 4], [100, 0, 4]]", "")).path;
-  // The ball is at the mean of both directions: 2 µm at +X.
+  // The circle starts with the ball at the mean of both directions: 2 µm in the direction +X.
   EXPECT_NEAR(path.ccw_m[30], +2e-6 * std::cos(30 * std::numbers::pi / 180), 1e-9);
   EXPECT_NEAR(path.cw_m[30], -2e-6 * std::cos(30 * std::numbers::pi / 180), 1e-9);
   EXPECT_NEAR(path.ccw_m[210], -2e-6 * std::cos(210 * std::numbers::pi / 180), 1e-9);
-  EXPECT_NEAR(path.ccw_m[0], -2e-6, 1e-9);  // X reverses here: still the error of increasing X
+  // X reverses here and still has the error of an increasing X.
+  EXPECT_NEAR(path.ccw_m[0], -2e-6, 1e-9);
   EXPECT_NEAR(path.cw_m[0], -2e-6, 1e-9);
   const auto f = circular_figures(path);
   ASSERT_TRUE(f);
@@ -96,7 +100,8 @@ TEST(CircularTest, WorkAxisGivesTheSameRadius) {
 }
 
 TEST(CircularTest, EvaluatesAPathByHand) {
-  // 16 angles: an offset of the centre and a radius of +3 µm; clockwise 1 µm less.
+  // A path at 16 angles with an offset of the centre and a radius of +3 µm; the clockwise radius is
+  // 1 µm less.
   CircularPath path;
   for (int i = 0; i < 16; ++i) {
     const double a = 2 * std::numbers::pi * i / 16;
@@ -134,11 +139,11 @@ TEST(CircularTest, RefusesPathsThatAreNoCircle) {
   EXPECT_FALSE(circular_figures({}));
   CircularPath arc;
   for (int i = 0; i < 100; ++i) arc.angle_rad.push_back(0.04 * i), arc.ccw_m.push_back(0);
-  EXPECT_FALSE(circular_figures(arc));  // 3.96 rad of 6.28 rad
+  EXPECT_FALSE(circular_figures(arc));  // the angles cover 3.96 rad of 6.28 rad
   CircleRequest request;
   request.radius_m = 0.01;
   request.second = 2;
-  EXPECT_FALSE(predicted_circle(flat_machine("", ""), request));  // no Z
+  EXPECT_FALSE(predicted_circle(flat_machine("", ""), request));  // the machine has no Z
   request.second = 1;
   EXPECT_TRUE(predicted_circle(flat_machine("", ""), request));
   for (const double radius : {0.0, -1.0, std::nan(""), 11.0}) {
@@ -150,8 +155,8 @@ TEST(CircularTest, RefusesPathsThatAreNoCircle) {
   EXPECT_FALSE(predicted_circle(flat_machine("", ""), request));
 }
 
-// Harmonics at equal angles: the radius and the centre contain the orders 0 and 1; each direction
-// keeps its own higher harmonics.
+// Harmonics at equal angles. The orders 0 and 1 are removed as the radius and the centre; the
+// higher harmonics of each direction remain.
 TEST(CircularTest, EvaluatesHarmonicsByHand) {
   CircularPath path;
   for (int i = 0; i < 72; ++i) {

@@ -12,15 +12,16 @@ namespace {
 
 constexpr int kCircles = 2000;
 
-// Sum of twelve uniform numbers, which is nearly normal.
+// Sum of twelve uniform numbers, nearly a normal number.
 double standard_normal(std::mt19937& source) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += static_cast<double>(source()) / 4294967296.0;
   return sum;
 }
 
-// A disc, tilted by rotations a and b about X and Y, as points of a plane, plus a wobble of the
-// table and form errors of the linear axes.
+// Heights on a disc that is tilted by rotations a and b about X and Y. A wobble of the rotary table
+// and form errors of the linear axes are added. `known`: the readings also contain the wobble and
+// the form errors.
 CircleReadings circle(double a, double b, double noise_m, std::mt19937& source, bool known) {
   CircleReadings r;
   r.radius_m = 0.1;
@@ -51,7 +52,7 @@ TEST(PerpendicularityTest, IsSeparatedFromTiltAndAxes) {
   EXPECT_TRUE(p->tilt_known && p->axes_known);
   for (std::size_t k = 1; k < 5; ++k)
     EXPECT_NEAR(std::hypot(p->harmonics[k].cosine_m, p->harmonics[k].sine_m), 0, 1e-15);
-  // If it is not given, the wobble of the table at twice the angle appears as perpendicularity.
+  // If the wobble is not known, its part at twice the angle appears as perpendicularity.
   const auto blind = perpendicularity(circle(20e-6, -7e-6, 0, source, false), 5);
   EXPECT_GT(std::abs(blind->EA0C_rad - 20e-6), 1e-6);
   EXPECT_FALSE(blind->tilt_known || blind->axes_known);
@@ -72,7 +73,7 @@ TEST(PerpendicularityTest, CoversTheTruth) {
   }
 }
 
-// `turns` turns; the height drifts by drift_m from the first reading to the last.
+// Readings over `turns` turns. The height drifts by drift_m from the first reading to the last.
 CircleReadings turning_circle(double a, double b, double noise_m, std::mt19937& source, int turns,
                               double drift_m) {
   CircleReadings all;
@@ -103,7 +104,8 @@ TEST(PerpendicularityTest, RemovesADriftBetweenTurns) {
   EXPECT_NEAR(p->drift_m, 3e-6, 1e-16);
   EXPECT_NEAR(p->EA0C_rad, 20e-6, 1e-15);
   EXPECT_NEAR(p->EB0C_rad, -7e-6, 1e-15);
-  // A pause, then the opposite direction: the times show how far the height drifted.
+  // The table pauses and then turns in the opposite direction. The drift is proportional to the
+  // time of the readings.
   auto paused = turning_circle(20e-6, -7e-6, 0, source, 2, 0);
   for (auto* of : {&paused.angle_rad, &paused.height_m, &paused.tilt_a_rad, &paused.tilt_b_rad,
                    &paused.axes_m})
@@ -119,19 +121,20 @@ TEST(PerpendicularityTest, RemovesADriftBetweenTurns) {
   paused.time_s[5] = paused.time_s[4];
   ASSERT_FALSE(perpendicularity(paused, 5));
   EXPECT_NE(perpendicularity(paused, 5).error().message.find("reading 6"), std::string::npos);
-  // One turn, up to the reading before its first angle: the drift cannot be determined.
+  // One turn without a repeated angle: the drift cannot be determined.
   const auto one = perpendicularity(turning_circle(20e-6, -7e-6, 0, source, 1, 3e-6), 5);
   ASSERT_TRUE(one);
   EXPECT_FALSE(one->drift_fitted);
   EXPECT_EQ(one->drift_m, 0);
-  EXPECT_GT(std::abs(one->EA0C_rad - 20e-6), 5e-6);  // of the sawtooth 3e-6/π over the radius
+  EXPECT_GT(std::abs(one->EA0C_rad - 20e-6), 5e-6);  // effect of the drift: 3e-6/π over the radius
 }
 
-// Required: 93 to 97.5 % of 2,000 simulations, each with its own drift.
+// Required: the intervals of 93 to 97.5 % of 2,000 simulations contain the truth. Each simulation
+// has its own drift.
 TEST(PerpendicularityTest, CoversTheTruthUnderDrift) {
   std::mt19937 source(9);
   for (const int turns : {2, 3}) {
-    std::array<int, 3> covered{};  // EA0C, EB0C, drift
+    std::array<int, 3> covered{};  // for EA0C, EB0C, drift
     for (int i = 0; i < kCircles; ++i) {
       const double a = 20e-6 * standard_normal(source), b = 20e-6 * standard_normal(source),
                    d = 1e-6 * standard_normal(source);
@@ -159,7 +162,8 @@ TEST(PerpendicularityTest, RefusesAPartOfATurn) {
   EXPECT_NE(p.error().message.find("whole turn"), std::string::npos);
 }
 
-// For equal steps u of a coefficient is s √(2/n), with s of the residuals.
+// For equal steps of the angle, u of a coefficient is s √(2/n); s is the standard deviation of the
+// residuals.
 TEST(PerpendicularityTest, UncertaintyComesFromTheResiduals) {
   std::mt19937 source(8);
   CircleReadings r = circle(3e-6, 4e-6, 0, source, true);
@@ -171,7 +175,7 @@ TEST(PerpendicularityTest, UncertaintyComesFromTheResiduals) {
   EXPECT_NEAR(p->harmonics[0].u_m, p->residual_sd_m * std::sqrt(2.0 / 72), 1e-15);
   EXPECT_NEAR(p->u_rad, p->harmonics[0].u_m / 0.1, 1e-15);
   EXPECT_NEAR(p->size_rad, 5e-6, 1e-13);
-  EXPECT_NEAR(p->k, 1.99962, 1e-4);  // for 61 degrees of freedom
+  EXPECT_NEAR(p->k, 1.99962, 1e-4);  // coverage factor for 61 degrees of freedom
   EXPECT_NEAR(p->U_rad, p->k * p->u_rad, 1e-18);
   EXPECT_EQ(p->harmonics[4].order, 5);
   r.tilt_b_rad.clear();
@@ -193,7 +197,7 @@ TEST(PerpendicularityTest, RefusesFewReadingsAndGapsAbove60Degrees) {
   EXPECT_TRUE(perpendicularity(readings(11, 30.1), 2));   // a gap of 59°
   EXPECT_FALSE(perpendicularity(readings(11, 29.9), 2));  // a gap of 61°
   CircleReadings shifted = readings(11, 29.9);
-  for (double& a : shifted.angle_rad) a -= 10;  // the gap is within the turn
+  for (double& a : shifted.angle_rad) a -= 10;  // the same gap, at other angles of the turn
   EXPECT_FALSE(perpendicularity(shifted, 2));
   CircleReadings r = readings(13, 360.0 / 13);
   for (const double radius_m : {0.0, -0.1, 100.0}) {

@@ -11,14 +11,15 @@ namespace {
 
 constexpr int kSimulations = 2000;
 
-// Sum of twelve uniform numbers, which is nearly normal.
+// Sum of twelve uniform numbers, nearly a normal number.
 double noise(std::mt19937& source) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += static_cast<double>(source()) / 4294967296.0;
   return sum;
 }
 
-// Lines of a plane whose axes enclose 90° + error, measured n times each.
+// Lengths of the two sides and the diagonals of a plane whose axes enclose 90° + error; each line
+// is measured n times.
 DiagonalLines measured_lines(double error, std::mt19937& source, std::size_t n, bool two,
                              double noise_m, double scale = 1) {
   const double x = 0.4, y = 0.3, lean = std::sin(error), up = std::cos(error);
@@ -45,7 +46,7 @@ TEST(Diagonals, GiveTheAngleBetweenTheAxes) {
     }
 }
 
-// The sensitivity to each line equals that of the formula, by differences.
+// The expected sensitivity to each line is the difference of two results of the formula.
 TEST(Diagonals, UncertaintyFollowsFromTheLines) {
   std::mt19937 source(2);
   for (const bool two : {false, true}) {
@@ -63,7 +64,7 @@ TEST(Diagonals, UncertaintyFollowsFromTheLines) {
   }
 }
 
-// Required: 94 to 96.5 % of 2,000 simulations.
+// Required: the intervals of 94 to 96.5 % of 2,000 simulations contain the truth.
 TEST(Diagonals, CoverTheTruth) {
   for (const bool two : {false, true}) {
     std::mt19937 source(3);
@@ -78,8 +79,8 @@ TEST(Diagonals, CoverTheTruth) {
   }
 }
 
-// Lines that were read once have the noise of the lines that were read more often; if all were read
-// once, the declared u applies. Required: as above.
+// A line that was read once has the noise of the lines that were read more often. If all lines were
+// read once, the declared u applies. Required share as above.
 TEST(Diagonals, CoverTheTruthOfLinesReadOnce) {
   const std::vector<std::array<std::size_t, 4>> counts = {{1, 1, 6, 0}, {6, 1, 1, 0}, {2, 1, 3, 0},
                                                           {1, 1, 1, 5}, {1, 1, 2, 2}, {1, 1, 1, 1}};
@@ -116,7 +117,7 @@ TEST(Diagonals, RefuseLinesWithoutATriangle) {
   EXPECT_FALSE(squareness_of_diagonals(measured_lines(0, source, 1, false, 0)));
 }
 
-// A machine whose Y is not square to X: its diagonals differ according to the law of cosines.
+// A machine whose Y axis is not square to X. Its diagonals differ by the law of cosines.
 TEST(Diagonals, PredictionHasTheSameSign) {
   Machine m;
   m.frames.resize(2);
@@ -142,7 +143,8 @@ TEST(Diagonals, PredictionHasTheSameSign) {
   EXPECT_NEAR((*d)[1].range_m, (*d)[1].deviation_m.back(), 1e-15);
 }
 
-// The corner is not the zero of the axes: both diagonals begin and end at the corners.
+// The corner of the range is not the zero of the axes. Both diagonals must begin and end at the
+// corners.
 TEST(Diagonals, GoFromCornerToCorner) {
   Machine m;
   m.frames.resize(2);
@@ -152,7 +154,8 @@ TEST(Diagonals, GoFromCornerToCorner) {
   for (auto& f : m.frames) f.kind = FrameKind::linear;
   m.frames[0].range = {-0.1, 0.2};
   m.frames[1].range = {0.05, 0.45};
-  // EYY grows with Y: 5 µm at Y = 0.05 m, 45 µm at 0.45 m; along a diagonal of 0.5 m 4/5 of it.
+  // EYY increases with Y: 5 µm at Y = 0.05 m, 45 µm at Y = 0.45 m. The deviation along a diagonal
+  // of 0.5 m is 4/5 of EYY.
   m.frames[1].error[1] = {{0.05, 0.45}, {5e-6, 45e-6}, {}, {}, {}};
   const auto d = plane_diagonals(m, 0, 1, 4, MachineApproach::forward);
   ASSERT_TRUE(d) << d.error().message;
@@ -189,7 +192,7 @@ TEST(PlaneMap, CoversTheRangeUpToAMillionPoints) {
   ASSERT_EQ(map->points.size(), 20U);
   EXPECT_NEAR(map->first_m[1], 0, 1e-15);
   EXPECT_NEAR(map->second_m[4], 0.45, 1e-15);
-  EXPECT_EQ(map->first_at(6), map->first_m[2]);  // the first axis runs fastest
+  EXPECT_EQ(map->first_at(6), map->first_m[2]);  // the first axis has the smallest stride
   EXPECT_EQ(map->second_at(6), map->second_m[1]);
   EXPECT_NEAR(map->points[6].error[1], 3e-6, 1e-15);
   const MapExtreme extreme = map->extremes[1];
@@ -200,9 +203,10 @@ TEST(PlaneMap, CoversTheRangeUpToAMillionPoints) {
   EXPECT_EQ(without_points->extremes[1].point, extreme.point);
   request.extremes_only = false;
   EXPECT_NEAR(extreme.value, 6e-6, 1e-15);
-  EXPECT_EQ(extreme.point % 4, 3U);  // in any row
+  EXPECT_EQ(extreme.point % 4, 3U);  // point 3 of a row, in any row
   EXPECT_NEAR(extreme.range, 9e-6, 1e-15);
-  // 999 steps a side have a million points: plane_map() refuses them before it calculates.
+  // With 999 steps on each side the map has a million points. plane_map() refuses such a map before
+  // the calculation.
   m.frames[0].range = m.frames[1].range = {-0.25, 0.75};
   request.step_m = 1 / 998.5;
   const auto refused = plane_map(m, request);
@@ -212,7 +216,8 @@ TEST(PlaneMap, CoversTheRangeUpToAMillionPoints) {
   EXPECT_EQ(plane_map(m, request)->points.size(), 36U);
 }
 
-// EXX bends along X: below its ends at one quarter, above them at three quarters.
+// EXX is curved along X. At a quarter of the travel it is below the values at the ends, at three
+// quarters above.
 TEST(Diagonals, RangeIsHighestMinusLowest) {
   Machine m;
   m.frames.resize(2);
@@ -225,12 +230,13 @@ TEST(Diagonals, RangeIsHighestMinusLowest) {
   m.frames[0].error[0] = {{0, 0.075, 0.225, 0.3}, {0, -5e-6, 10e-6, 0}, {}, {}, {}};
   const auto d = plane_diagonals(m, 0, 1, 4, MachineApproach::mean);
   ASSERT_TRUE(d) << d.error().message;
-  EXPECT_NEAR((*d)[0].deviation_m[1], -3e-6, 1e-15);  // X is 3/5 of the diagonal
+  EXPECT_NEAR((*d)[0].deviation_m[1], -3e-6, 1e-15);  // a change of X changes the diagonal by 3/5
   EXPECT_NEAR((*d)[0].deviation_m[3], 6e-6, 1e-15);
   EXPECT_NEAR((*d)[0].range_m, 9e-6, 1e-15);
 }
 
-// Repeatability and declared u are separate; each kind of line has its degrees of freedom.
+// u from repeated readings and declared u are stated separately. Each line contributes its own
+// degrees of freedom.
 TEST(Diagonals, CombineRepeatedAndDeclaredUncertainty) {
   DiagonalLines lines{{{0.4 - 1e-6, 0.4 + 1e-6}},
                       {{0.3 - 3e-6, 0.3 + 3e-6}},
@@ -239,15 +245,16 @@ TEST(Diagonals, CombineRepeatedAndDeclaredUncertainty) {
                       0};
   const auto repeated_only = squareness_of_diagonals(lines);
   ASSERT_TRUE(repeated_only) << repeated_only.error().message;
-  // cos = (d² - x² - y²) / 2xy at a right angle: ∂/∂d = d/xy, ∂/∂x = -1/y, ∂/∂y = -1/x.
+  // The angle follows from cos = (d² - x² - y²) / 2xy. At a right angle ∂/∂d = d/xy, ∂/∂x = -1/y,
+  // ∂/∂y = -1/x.
   const double of_x = 1e-6 / 0.3, of_y = 3e-6 / 0.4, of_d = 2e-6 / std::sqrt(3) * 0.5 / 0.12;
   const double u = std::hypot(of_x, of_y, of_d);
   EXPECT_NEAR(repeated_only->u_repeat_rad, u, 1e-11);
   EXPECT_NEAR(repeated_only->u_rad, repeated_only->u_repeat_rad, 1e-15);
   const double fourths = std::pow(of_x, 4) + std::pow(of_y, 4) + std::pow(of_d, 4) / 2;
   EXPECT_NEAR(repeated_only->freedom, std::pow(u, 4) / fourths, 1e-4);
-  // Y was read once: s² of all lines is (2 + 8) 1e-12 / 3, for the means of two (x), one (y) and
-  // three (d) readings.
+  // Y was read once. The pooled s² of all lines is (2 + 8) 1e-12 / 3. It applies to the means of
+  // two readings (x), one reading (y) and three readings (d).
   DiagonalLines once = lines;
   once.second.length_m = {0.3};
   const auto pooled = squareness_of_diagonals(once);

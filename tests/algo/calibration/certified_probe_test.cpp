@@ -1,4 +1,4 @@
-// Certificates as a laboratory may write them, in SI units as from read_dcc(). Values by hand.
+// Certificates in the SI units of read_dcc(). Expected values are calculated by hand.
 #include "algo/calibration/certified_probe.h"
 #include "tests/shown.h"
 
@@ -38,7 +38,7 @@ DccQuantity reference(SiUnit unit, std::vector<double> value, std::vector<double
   return quantity({"basic_referenceValue"}, unit, std::move(value), std::move(u), 53);
 }
 
-// 21 V/mm with U = 0.168 V/mm, k = 2: 47.619 µm/V, u = 0.4 %.
+// A certificate of 21 V/mm with U = 0.168 V/mm and k = 2, which is 47.619 µm/V with u = 0.4 %.
 DccQuantity sensitivity() {
   DccQuantity s = quantity({}, {1000, -1, 1}, {21000}, {84}, 17);
   s.unit_text = "\\volt\\per\\milli\\metre";
@@ -76,7 +76,7 @@ Result<CertifiedProbe> of_b(const Rig& rig, const DccCertificate& c,
   return certified_probe(rig, 1, c, which);
 }
 
-// Whether the certificate is refused with a message that contains all `parts`.
+// Returns whether the certificate is refused with a message that contains all `parts`.
 testing::AssertionResult refused(const Result<CertifiedProbe>& found,
                                  const std::vector<std::string>& parts,
                                  ErrorCode code = ErrorCode::bad_input) {
@@ -113,7 +113,7 @@ TEST(CertifiedProbe, ConvertsVoltsPerLengthAndTheZeroOfTheRig) {
   EXPECT_EQ(p.id, "B");
   EXPECT_NEAR(p.um_per_V.value(), 1000.0 / 21, 1e-9);
   EXPECT_NEAR(p.u_sensitivity_1, 0.004, 1e-15);
-  // The zero is at 0.3 V: 12 µm at 40 µm/V.
+  // The zero of the rig is at 0.3 V, which is 12 µm at 40 µm/V.
   EXPECT_NEAR(p.offset_um.value(), 0.3 * 1000 / 21, 1e-9);
   EXPECT_EQ(p.u_offset_m, 0.7e-6);
   EXPECT_TRUE(p.linearity.empty());
@@ -133,7 +133,7 @@ TEST(CertifiedProbe, ConvertsVoltsPerLengthAndTheZeroOfTheRig) {
   EXPECT_EQ(f.u_linearity_m, 0);
 }
 
-// -50 µm/V with u = 0.1 µm/V. Without a scale or a zero in the rig no zero is converted.
+// -50 µm/V with u = 0.1 µm/V. If the rig has no scale or no zero, no zero is converted.
 TEST(CertifiedProbe, ReadsLengthPerVolt) {
   const DccQuantity s = quantity({}, {1e-6, 1, -1}, {-50e-6}, {0.1e-6}, 17);
   for (const auto& [um_per_V, offset_um] :
@@ -154,7 +154,7 @@ TEST(CertifiedProbe, ReadsLengthPerVolt) {
 TEST(CertifiedProbe, RefusesScaleThatContradictsTheRig) {
   const double um_per_V = 30e-6 * 1e6;
   const DccCertificate c = certificate({quantity({}, {1e-6, 1, -1}, {30e-6}, {1e-8}, 17)});
-  for (const double factor : {0.5, 1.3, 2.0})  // ratios to the scale of the rig: 2, 0.77 and 0.5
+  for (const double factor : {0.5, 1.3, 2.0})  // scale of certificate / rig: 2, 0.77, 0.5
     EXPECT_TRUE(of_b(rig_of(um_per_V * factor, 0), c)) << factor;
   for (const double factor : {0.49, 2.05, -1.0})
     EXPECT_TRUE(refused(of_b(rig_of(um_per_V * factor, 0), c),
@@ -183,9 +183,9 @@ TEST(CertifiedProbe, RefusesAmbiguousOrIncompleteSensitivity) {
   EXPECT_TRUE(refused(of_b(rig, certificate({sensitivity()}, {{s}})), {"c.xml:23: ", "line 17"}));
 }
 
-// Errors in µm; the readings are not in ascending order. Relative to the zero of 5 µm they are at
-// -25, 5 and 25 µm with corrections of 0.4, -0.11 and -0.3 µm. The correction at 0 lies 25/30 of
-// the way from the first to the second: -0.025 µm.
+// Errors in µm; the readings are not in ascending order. Relative to the zero at 5 µm, the readings
+// are -25, 5 and 25 µm and the corrections are 0.4, -0.11 and -0.3 µm. The correction at the
+// reading 0 is interpolated at 25/30 of the interval from the first to the second: -0.025 µm.
 TEST(CertifiedProbe, ReadsTableOfErrors) {
   const auto found =
       of_b(rig_of(std::nullopt, 5),
@@ -203,35 +203,36 @@ TEST(CertifiedProbe, ReadsTableOfErrors) {
   EXPECT_TRUE(has(found->not_taken, {"sensitivity_not_certified"}));
 }
 
-// In volts at -40 µm/V: readings of -10 and 30 µm, errors of -2 and 1.2 µm; u is positive.
+// In volts at -40 µm/V. The readings are -10 and 30 µm, the errors -2 and 1.2 µm; u is positive.
 TEST(CertifiedProbe, ConvertsTableInVoltsByTheRigScale) {
   const std::vector<DccQuantity> table = {measured(kVolt, {0.25, -0.75}),
                                           error(kVolt, {0.05, -0.03}, {0.002, 0.003})};
   const auto found = of_b(rig_of(-40, 0), certificate({}, {table}));
   ASSERT_TRUE(found) << found.error().message;
-  // Corrections of 2 and -1.2 µm; the correction at 0, a quarter of the way, is 1.2 µm.
+  // The corrections are 2 and -1.2 µm; at 0, a quarter of the interval, it is 1.2 µm.
   expect_rows(found->probe.linearity, {{-10, 0.8}, {30, -2.4}});
   EXPECT_NEAR(found->facts.u_linearity_m, 0.12e-6, 1e-18);
   EXPECT_TRUE(refused(of_b(rig_of(std::nullopt, 0), certificate({}, {table})),
                       {"c.xml:31: ", "\"B\" of r.toml"}));
 }
 
-// The certificate's scale and zero have priority over the rig's: 50 µm/V, zero at 0.2 V.
+// The certificate's scale, 50 µm/V, and zero, 0.2 V, have priority over those of the rig.
 TEST(CertifiedProbe, ConvertsTableInVoltsByTheCertificateScale) {
   const DccQuantity s = quantity({}, {1, 1, -1}, {50e-6}, {1e-6}, 17);
   const auto found =
       of_b(rig_of(40, 8), certificate({s}, {{measured(kVolt, {0.6, -0.6}),
                                              error(kMetre, {1.5e-6, -0.3e-6}, {3e-8, 2e-8})}}));
   ASSERT_TRUE(found) << found.error().message;
-  // At 30 - 10 and -30 - 10 µm; at 0, two thirds of the way from 0.3 to -1.5 µm, it is -0.9.
+  // The readings are 30 - 10 and -30 - 10 µm. The correction at the reading 0, at two thirds of the
+  // interval from 0.3 to -1.5 µm, is -0.9 µm.
   expect_rows(found->probe.linearity, {{-40, 1.2}, {20, -0.6}});
   EXPECT_NEAR(found->facts.u_linearity_m, 0.03e-6, 1e-18);
   EXPECT_EQ(found->taken.size(), 5u);
   EXPECT_TRUE(found->not_taken.empty());
 }
 
-// 0.0499 V/um with u = 0.02 %; a table in um at -80, 0 and 80 um with u = 6 nm, read with 20 um/V.
-// 3.992 V is 79.84 um with 20 um/V and 80 um with the certificate: no correction remains.
+// 0.0499 V/um with u = 0.02 %; reference values of -80, 0 and 80 um with u = 6 nm. 3.992 V is
+// 79.84 um with the rig's 20 um/V, and 80 um with the certificate: no correction remains.
 TEST(CertifiedProbe, CorrectsTheScaleOnlyOnce) {
   const DccQuantity s = quantity({}, {1e6, -1, 1}, {0.0499e6}, {10}, 17);
   const auto found = [&](std::optional<double> um_per_V, double read_um) {
@@ -244,12 +245,12 @@ TEST(CertifiedProbe, CorrectsTheScaleOnlyOnce) {
   EXPECT_NEAR(with_rig_scale->probe.um_per_V.value(), 1 / 0.0499, 1e-9);
   expect_rows(with_rig_scale->probe.linearity, {{-80, 0}, {0, 0}, {80, 0}});
   EXPECT_TRUE(has(with_rig_scale->taken, {"certified_readings_converted from_um_per_V=20 "}));
-  // Read with the scale of the certificate: within 3 u (48 nm at 80 um) nothing is converted.
+  // Readings that agree with the scale of the certificate within 3 u (48 nm at 80 um) are kept.
   const auto found_with_scale = found(20, 79.97);
   ASSERT_TRUE(found_with_scale) << found_with_scale.error().message;
   expect_rows(found_with_scale->probe.linearity, {{-79.97, -0.03}, {0, 0}, {79.97, 0.03}});
   EXPECT_FALSE(has(found_with_scale->taken, {"certified_readings_converted"}));
-  // Readings that match neither scale.
+  // Readings that agree with neither scale are refused.
   for (const std::optional<double> um_per_V : {std::optional<double>(), {20.04}, {20.1}})
     EXPECT_TRUE(refused(found(um_per_V, 79.84), {"c.xml:31: ", "scale twice", "\"B\" in r.toml"}));
   EXPECT_TRUE(refused(found(20, 79.7), {"c.xml:31: ", "20.0401 um/V", "\"as found\""}));
@@ -266,7 +267,7 @@ TEST(CertifiedProbe, ReadsTableOfReferenceValues) {
   const auto both = found(u_read, u_x);
   ASSERT_TRUE(both) << both.error().message;
   expect_rows(both->probe.linearity, {{-19.5, 5}, {0, 0}, {40.5, 4}});
-  // The combined u of the rows are 5, 5.1 and √41 times 10 nm.
+  // The combined u of the three rows is 5, √26 and √41 times 10 nm.
   EXPECT_NEAR(both->facts.u_linearity_m, std::sqrt(41.0) * 1e-8, 1e-18);
   EXPECT_TRUE(has(both->taken, {"corrections=3", "ref_type=basic_referenceValue"}));
   EXPECT_EQ(both->not_taken.size(), 1u);
@@ -281,7 +282,7 @@ TEST(CertifiedProbe, ReadsTableOfReferenceValues) {
   EXPECT_TRUE(refused(found({}, {}), {"c.xml:31: ", "table", "no uncertainty"}));
 }
 
-// Errors without u get the u of the readings; a table without any u is refused.
+// Errors without u have the u of the readings. A table without any u is refused.
 TEST(CertifiedProbe, ErrorsWithoutUTakeUOfTheReadings) {
   const auto found = [](const std::vector<double>& u_read) {
     return of_b(rig_of(std::nullopt, 0), certificate({}, {{measured(kMetre, {4e-6, 9e-6}, u_read),
@@ -294,7 +295,7 @@ TEST(CertifiedProbe, ErrorsWithoutUTakeUOfTheReadings) {
   EXPECT_TRUE(refused(found({}), {"c.xml:47: ", "table", "no uncertainty"}));
 }
 
-// At 32 µm/V all numbers are exact, so the test can check both sides of a limit.
+// At 32 µm/V all numbers are exact, so both sides of a limit can be tested.
 TEST(CertifiedProbe, RefusesErrorsThatContradictTheReference) {
   const auto found = [](double error_V, const std::vector<double>& u_V, double read_V = 0.5) {
     return of_b(rig_of(32, 0),
@@ -305,7 +306,7 @@ TEST(CertifiedProbe, RefusesErrorsThatContradictTheReference) {
   const std::vector<double> u = {0.03125, 0.0625, 0.125};
   ASSERT_TRUE(found(0.25, u)) << found(0.25, u).error().message;
   EXPECT_NEAR(found(0.25, u)->facts.u_linearity_m, 4e-6, 1e-18);
-  for (const double off : {-0.125, 0.125}) {  // 2 u
+  for (const double off : {-0.125, 0.125}) {  // two times u
     EXPECT_TRUE(found(0.25 + off, u)) << off;
     const double error_V = 0.25 + 1.05 * off, expected_error_um = 32 * error_V;
     EXPECT_TRUE(refused(found(error_V, u), {"c.xml:47: ", "value 2 is ", off < 0 ? "3.8" : "12.2",
@@ -313,14 +314,14 @@ TEST(CertifiedProbe, RefusesErrorsThatContradictTheReference) {
         << expected_error_um;
   }
   EXPECT_TRUE(found(3, {}));
-  // Each row is checked by itself: here only the reading is wrong.
+  // Each row is checked separately. Here only the reading of the second row is wrong.
   EXPECT_TRUE(refused(found(0.25, u, 0.75), {"value 2 is 8 um", "reference is 16 um"}));
 }
 
 // The slope of the readings from the lowest to the highest reference value must be 0.5 to 2.
 TEST(CertifiedProbe, RefusesReadingsWithImplausibleSlope) {
   const auto found = [](double slope) {
-    // Reference values from -0.25 V (second) to 0.75 V (third); the first reading is off the line.
+    // Row 2 has the lowest reference value, row 3 the highest. Row 1 does not fit the slope.
     return of_b(rig_of(32, 0),
                 certificate({}, {{measured(kVolt, {0.9, -0.5, -0.5 + slope}),
                                   reference(kVolt, {0.5, -0.25, 0.75}, {1, 1, 1})}}));
@@ -348,7 +349,7 @@ TEST(CertifiedProbe, RefusesTablesWithInconsistentRows) {
               {"c.xml:31: ", "same reading"}));
 }
 
-// A second table is refused unless the name or the type of a result selects one.
+// A second table is refused unless the name or the type selects one of the results.
 TEST(CertifiedProbe, SelectsAResultByNameOrType) {
   DccCertificate c = certificate(
       {}, {{measured(kMetre, {4e-6, 9e-6}), error(kMetre, {0.2e-6, 0.5e-6}, {1e-8, 2e-8})}});
@@ -378,7 +379,7 @@ TEST(CertifiedProbe, SelectsAResultByNameOrType) {
   EXPECT_TRUE(refused(of_b(rig, c), {"c.xml: ", "no sensitivity"}));
 }
 
-// Quantities with another unit, or without a second column or a list, are ignored.
+// Quantities with another unit, without a second column, or without a list are ignored.
 TEST(CertifiedProbe, IgnoresUnrelatedQuantities) {
   std::vector<DccQuantity> others;
   for (const SiUnit unit :

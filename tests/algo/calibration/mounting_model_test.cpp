@@ -1,4 +1,4 @@
-// The unknowns of probes in any direction, and the derivatives of their readings.
+// Tests the unknowns of probes in any direction, and the derivatives of their readings.
 #include "algo/calibration/mounting_model.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// Three tilts, each with traverses along X and Y.
+// Clampings with three tilts. Each clamping has traverses along X and Y.
 std::vector<Clamping> simulated_clampings(std::size_t probes) {
   std::vector<Clamping> clampings;
   for (int c = 0; c < 3; ++c) {
@@ -56,7 +56,7 @@ TEST(MountingModel, UnknownsAreAlongOrthogonalUnitVectors) {
   EXPECT_EQ(model->readings().size(), 3u * 2 * 4 * 7);
 }
 
-// Each column equals the central difference of the residuals, at tilts of 20 mrad.
+// Expects that each column equals the central difference of the residuals, at tilts of 20 mrad.
 void expect_derivatives(const MountingModel& model) {
   Eigen::VectorXd pose(model.pose_unknowns()), probe(model.unknowns());
   for (Eigen::Index i = 0; i < pose.size(); ++i)
@@ -65,7 +65,8 @@ void expect_derivatives(const MountingModel& model) {
   for (Eigen::Index i = 0; i < probe.size(); ++i)
     probe(i) = 0.5 * std::cos(1.7 * static_cast<double>(i));
   const auto at = model.linearised(pose, probe);
-  // The misfit decreases when the reading of the model increases.
+  // The residual is the reading minus the reading of the model, so the difference has the opposite
+  // sign.
   const auto compare = [&](const Eigen::VectorXd& column, const Eigen::VectorXd& above,
                            const Eigen::VectorXd& below, double step, Eigen::Index i) {
     const Eigen::VectorXd slope = (below - above) / (2 * step);
@@ -99,8 +100,8 @@ TEST(MountingModel, DerivativesMatchFiniteDifferences) {
   expect_derivatives(model);
 }
 
-// A declared position uncertainty is along the axes of the machine; undeclared scales have the
-// values for clamping by hand.
+// A declared position uncertainty is along the axes of the machine. Scales that the rig does not
+// declare have the values for mounting by hand.
 TEST(MountingModel, ScalesComeFromTheRigOrFromDefaults) {
   const Rig rig = test::rig_x_with(
       "D", "u_position_mm = [0.02, 0.03, 0.04]\nu_direction_mrad = 7\nu_sensitivity_ppm = 300");
@@ -123,7 +124,7 @@ TEST(MountingModel, ScalesComeFromTheRigOrFromDefaults) {
   EXPECT_FALSE(model.declared(unknown_of(3, kZero)));
 }
 
-// On a plane that is tilted by t the encoder uncertainty u contributes t u to a reading.
+// If a plane is tilted by t, the encoder uncertainty u contributes t u to a reading.
 TEST(MountingModel, EncoderUncertaintyEntersThroughTilts) {
   auto model = MountingModel::create(test::rig_x(), simulated_clampings(5)).value();
   Eigen::VectorXd pose = Eigen::VectorXd::Zero(model.pose_unknowns());
@@ -133,7 +134,8 @@ TEST(MountingModel, EncoderUncertaintyEntersThroughTilts) {
   model.widen_by_encoder(pose, 1e-6);
   for (const TraverseReading& seen : model.readings()) {
     const bool is_pitched = seen.clamping == 1 && seen.probe < 3 && seen.traverse % 2 == 0;
-    const bool is_driven_into = seen.probe >= 3 && seen.traverse % 2 == 1;  // along Y
+    // Travel along Y towards the side plane.
+    const bool is_driven_into = seen.probe >= 3 && seen.traverse % 2 == 1;
     const double by_encoder = is_pitched ? 0.02e-6 : is_driven_into ? 1e-6 : 0;
     EXPECT_NEAR(seen.u_m, std::hypot(1e-8, by_encoder), 1e-3 * by_encoder + 1e-15)
         << seen.clamping << ' ' << seen.traverse << ' ' << seen.probe;

@@ -1,5 +1,5 @@
-// Noise as large as the effects that show the directions of the probes. The mountings are known,
-// from simulated clampings (tilted_target.h).
+// The noise is as large as the effects that show the directions of the probes. Simulated clampings
+// with known mountings (tilted_target.h).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,9 +13,8 @@ namespace {
 
 using test::TiltedTarget;
 
-// Travel along a probe shows its direction only by the product travel × tilt × direction: 2 mm × 3
-// mrad × 2 mrad = 12 nm. With most of these seeds the Gauss-Newton steps do not converge by
-// themselves.
+// A direction has an effect on a reading only by the product travel × tilt × direction: 2 mm × 3
+// mrad × 2 mrad = 12 nm. With most of these seeds, Gauss-Newton iterations alone do not converge.
 TEST(MountingNoise, FitsNearTheDetectionLimitEndAndCover) {
   const Rig rig = parse_rig(test::mounting_rig_toml("", 12000), "rig_X.toml").value();
   int inside = 0, n = 0, seen = 0;

@@ -1,4 +1,4 @@
-// The contents of a calibration record and the clampings from which it was calculated.
+// Tests the contents of a calibration record and the clampings from which it is calculated.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,8 @@ Rig rig_of_record() {
       .value();
 }
 
-// Positions are along X and Y on the top plane, along X and Z on the side plane.
+// Positions of probes are calibrated along X and Y on the top plane, along X and Z on the side
+// plane.
 TEST(MountingRecord, StatesPositionsAndUncertainties) {
   std::mt19937_64 rng(21);
   test::TiltedTarget target(rng, 50e-6, 0, 3e-6);
@@ -46,7 +47,7 @@ TEST(MountingRecord, StatesPositionsAndUncertainties) {
     EXPECT_GE(probe.u_position_m[0], 0.999 * std::sqrt(fit->covariance(i, i)));
     EXPECT_GE(probe.u_position_m[across], 0.999 * std::sqrt(fit->covariance(i + 1, i + 1)));
     EXPECT_EQ(probe.u_position_m[facing], 0) << k;
-    // The clampings do not determine the directions; the rig's values remain.
+    // The clampings do not determine the directions, so the directions of the rig remain.
     EXPECT_EQ(probe.direction, rig.probes[k].direction);
     EXPECT_TRUE(probe.zero_seen);
     EXPECT_LE(probe.readings, 6u * 2 * 5);
@@ -55,7 +56,7 @@ TEST(MountingRecord, StatesPositionsAndUncertainties) {
   }
   EXPECT_EQ(found.readings, readings);
   EXPECT_EQ(found.clampings, 6u);
-  // Largest angle between two tilts, of the clampings as simulated.
+  // Largest angle between two tilts of the simulated clampings.
   double most = 0;
   for (const auto& a : target.clampings)
     for (const auto& b : target.clampings)
@@ -64,7 +65,8 @@ TEST(MountingRecord, StatesPositionsAndUncertainties) {
   EXPECT_NEAR(found.tilt_rad, most, 0.02 * most);
 }
 
-// The matrix is symmetric; its diagonal has the variances of the single probes.
+// The matrix is symmetric. Its diagonal contains the variances of the single quantities of the
+// probes.
 TEST(MountingRecord, MatrixContainsThePositionUncertainties) {
   std::mt19937_64 rng(22);
   test::TiltedTarget target(rng, 50e-6, 0, 3e-6);
@@ -72,7 +74,8 @@ TEST(MountingRecord, MatrixContainsThePositionUncertainties) {
   const auto fit = fit_mounting(rig_of_record(), target.logs(rng));
   ASSERT_TRUE(fit) << fit.error().message;
   const CalibrationCovariance& covariance = fit->found.covariance;
-  ASSERT_EQ(covariance.of.size(), 5u * 3);  // two components of the position, and the zero
+  // For each probe: two components of the position, and the zero.
+  ASSERT_EQ(covariance.of.size(), 5u * 3);
   const auto at = [&](const std::string& name) {
     const auto found = std::find(covariance.of.begin(), covariance.of.end(), name);
     EXPECT_NE(found, covariance.of.end()) << name;
@@ -93,7 +96,7 @@ TEST(MountingRecord, MatrixContainsThePositionUncertainties) {
       EXPECT_LE(std::abs(covariance.m2[i][j]),
                 std::sqrt(covariance.m2[i][i] * covariance.m2[j][j]) * (1 + 1e-9));
     }
-  // Positions of neighbouring probes are correlated, because the same tilts determined them.
+  // The positions of neighbouring probes are correlated, because the same tilts determine them.
   const std::size_t a = at(place_name("A", 0)), b = at(place_name("B", 0));
   const Eigen::Index ia = 0, ib = 6;
   EXPECT_NEAR(covariance.m2[a][b], fit->covariance(ia, ib), 1e-14);

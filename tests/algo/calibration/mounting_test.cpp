@@ -1,4 +1,4 @@
-// Known mountings, from simulated clampings (tilted_target.h).
+// Simulated clampings with known mountings (tilted_target.h).
 #include "algo/calibration/mounting.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Rig rig_with(const std::string& of_probes) {
 }
 
 // True minus nominal values, in the order of MountingFit::change. The tangents of both planes are
-// the local axes; a direction is given by its components along them.
+// the local axes. A direction is stated by its components along the tangents.
 Eigen::VectorXd true_deviations(const TiltedTarget& target, const Rig& rig) {
   Eigen::VectorXd truth(30);
   for (std::size_t k = 0; k < 5; ++k) {
@@ -52,7 +52,7 @@ TEST(Mounting, ExactReadingsGiveRelativePositions) {
   ASSERT_TRUE(fit) << fit.error().message;
   const Eigen::VectorXd truth = true_deviations(target, rig);
   const Eigen::VectorXd part = fit->seen * truth;
-  // Each probe relative to the first one of its plane.
+  // Position of each probe relative to the first probe of its plane.
   for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {3, 4}})
     for (int j = 0; j < 3; ++j) {
       const double found = fit->change(6 * a + j) - fit->change(6 * b + j);
@@ -63,8 +63,8 @@ TEST(Mounting, ExactReadingsGiveRelativePositions) {
   EXPECT_LT(fit->found.chi_square, 1);
 }
 
-// χ² differs from the degrees of freedom by less than five of its standard deviations, and the
-// combinations that the clampings do not show are named.
+// χ² may differ from the degrees of freedom by at most five of its standard deviations. The result
+// must name the combinations that the clampings do not determine.
 TEST(Mounting, NoisyReadingsGiveTheExpectedUncertainties) {
   std::mt19937_64 rng(2);
   TiltedTarget target(rng, kPlace_m, kWay_rad, 3e-6);
@@ -89,15 +89,15 @@ TEST(Mounting, NoisyReadingsGiveTheExpectedUncertainties) {
     EXPECT_TRUE(std::any_of(found.not_seen.begin(), found.not_seen.end(), [&](const auto& line) {
       return line.find(says) != std::string::npos;
     })) << says;
-  // Mean of two or three independent positions with u = 50 um each.
+  // u of the mean of two or three independent positions, each with u = 50 um.
   EXPECT_NEAR(found.u_together_m[0], kPlace_m / std::sqrt(2), 1e-9);
   EXPECT_NEAR(found.u_together_m[1], kPlace_m / std::sqrt(3), 1e-9);
   EXPECT_NEAR(found.u_together_m[2], kPlace_m / std::sqrt(2), 1e-9);
 }
 
-// In 500 calibrations, with everything drawn anew, 94 to 96.5 % of the 95 % intervals contain the
-// truth: both for the determined part alone, and for all positions when the declared uncertainty of
-// the rig is added.
+// 500 calibrations; the mounting, the tilts and the noise are drawn anew in each. 94 to 96.5 % of
+// the 95 % intervals must contain the truth. This is tested for the determined part alone. It is
+// also tested for all positions with the declared uncertainty of the rig added.
 TEST(Mounting, IntervalsCoverTheTruth) {
   std::mt19937_64 rng(3);
   const Rig rig = rig_with(kDeclared);
@@ -131,8 +131,8 @@ TEST(Mounting, IntervalsCoverTheTruth) {
   EXPECT_NEAR(distance / 500, 1, 0.2) << "the correlations too";
 }
 
-// The scale of a probe is an unknown if the rig declares its uncertainty. Otherwise a scale error
-// would appear as a position error of ten micrometres.
+// The scale of a probe is an unknown if the rig declares its uncertainty. If it were not an
+// unknown, a scale error would appear as a position error of ten micrometres.
 TEST(Mounting, DeclaredSensitivityUKeepsPositionsCorrect) {
   std::mt19937_64 rng(4);
   TiltedTarget target(rng, kPlace_m, 0, 3e-6);
@@ -173,8 +173,8 @@ TEST(Mounting, UnexplainedResidualsIncreaseU) {
   EXPECT_NEAR(stated.covariance(0, 0) / right.covariance(0, 0), 1, 0.3);
 }
 
-// One probe has a scale error of 1 % that the rig does not declare: about 0.1 um, at a noise of 1
-// nm.
+// One probe has a scale error of 1 % that the rig does not declare. Its effect is about 0.1 um; the
+// noise is 1 nm.
 TEST(Mounting, RefusesALargeMisfit) {
   const auto refused = [](double scale, double noise_m, const std::string& declared) {
     std::mt19937_64 rng(8);
@@ -199,7 +199,7 @@ TEST(Mounting, RefusesTooFewTilts) {
   ASSERT_FALSE(once);
   EXPECT_EQ(once.error().code, ErrorCode::check);
   EXPECT_NE(once.error().message.find("Clamp the target at three"), std::string::npos);
-  // Two tilts determine each position along one direction only.
+  // Two tilts determine the position of each probe along one direction only.
   target.clamp(2, kTilt_rad, rng);
   target.clampings.erase(target.clampings.begin());
   const auto twice = fit_mounting(rig, target.logs(rng));
@@ -220,10 +220,10 @@ TEST(Mounting, DetectsAReversedAxis) {
   EXPECT_EQ(fit.error().remedy, Remedy::reverse_target) << fit.error().message;
 }
 
-// Errors that the mounting induces in a measurement, before and after the calibration. The true
-// probes read random errors of the axis (simulation II: 1 mrad, 50 um); the readings are solved
-// with the rig as declared and as calibrated. Straightness refers to the point of the calibrated
-// rig, see the README.
+// Errors that the mounting causes in a measurement, before and after the calibration. The true
+// probes measure random errors of the axis (simulation II: 1 mrad, 50 um). The readings are solved
+// with the declared rig and with the calibrated rig. Straightness is stated at the origin of the
+// calibrated rig, see the README.
 TEST(Mounting, CalibrationReducesInducedErrorsTwentyfold) {
   std::mt19937_64 rng(8);
   const Rig rig = rig_with(kDeclared);
@@ -238,8 +238,8 @@ TEST(Mounting, CalibrationReducesInducedErrorsTwentyfold) {
       calibrated.probes[k].position_m = fit.found.probes[k].position_m;
     const auto declared = Solver::create(rig, Model::rigid).value();
     const auto known = Solver::create(calibrated, Model::rigid).value();
-    // Offset of the origin of the axis relative to the true probes: the clampings do not show their
-    // mean position.
+    // Offset of the origin of the axis relative to the true probes. The clampings do not determine
+    // the mean position of the probes.
     const Eigen::VectorXd off =
         true_deviations(target, rig) - fit.seen * true_deviations(target, rig);
     for (int trial = 0; trial < 200; ++trial) {
@@ -287,7 +287,7 @@ CalibrationRecord record_of(const MountingFit& fit, const Rig& rig, bool with_co
   return record;
 }
 
-// Angles of a target that is tilted by some mrad, measured with the calibrated rig as read from its
+// Measures angles of a target that is tilted by some mrad; the calibrated rig is read from its
 // record. Returns the share (%) of 300 intervals that contain the truth, in the order of Errors5.
 std::array<double, 5> angle_coverage(bool with_covariance) {
   std::mt19937_64 rng(11);
@@ -332,7 +332,8 @@ std::array<double, 5> angle_coverage(bool with_covariance) {
   return held;
 }
 
-// The zeros and positions of one calibration are correlated, and their effects partly cancel.
+// The zeros and positions that one calibration determines are correlated. Their effects partly
+// cancel.
 TEST(Mounting, RecordKeepsCovariancesForTheBudget) {
   const auto with = angle_coverage(true), without = angle_coverage(false);
   for (const std::size_t e : {kEx, kEy, kEz}) {
@@ -342,9 +343,9 @@ TEST(Mounting, RecordKeepsCovariancesForTheBudget) {
   EXPECT_LT(without[kEz], 85);
 }
 
-// Large tilts and probes with a long range also determine directions. Over 80 calibrations: the
-// squared distance of the determined directions from the true ones, normalised by the matrix of the
-// record.
+// Large tilts and probes with a long range also determine directions. The test calculates, over 80
+// calibrations, the squared distance between determined and true directions. The matrix of the
+// record normalises this distance.
 TEST(Mounting, MatrixContainsTheDeterminedDirections) {
   std::mt19937_64 rng(21);
   const Rig rig = parse_rig(test::mounting_rig_toml(kDeclared, 4000), "rig_X.toml").value();

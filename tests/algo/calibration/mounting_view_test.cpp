@@ -1,4 +1,5 @@
-// The sentences about combinations that the clampings do not show, for given combinations.
+// Tests the sentences about combinations that the clampings do not determine; the combinations are
+// given.
 #include "algo/calibration/mounting_view.h"
 
 #include <gtest/gtest.h>
@@ -10,14 +11,14 @@
 namespace mdof::algo {
 namespace {
 
-// A, B and C face one plane, D and E another; all positions are known with u = 20 um.
+// A, B and C face one plane, D and E face another. The position of each probe has u = 20 um.
 MountingModel two_plane_model() {
   Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 300");
   for (Probe& probe : rig.probes) probe.uncertainty.position.u = {20e-6, 20e-6, 20e-6};
   return MountingModel::create(rig, {}).value();
 }
 
-// Sentences if only these directions, in units of scale(), are unseen.
+// Sentences for a view in which only these directions are not determined, in units of scale().
 Unseen named(const MountingModel& model, const std::vector<Eigen::VectorXd>& directions) {
   MountingView view;
   view.unseen = Eigen::MatrixXd(model.unknowns(), static_cast<Eigen::Index>(directions.size()));
@@ -28,7 +29,8 @@ Unseen named(const MountingModel& model, const std::vector<Eigen::VectorXd>& dir
 Eigen::VectorXd unit(const MountingModel& model, std::size_t probe, MountingUnknown which) {
   return Eigen::VectorXd::Unit(model.unknowns(), unknown_of(probe, which));
 }
-// The same unknown of several probes, each along the direction of the first probe.
+// Direction in which the same unknown of several probes changes together, along the axis of the
+// first probe.
 Eigen::VectorXd together(const MountingModel& model, const std::vector<std::size_t>& probes,
                          MountingUnknown which) {
   const std::size_t j = which == kPlace1 ? 0 : 1;
@@ -55,7 +57,7 @@ TEST(MountingView, NamesAProbeRelativeToTheOthers) {
               Sentences{"the direction of E: the tilts and readings are too small"});
   EXPECT_EQ(sentences(3, algo::kScale), Sentences{"the sensitivity of D: only a calibration of the "
                                                   "sensitivity can determine the sensitivity"});
-  // D measures along Y.
+  // D measures along Y, so its position is known along X and Z.
   for (const auto which : {kPlace1, kPlace2}) {
     const bool is_x = std::abs(model.along(3, which == kPlace1 ? 0 : 1).x()) > 0.5;
     EXPECT_EQ(sentences(3, which),
@@ -63,7 +65,7 @@ TEST(MountingView, NamesAProbeRelativeToTheOthers) {
                         " relative to the other probes: clamp the target at more tilts, with "
                         "larger differences"});
   }
-  // An exact sensitivity is not an unknown.
+  // The sensitivity of A has no declared u, so it is not an unknown.
   EXPECT_TRUE(named(model, {unit(model, 0, algo::kScale)}).sentences.empty());
 }
 
@@ -71,7 +73,7 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
   const MountingModel model = two_plane_model();
   const Unseen both =
       named(model, {together(model, {3, 4}, kPlace1), together(model, {3, 4}, kPlace2)});
-  // Two positions with u = 20 um each have a mean with u = 20 um / sqrt(2).
+  // The mean of two positions with u = 20 um each has u = 20 um / sqrt(2).
   ASSERT_EQ(both.sentences.size(), 2u);
   for (const auto& sentence : both.sentences)
     EXPECT_NE(sentence.find("the common position of D, E along "), std::string::npos) << sentence;
@@ -93,7 +95,7 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
   EXPECT_EQ(zero.apart.cols(), 1);
 }
 
-// If the rig does not declare u for one probe, u of the common mean is unknown.
+// If the rig does not declare u of one position, u of the common mean is unknown.
 TEST(MountingView, OneUndeclaredPositionMakesTheMeanUnknown) {
   Rig rig = test::rig_x();
   for (Probe& probe : rig.probes)
@@ -111,8 +113,9 @@ TEST(MountingView, OneUndeclaredPositionMakesTheMeanUnknown) {
   EXPECT_EQ(unseen.u_together_m[2], 0);
 }
 
-// Probes in general directions for the axis X, and the same fixture turned for Y, where local x is
-// +Y and local y is -X. A position is named by the machine axis that is nearest to its direction.
+// Probes with general directions for the axis X, and the same fixture turned for Y. A run along Y
+// has the local axes x = +Y and y = -X. The sentence names a position by the machine axis that is
+// nearest to its direction.
 TEST(MountingView, NamesAPositionByTheNearestMachineAxis) {
   const Rig along_x = test::rig_oblique();
   Rig along_y = along_x;

@@ -14,7 +14,7 @@
 namespace mdof::algo {
 namespace {
 
-// Probe A (0) of test::rig_x(), which the Z axis approaches.
+// Probe A (index 0) of test::rig_x(); the traverse is along Z, in which A measures.
 constexpr std::size_t kA = 0;
 
 template <class Reads>
@@ -30,8 +30,8 @@ Traverse along_z(Reads reads, int n = 11, double reach_m = 80e-6) {
 }
 
 TEST(Sensitivity, MatchesSlopeAndUncertaintyByHand) {
-  // The readings alternate by ±20 nm about a line; the standard deviation of a slope over 11 points
-  // is calculated by hand.
+  // The readings alternate by ±20 nm about a straight line. The standard deviation of the slope
+  // over 11 points is calculated by hand.
   int k = 0;
   const auto found = fit_sensitivity(test::rig_x(), kA, along_z([&](double z) {
                                        return 3e-6 + 1.002 * z + (k++ % 2 ? 20e-9 : -20e-9);
@@ -48,9 +48,9 @@ TEST(Sensitivity, MatchesSlopeAndUncertaintyByHand) {
   EXPECT_FALSE(found->um_per_V);
 }
 
-// Share (%) of 5,000 intervals, with the coverage factor for the degrees of freedom, that contain
-// the true sensitivity. The axis visits `places` positions there and back; the readings have white
-// noise and an encoder error that is the same at both visits of a position.
+// Share (%) of 5,000 intervals that contain the true sensitivity; the coverage factor is that of
+// the degrees of freedom. The axis visits `places` positions in both directions. The readings have
+// white noise, and an encoder error that is the same at both visits of a position.
 double coverage_percent(const std::string& of_rig, double encoder_m, double noise_m, int places) {
   const Rig rig = test::rig_x_with("", "", of_rig);
   std::mt19937_64 engine(5);
@@ -75,11 +75,12 @@ double coverage_percent(const std::string& of_rig, double encoder_m, double nois
 
 TEST(Sensitivity, IntervalsCoverAnEncoderErrorAtEachPosition) {
   const std::string declared = "[encoder]\nu_um = 0.2\n";
-  // 95 % less three standard deviations of 5,000 trials.
+  // 95 % minus three standard deviations of the share for 5,000 trials.
   for (const int places : {5, 11}) {
     SCOPED_TRACE(places);
     EXPECT_GT(coverage_percent(declared, 0.2e-6, 10e-9, places), 94);
-    EXPECT_GT(coverage_percent("", 0.2e-6, 10e-9, places), 94);  // the residuals show it
+    // The residuals show the encoder error.
+    EXPECT_GT(coverage_percent("", 0.2e-6, 10e-9, places), 94);
     EXPECT_GT(coverage_percent("", 0, 50e-9, places), 94);
   }
 }
@@ -98,7 +99,8 @@ TEST(Sensitivity, ReportsUnseenContributions) {
             std::string::npos);
 }
 
-// The proposed table corrects the readings, for both senses of the probe.
+// The proposed table corrects the readings, for a probe that reads displacements and for one that
+// reads gaps.
 TEST(Sensitivity, ProposedTableCorrectsTheReadings) {
   const auto curve = [](double z) { return 2e-6 + 1.003 * z + 40 * z * z; };
   for (const char* reads : {"displacement", "gap"})
@@ -114,7 +116,7 @@ TEST(Sensitivity, ProposedTableCorrectsTheReadings) {
       std::size_t k = 0;
       for (const auto& [t_um, correction_um] : found->linearity) {
         if (t_um < found->calibrated_um[0] || t_um > found->calibrated_um[1]) continue;
-        // Returns to the raw number, then applies the rig as proposed.
+        // The test calculates the raw number from the reading and applies the proposed rig to it.
         const double displacement_um = sign * (t_um + correction_um);
         const auto i = sign > 0 ? k : 10 - k;
         const double z = 80e-6 * (2.0 * static_cast<double>(i) / 10 - 1);
@@ -129,8 +131,8 @@ TEST(Sensitivity, ProposedTableCorrectsTheReadings) {
     }
 }
 
-// The traverse covers +-12 um, and the table continues with the same slope over the whole range:
-// raw = 100 +- (5 + 1.02 z).
+// The traverse covers ±12 um. The table continues with the same slope over the whole range: raw =
+// 100 ± (5 + 1.02 z).
 TEST(Sensitivity, TableWithoutScaleCoversTheRange) {
   for (const double sign : {1.0, -1.0}) {
     const Rig rig = test::rig_x_with("A", std::string("reads = ") +
@@ -144,7 +146,7 @@ TEST(Sensitivity, TableWithoutScaleCoversTheRange) {
     Calibration as_proposed;
     as_proposed.linearity = found->linearity;
     for (const double raw_um : {-40.0, 10.0, 100.0, 103.0, 180.0, 250.0}) {
-      const double t_um = raw_um - 100;  // 1.02 times the true displacement from raw = 100
+      const double t_um = raw_um - 100;  // 1.02 times the displacement from raw = 100
       EXPECT_NEAR(t_um + linearity_um(as_proposed, t_um), t_um / 1.02, 1e-9) << raw_um;
     }
     EXPECT_NEAR(found->linearity.front()[0], -140, 1e-12);
@@ -169,14 +171,13 @@ TEST(Sensitivity, RefusesImplausibleTraverses) {
   EXPECT_EQ(approaching_axis(rig, 3).value(), Axis::y);
 }
 
-// A probe with the slope 1 needs no correction, wherever the zeros of the probe and of the axis
-// are.
+// A probe with the slope 1 needs no correction, for any zeros of the probe and of the axis.
 TEST(Sensitivity, ExactProbeGetsNoCorrection) {
   int k = 0;
   const auto found = fit_sensitivity(
       test::rig_x(), kA, along_z([&](double z) { return 3e-6 + z + (k++ % 2 ? 1e-15 : 0); }));
   ASSERT_TRUE(found) << found.error().message;
-  ASSERT_EQ(found->linearity.size(), 13u);  // 11 positions and both ends of the range
+  ASSERT_EQ(found->linearity.size(), 13u);  // at 11 positions and at both ends of the range
   for (std::size_t i = 0; i < 13; ++i) {
     const double at_um = i == 0 ? -100 : i == 12 ? 100 : 3 - 80 + 16.0 * static_cast<double>(i - 1);
     EXPECT_NEAR(found->linearity[i][0], at_um, 1e-6);
@@ -186,8 +187,8 @@ TEST(Sensitivity, ExactProbeGetsNoCorrection) {
   EXPECT_NEAR(found->to_m, 83e-6, 1e-12);
 }
 
-// Noise of each visit and one encoder error at each position, weighted by the coefficients of the
-// slope.
+// The noise of each visit and the encoder error of each position are weighted by the coefficients
+// of the slope.
 TEST(Sensitivity, UncertaintyCombinesVisitsAndPositions) {
   const Rig rig = test::rig_x_with("", "", "[encoder]\nu_um = 0.3\n");
   Traverse traverse = along_z([](double z) { return 1.01 * z; }, 5);
@@ -218,12 +219,12 @@ TEST(Sensitivity, StatesTheResidualStandardDeviation) {
   int k = 0;
   const auto found = fit_sensitivity(
       test::rig_x(), kA, along_z([&](double z) { return z + (k++ % 2 ? 20e-9 : -20e-9); }));
-  // The readings alternate about their mean of -20/11 nm; nine degrees of freedom.
+  // The readings alternate about their mean of -20/11 nm. There are nine degrees of freedom.
   const double mean = -20e-9 / 11;
   EXPECT_NEAR(found->residual_sd_m, std::sqrt((11 * 400e-18 - 11 * mean * mean) / 9), 1e-15);
 }
 
-// A sensitivity from 0.5 to 2 is plausible.
+// Sensitivities from 0.5 to 2 are accepted.
 TEST(Sensitivity, AcceptsSensitivitiesFromHalfToTwo) {
   const auto is_taken = [](double by) {
     return fit_sensitivity(test::rig_x(), kA, along_z([&](double z) { return by * z; }))

@@ -1,6 +1,6 @@
-// A simulated machine whose target is clamped at several tilts. It calculates the planes from three
-// rotated points and intersects them with the lines of the probes; it shares no code with
-// algo/calibration. The X axis.
+// A simulated machine with an X axis whose target is clamped at several tilts. The planes are
+// calculated from three rotated points and intersected with the lines of the probes. This code
+// shares nothing with algo/calibration.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace mdof::test {
 
 struct TrueProbe {
   Vec3 place{}, way{};
-  bool top = true;  // faces the plane z = 0, else y = h
+  bool top = true;  // true: faces the plane z = 0; false: faces y = h
   double zero = 0, scale = 1;
 };
 
@@ -65,8 +65,8 @@ struct TiltedTarget {
   int stops = 5;
   std::vector<Axis> travels = {Axis::x, Axis::y};
 
-  // The default fixture, mounted by hand: its positions, directions and zeros deviate by these
-  // standard uncertainties.
+  // The default fixture, mounted by hand. The arguments are the standard uncertainties of the
+  // positions, directions and zeros of its probes.
   TiltedTarget(std::mt19937_64& rng, double u_place_m, double u_way_rad, double u_zero_m) {
     const std::array<Vec3, 5> places = {
         {{.01, 0, 0}, {0, .01, 0}, {0, -.01, 0}, {0, .015, .02}, {.01, .015, .02}}};
@@ -85,7 +85,8 @@ struct TiltedTarget {
     }
   }
 
-  // Clamps the target n times, at pairs of opposite tilts about different axes.
+  // Clamps the target n times, at pairs of opposite tilts. The axis of the tilt differs from pair
+  // to pair.
   void clamp(int n, double tilt_rad, std::mt19937_64& rng) {
     const std::array<Vec3, 6> tilts = {
         {{1, 1, 1}, {-1, -1, -1}, {1, -1, -1}, {-1, 1, 1}, {-1, 1, -1}, {1, -1, 1}}};
@@ -96,7 +97,7 @@ struct TiltedTarget {
         c.angle[k] = tilts[static_cast<std::size_t>(i) % 6][k] * tilt_rad * more(rng);
         c.offset[k] = away(rng);
       }
-      // The side probes are at a height of 20 mm; the offset keeps the target in their range.
+      // The side probes are 20 mm above the axis. The offset keeps the target in their range.
       const Vec3 side = turned(c.angle, {0.005, 0.015, 0.02}), top = turned(c.angle, {0.003, 0, 0});
       c.offset[1] -= side[1] - 0.015;
       c.offset[2] -= top[2];

@@ -1,4 +1,4 @@
-// Parts of the deformation by clamping, the factor K, and the stress of bent plates.
+// Tests the parts of the deformation by clamping, the factor K, and the stress of bent plates.
 #include "algo/form/clamping.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// The parts are calculated independently: K by sums over all pixels.
+// The expected parts are calculated separately; the expected K comes from sums over all pixels.
 TEST(Clamping, SplitsPartsAndFindsK) {
   const SurfaceMap before = map_of(bumps);
   const auto elastic = [](double x, double y) {
@@ -44,7 +44,8 @@ TEST(Clamping, SplitsPartsAndFindsK) {
   EXPECT_FALSE(clamping_by_release(before, after, after));
 }
 
-// Closed forms: a plate bent to a cylinder, and to a saddle, which is pure shear at 45 degrees.
+// Closed forms for a plate that is bent to a cylinder, and for one bent to a saddle (pure shear at
+// 45 degrees).
 TEST(PlateStress, MatchesClosedForms) {
   const Plate plate{2.5e-3, 70e9, 0.33};
   const double c = 1 / 50.0;  // 1/m
@@ -53,11 +54,12 @@ TEST(PlateStress, MatchesClosedForms) {
   ASSERT_TRUE(cylinder);
   const double s = 70e9 * 2.5e-3 / 2 / (1 - 0.33 * 0.33) * c;
   EXPECT_NEAR(cylinder->max_Pa, s * std::sqrt(1 - 0.33 + 0.33 * 0.33), 1e-6 * s);
-  EXPECT_EQ(cylinder->pixels, 121u * 81u - 4 * 12u);  // at corners a third of the square
+  // The square at a corner has a third of its pixels.
+  EXPECT_EQ(cylinder->pixels, 121u * 81u - 4 * 12u);
   const auto twist =
       plate_stress(map_of([&](double x, double y) { return c * x * y; }), plate, 5e-3);
   EXPECT_NEAR(twist->max_Pa, std::sqrt(3) * 70e9 * 2.5e-3 / 2 / 1.33 * c, 1e-6 * s);
-  // A paraboloid with a hole: the stress is the same at the edge of the hole.
+  // The form is a paraboloid with a hole. The stress must be the same at the edge of the hole.
   SurfaceMap dish = map_of([&](double x, double y) { return c * (x * x + y * y) / 2; });
   for (std::size_t j = 30; j < 50; ++j)
     for (std::size_t i = 20; i < 60; ++i) dish.z_m[j * dish.nx + i] = SurfaceMap::kMissing;
@@ -65,8 +67,9 @@ TEST(PlateStress, MatchesClosedForms) {
   EXPECT_FALSE(plate_stress(dish, plate, 0.9e-3));
 }
 
-// A square of 5 x 3 pixels on nine pixels: about a pixel of the middle row nine of its fifteen
-// pixels exist, about the others six, which is less than half. Curvatures a and b, twist c.
+// The square has 5 x 3 pixels, the map has nine pixels. About a pixel of the middle row, nine of
+// the fifteen pixels of the square exist; about other pixels six exist, which is less than half.
+// The curvatures are a and b, the twist is c.
 TEST(PlateStress, NeedsHalfOfTheSquare) {
   const Plate plate{2e-3, 200e9, 0.3};
   const double a = 0.02, b = -0.05, face = 200e9 * 2e-3 / 2;

@@ -1,5 +1,5 @@
-// Maps of a known surface that is shifted, turned and tilted: the pose found and the remaining
-// difference.
+// Maps of a known surface that is shifted, turned and tilted. The tests check the pose found and
+// the difference that remains.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace mdof::algo {
 namespace {
 
-// The surface of A is in B at R p + shift.
+// The point p of the surface A is in B at R p + shift.
 SurfaceMap moved(double sx_m, double sy_m, double turn_deg, double x0_m, double d_m,
                  std::size_t nx) {
   const double c = std::cos(turn_deg * kDeg), s = std::sin(turn_deg * kDeg);
@@ -71,7 +71,7 @@ TEST(FormCompare, CountsUndeterminedMovements) {
   EXPECT_EQ(found->undetermined, 3u);
   EXPECT_NEAR(found->pose.shift_x_m, 0, 1e-9);
   EXPECT_LT(found->rms_m, 1e-12);
-  // Waves along x only: the shift along y is undetermined, the turn is determined.
+  // Waves along x only: the map does not determine the shift along y, but the turn.
   const auto waves = [](double x, double) { return 1e-6 * std::sin(x / 5e-3); };
   const auto along =
       compare(map_of(waves), map_of([&](double x, double y) { return waves(x - 0.4e-3, y); }),
@@ -86,7 +86,7 @@ TEST(FormCompare, HandlesHolesAndRefusesNoOverlap) {
     for (std::size_t i = 20; i < 60; ++i) b.z_m[j * b.nx + i] = SurfaceMap::kMissing;
   const auto found = compare(a, b, Register::none);
   ASSERT_TRUE(found);
-  EXPECT_LT(found->pv_m, 2e-9);  // also beside the hole
+  EXPECT_LT(found->pv_m, 2e-9);  // also true for pixels beside the hole
   EXPECT_LT(found->pixels, 9801u - 20u * 40u);
   const auto far = compare(a, map_of(bumps, 200e-3), Register::rigid);
   ASSERT_FALSE(far);
@@ -115,14 +115,15 @@ TEST(Surface, IsExactAtPixelsAndContinuous) {
   }
   EXPECT_LT(worst, 0.05e-9);
   EXPECT_LT(slope, 1e-7);
-  // Three pixels beyond the edge, not more, and not if 0 pixels are requested.
+  // The surface extends three pixels beyond the edge if three are requested, and 0 pixels if 0 are
+  // requested.
   EXPECT_FALSE(surface.at(-30.1e-3, 0, 0, p));
   EXPECT_TRUE(surface.at(-31.5e-3, 0, 3, p));
   EXPECT_NEAR(p.z_m, bumps(-31.5e-3, 0), 0.15e-6);
   EXPECT_FALSE(surface.at(-31.6e-3, 0, 3, p));
 }
 
-// Far from the start of the search: about 9 degrees in either direction, and 8 mm.
+// The true pose is far from the start of the search: about 9 degrees in either direction, and 8 mm.
 TEST(FormCompare, SearchesForLargeTurnsAndShifts) {
   const SurfaceMap a = map_of(bumps);
   for (const double turn_deg : {9.5, -9.0}) {
@@ -136,8 +137,8 @@ TEST(FormCompare, SearchesForLargeTurnsAndShifts) {
   }
 }
 
-// Waves do not determine the shift along their crests. This shift is 0 at the middle of the
-// measured part of A, about which B is turned.
+// Waves do not determine the shift along their crests. This shift must be 0 at the middle of the
+// measured part of A; B is turned about this point.
 TEST(FormCompare, UndeterminedShiftIsZeroInTheMiddle) {
   const auto waves = [](double x, double) { return 1e-6 * std::sin(x / 5e-3) + 4e-5 * x; };
   SurfaceMap a = map_of(waves);
@@ -157,7 +158,7 @@ TEST(FormCompare, UndeterminedShiftIsZeroInTheMiddle) {
   EXPECT_NEAR(found->pose.shift_y_m, y_mid_m - (s * x_mid_m + c * y_mid_m), 2e-5);
 }
 
-// The part is turned by 180 degrees or any other angle, and shifted.
+// The part is shifted and turned by 180 degrees or by another large angle.
 TEST(FormCompare, FindsAnyTurn) {
   const SurfaceMap a = map_of(bumps);
   for (const double turn_deg : {180.0, 90.0, -90.0, 133.0, -47.0, 178.0}) {
@@ -180,7 +181,7 @@ SurfaceMap with_noise(SurfaceMap map, unsigned seed, double sd_m) {
   return map;
 }
 
-// A plane and a sphere determine no movement, a cylinder (here along y) and a ridge determine the
+// A plane and a sphere determine no movement. A cylinder (here along y) and a ridge determine the
 // turn only. The noise of both maps is independent. A real shape with the same noise determines all
 // movements.
 TEST(FormCompare, NoiseDeterminesNoMovement) {
@@ -201,7 +202,7 @@ TEST(FormCompare, NoiseDeterminesNoMovement) {
   }
 }
 
-// B is turned about the middle of A and not shifted: only the turn shows that the fit is not
+// B is turned about the middle of A and not shifted. Only the turn shows that the iteration is not
 // finished.
 TEST(FormCompare, FindsATurnWithoutShift) {
   const SurfaceMap a = map_of(bumps);

@@ -1,4 +1,5 @@
-// Passes with known repeatable and random shares: their estimates, the next path, the floors.
+// Tests passes with known repeatable and random shares: the estimated shares, the next path, the
+// floors.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +22,7 @@ class Cutting : public ::testing::Test {
                                                         std::sqrt(2) * std::cos(0.2 * double(j))));
     return result;
   }
-  // The surface that the machine cuts with a path.
+  // The surface that the machine cuts if it follows a path.
   SurfaceMap cut(const SurfaceMap& path, double response = 1) {
     SurfaceMap result = path;
     const SurfaceMap repeats = map(0.3e-6, false), random = map(kSigma_m, true);
@@ -55,7 +56,7 @@ TEST_F(Cutting, EstimatesSharesOfRepeatedPasses) {
   EXPECT_NEAR(*found->floor_gain_one_m, 0.0679e-6, 0.0014e-6);
   EXPECT_NEAR(*found->floor_mean_m, 0.0554e-6, 0.0011e-6);
   EXPECT_TRUE(*found->converges);
-  // Gain 1 corrects the last error, the mean gain the mean of all errors.
+  // Gain 1 corrects the last error; the mean gain corrects the mean of all errors.
   EXPECT_NEAR(found->next.z_m[77], 2 * p.wanted.z_m[77] - p.cuts[2].z_m[77], 1e-18);
   p.gain = CuttingGain::mean;
   EXPECT_NEAR(
@@ -64,7 +65,7 @@ TEST_F(Cutting, EstimatesSharesOfRepeatedPasses) {
       1e-18);
 }
 
-// With gain 1 a third pass does not reduce the error; with the mean of the passes it does.
+// With gain 1 a third pass does not reduce the error. With the mean of the passes it does.
 TEST_F(Cutting, SuccessivePassesReachTheirFloors) {
   const CuttingResult one = passes(CuttingGain::one, 4), mean = passes(CuttingGain::mean, 4);
   EXPECT_NEAR(one.error[0].rms_m, 0.3e-6, 0.02e-6);
@@ -84,8 +85,8 @@ TEST_F(Cutting, ExcessiveResponseDiverges) {
   EXPECT_FALSE(*passes(CuttingGain::one, 4, 2.5).converges);
 }
 
-// A cut with a long wave, measured with noise in each pixel: gain 1 cuts the noise into the next
-// pass; a smoothed correction does not, also at corners and around a hole.
+// A cut with a long wave is measured with noise in each pixel. Gain 1 cuts this noise into the next
+// pass. A smoothed correction does not, also at corners and around a hole.
 TEST_F(Cutting, SmoothingKeepsPixelNoiseOutOfThePart) {
   const double noise_m = 3e-9;
   const auto wave = [](double i, double j) { return 0.3e-6 * std::sin(0.1 * i + 0.05 * j); };
@@ -104,7 +105,8 @@ TEST_F(Cutting, SmoothingKeepsPixelNoiseOutOfThePart) {
   EXPECT_FALSE(nothing);
   p.smooth_m = 10e-3;
   const auto [smooth, left] = second_pass_error();
-  // 11 x 11 pixels: about 1.9 / 11 of the noise in the middle, more at edges and corners.
+  // The square has 11 x 11 pixels: about 1.9 / 11 of the noise remains in the middle, more at edges
+  // and corners.
   EXPECT_LE(smooth.rms_m, 0.33 * noise_m);
   EXPECT_LE(smooth.pv_m, 2.5 * noise_m);
   EXPECT_NEAR(*left, noise_m, 0.05 * noise_m);
@@ -112,20 +114,21 @@ TEST_F(Cutting, SmoothingKeepsPixelNoiseOutOfThePart) {
   EXPECT_FALSE(next_cut(p));
 }
 
-// A square with the side a keeps 1 - (pi a / l)^4 / 280 of a wave of the length l, to first order.
+// To first order, smoothing over a square with the side a keeps the share 1 - (pi a / l)^4 / 280 of
+// a wave of the length l.
 TEST_F(Cutting, SmoothingKeepsLongWaves) {
   CuttingPasses p{map(0, false), {map(0, false)}, false, CuttingGain::one, 20e-3};
   for (std::size_t k = 0; k < 2400; ++k)
     p.cuts[0].z_m[k] = 1e-6 * std::sin(2 * 3.14159265358979 / 50 * double(k % 60) + 1);
   const SurfaceMap next = next_cut(p)->next;
   const std::size_t middle = 20 * 60 + 29;
-  // 21 pixels represent 21 mm.
+  // 21 pixels cover 21 mm.
   EXPECT_NEAR(next.z_m[middle] / p.cuts[0].z_m[middle], -(1 - std::pow(3.14159 * 21 / 50, 4) / 280),
               1.2e-3);
 }
 
-// With errors of 0.08 um and an equal random share, the optimal gain leaves less than gain 1. If
-// the random share is much larger, the factor is 0. The piston is always corrected.
+// The errors are 0.08 um, and the random share is equal. Then the optimal gain leaves less error
+// than gain 1. If the random share is much larger, the factor is 0. The piston is always corrected.
 TEST_F(Cutting, OptimalGainLeavesTheSmallestError) {
   const SurfaceMap repeats = map(0.08e-6, false), first = map(0.08e-6, true);
   CuttingPasses p{map(0, false), {first}, false, CuttingGain::optimal, 0, 0.08e-6};
@@ -147,7 +150,7 @@ TEST_F(Cutting, OptimalGainLeavesTheSmallestError) {
   EXPECT_FALSE(next_cut(p));
 }
 
-// Repeated passes show the random share, so it need not be given.
+// Repeated passes show the random share, so the request need not state it.
 TEST_F(Cutting, FindsTheOptimalGainOfRepeatedPasses) {
   const SurfaceMap repeats = map(0.1e-6, false);
   CuttingPasses p{map(0, false), {}, true, CuttingGain::optimal};
@@ -159,7 +162,7 @@ TEST_F(Cutting, FindsTheOptimalGainOfRepeatedPasses) {
   EXPECT_NEAR(*found->floor_optimal_m, 0.1e-6 * std::sqrt(1.25), 0.003e-6);
 }
 
-// The shares are also found if the paths were smoothed.
+// The shares are also found if the paths of the passes were smoothed.
 TEST_F(Cutting, EstimatesSharesOfSmoothedPasses) {
   CuttingPasses p{map(0.9e-6, false), {}, false, CuttingGain::one, 6e-3};
   SurfaceMap path = p.wanted;
@@ -173,7 +176,7 @@ TEST_F(Cutting, EstimatesSharesOfSmoothedPasses) {
   EXPECT_NEAR(*result.repeatable_rms_m, 0.3e-6, 0.02e-6);
 }
 
-// There is nothing to correct, for repeated and for successive passes.
+// The passes have no error, so repeated and successive passes converge.
 TEST_F(Cutting, PassesWithoutErrorConverge) {
   for (const bool repeated : {false, true})
     for (const CuttingGain gain : {CuttingGain::one, CuttingGain::mean}) {

@@ -1,4 +1,4 @@
-// Results for small maps, calculated by hand: planes, passes, parts of a clamping, stress,
+// Results for small maps that are calculated by hand: planes, passes, parts of a clamping, stress,
 // harmonics.
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kHole = SurfaceMap::kMissing;
 
-// Columns every 2 m from 10 m on, rows every 3 m from -1 m on.
+// A map with columns every 2 m from x = 10 m on, and rows every 3 m from y = -1 m on.
 SurfaceMap small_map(std::size_t nx, std::size_t ny, std::vector<double> z) {
   return {"small", 10, -1, 2, 3, nx, ny, std::move(z), {}};
 }
@@ -41,8 +41,8 @@ TEST(MapFiguresByHand, FourOneAndNoPixels) {
   EXPECT_EQ(none.mean_m, 0);
 }
 
-// Three pixels determine a plane: 5 at (10, -1), 1 more after a step of 2 m along x, 6 more after a
-// step of 3 m along y.
+// Three pixels determine a plane. It is 5 at (10, -1), 6 at the next column (2 m further) and 11 at
+// the next row (3 m further).
 TEST(PlaneByHand, ThroughThreePixels) {
   SurfaceMap map = small_map(2, 2, {5, 6, 11, kHole});
   const Plane plane = plane_of(map);
@@ -57,7 +57,7 @@ TEST(PlaneByHand, ThroughThreePixels) {
   EXPECT_TRUE(std::isnan(map.z_m[3]));
 }
 
-// Least squares for four corners: the residuals alternate.
+// The plane is the least-squares plane of four corners, so the residuals have alternating signs.
 TEST(PlaneByHand, FourPixelsByLeastSquares) {
   SurfaceMap map = small_map(2, 2, {1, 0, 0, 3});
   const Plane plane = plane_of(map);
@@ -69,7 +69,7 @@ TEST(PlaneByHand, FourPixelsByLeastSquares) {
   EXPECT_NEAR(map.z_m[1], -1, 1e-12);
 }
 
-// Tilts that the pixels do not determine are 0.
+// If the pixels do not determine a tilt, this tilt is 0.
 TEST(PlaneByHand, UndeterminedTiltsAreZero) {
   const Plane row = plane_of(small_map(3, 1, {1, 2, 6}));
   EXPECT_NEAR(row.tilt_x, 5 / 4.0, 1e-12);
@@ -86,7 +86,7 @@ TEST(PlaneByHand, UndeterminedTiltsAreZero) {
   EXPECT_EQ(none.y_mean_m, 0);
 }
 
-// Columns 1 to 3 and rows 1 to 2 are measured.
+// The measured pixels are in columns 1 to 3 and rows 1 to 2.
 TEST(ReachByHand, MiddleAndFarthestMeasuredPixel) {
   std::vector<double> z(4 * 5, kHole);
   z[1 * 4 + 3] = z[2 * 4 + 1] = 0;
@@ -94,21 +94,22 @@ TEST(ReachByHand, MiddleAndFarthestMeasuredPixel) {
   const MapMiddle middle = algo::middle_of(map);
   EXPECT_EQ(middle.x_m, 10 + 2 * 2);
   EXPECT_EQ(middle.y_m, -1 + 1.5 * 3);
-  // The pixels (16, 2) and (12, 5) are at the distances (3, 1) and (1, 4) from (13, 1).
+  // The distances of the pixels (16, 2) and (12, 5) from (13, 1) are (3, 1) and (1, 4).
   const FarthestPixel far = farthest_pixel(map, 13, 1);
   EXPECT_NEAR(far.radius_m, std::sqrt(17), 1e-12);
   EXPECT_EQ(far.x_m, 12);
   EXPECT_EQ(far.y_m, 5);
   EXPECT_NEAR(farthest_pixel(map, 12, 5).radius_m, 5, 1e-12);
   EXPECT_EQ(farthest_pixel(small_map(1, 1, {kHole}), 0, 0).radius_m, 0);
-  // A whole map from its first corner to its last.
+  // A map without missing pixels, from its first corner to its last.
   const SurfaceMap whole = small_map(3, 2, std::vector<double>(6, 0.0));
   EXPECT_EQ(algo::middle_of(whole).x_m, 12);
   EXPECT_EQ(algo::middle_of(whole).y_m, 0.5);
   EXPECT_NEAR(farthest_pixel(whole, 10, -1).radius_m, 5, 1e-12);
 }
 
-// Arcs with radius 5 at a distance of 6 are 1 high; with radius 3 or less the height is the radius.
+// Grooves with the radius 5 at a distance of 6 are 1 deep. With a radius of 3 or less, the depth
+// equals the radius.
 TEST(FeedRoughnessByHand, HeightOfArcs) {
   EXPECT_NEAR(feed_roughness(5, 6).Rt_m, 1, 1e-12);
   EXPECT_NEAR(feed_roughness(5, 6).Ra_m, 4 / (9 * std::sqrt(3)), 1e-12);
@@ -117,7 +118,7 @@ TEST(FeedRoughnessByHand, HeightOfArcs) {
   EXPECT_EQ(feed_roughness(2, 6).Rt_m, 2);
 }
 
-// The Fourier sum by its definition.
+// The discrete Fourier transform by its definition.
 std::vector<std::complex<double>> transformed(const std::vector<std::complex<double>>& x,
                                               double sign) {
   std::vector<std::complex<double>> X(x.size());
@@ -144,7 +145,7 @@ TEST(DftByDefinition, AllLengthsUpToSixty) {
   }
 }
 
-// Passes over 2 x 2 pixels with the wanted height 0.
+// Passes over 2 x 2 pixels; the wanted height is 0.
 CuttingPasses make_cutting_passes(std::vector<std::vector<double>> cuts, bool repeated,
                                   CuttingGain gain) {
   CuttingPasses passes{small_map(2, 2, {0, 0, 0, 0}), {}, repeated, gain};
@@ -152,8 +153,8 @@ CuttingPasses make_cutting_passes(std::vector<std::vector<double>> cuts, bool re
   return passes;
 }
 
-// The means 3, -3, 0, 0 have the mean square 18/4. At each of four pixels the passes differ by 2:
-// the variance of one pass is 8/4.
+// The means 3, -3, 0, 0 of the two passes have the mean square 18/4. At each of the four pixels the
+// passes differ by 2, so the variance of one pass is 8/4.
 TEST(CuttingByHand, SharesOfTwoRepeatedPasses) {
   const auto found =
       next_cut(make_cutting_passes({{2, -2, 1, -1}, {4, -4, -1, 1}}, true, CuttingGain::one));
@@ -164,10 +165,10 @@ TEST(CuttingByHand, SharesOfTwoRepeatedPasses) {
   EXPECT_NEAR(*found->repeatable_rms_m, std::sqrt(4.5 - 2 / 2.0), 1e-12);
   EXPECT_NEAR(*found->floor_gain_one_m, 2, 1e-12);
   EXPECT_NEAR(*found->floor_mean_m, std::sqrt(3), 1e-12);
-  EXPECT_TRUE(*found->converges);  // floor 2, error sqrt(5.5)
+  EXPECT_TRUE(*found->converges);  // the floor is 2, the error sqrt(5.5)
   EXPECT_NEAR(found->next.z_m[0], -4, 1e-12);
   EXPECT_NEAR(found->next.z_m[2], 1, 1e-12);
-  // The piston does not count.
+  // A mean height (piston) of one pass does not change the random share.
   const auto raised =
       next_cut(make_cutting_passes({{7, 3, 6, 4}, {4, -4, -1, 1}}, true, CuttingGain::mean));
   EXPECT_NEAR(*raised->random_rms_m, std::sqrt(2), 1e-12);
@@ -175,15 +176,16 @@ TEST(CuttingByHand, SharesOfTwoRepeatedPasses) {
   EXPECT_NEAR(raised->error[0].mean_m, 5, 1e-12);
 }
 
-// 1, -1, 1, -1 and 4, -4, -1, 1 have the variance 13/4; the mean square of the errors is 4.75. The
-// floor of gain 1 is sqrt(6.5), of the mean sqrt(4.875).
+// The passes 1, -1, 1, -1 and 4, -4, -1, 1 have the random variance 13/4. The mean square of the
+// errors is 4.75. The floor is sqrt(6.5) for gain 1 and sqrt(4.875) for the mean.
 TEST(CuttingByHand, PassesAtTheirFloorDoNotConverge) {
   for (const CuttingGain gain : {CuttingGain::one, CuttingGain::mean}) {
     const auto found = next_cut(make_cutting_passes({{1, -1, 1, -1}, {4, -4, -1, 1}}, true, gain));
     EXPECT_NEAR(*found->floor_mean_m, std::sqrt(4.875), 1e-12);
     EXPECT_FALSE(*found->converges);
   }
-  // With a larger repeatable share the mean square of the errors is 6.125, between both floors.
+  // The repeatable share is larger. The mean square of the errors is 6.125, between the squares of
+  // both floors.
   const auto by = [](CuttingGain gain) {
     return *next_cut(make_cutting_passes({{1.5, -1.5, 1, -1}, {4.5, -4.5, -1, 1}}, true, gain))
                 ->converges;
@@ -192,8 +194,9 @@ TEST(CuttingByHand, PassesAtTheirFloorDoNotConverge) {
   EXPECT_FALSE(by(CuttingGain::one));
 }
 
-// Each pass is cut with the path that followed from the pass before: errors of 4, 2 and 3 times (1,
-// -1, 1, -1) leave 4, 6 and 9 against their paths with gain 1, and 4, 6 and 8 with the mean.
+// Each pass is cut with the path that the pass before determined. The errors of the three passes
+// are 4, 2 and 3 times (1, -1, 1, -1). The errors minus the paths are 4, 6 and 9 times this form
+// with gain 1, and 4, 6 and 8 times with the mean.
 TEST(CuttingByHand, PathsOfSuccessivePasses) {
   const std::vector<std::vector<double>> cuts = {{4, -4, 4, -4}, {2, -2, 2, -2}, {3, -3, 3, -3}};
   const auto one = next_cut(make_cutting_passes(cuts, false, CuttingGain::one));
@@ -206,8 +209,8 @@ TEST(CuttingByHand, PathsOfSuccessivePasses) {
   EXPECT_NEAR(*mean->floor_mean_m, 2 * std::sqrt(4 / 3.0), 1e-12);
 }
 
-// The last error is smaller than the first, and at most 1.5 times the smallest error after the
-// first.
+// The passes converge if the last error is smaller than the first, and at most 1.5 times the
+// smallest error after the first.
 TEST(CuttingByHand, ConvergesWhileErrorsStayNearTheBest) {
   const auto of = [](const std::vector<double>& sizes) {
     std::vector<std::vector<double>> cuts;
@@ -230,8 +233,8 @@ TEST(CuttingByHand, PixelsMissingInAnyMapAreLeftOut) {
   EXPECT_EQ(found->pixels, 3u);
   EXPECT_EQ(found->error[1].pixels, 3u);
   EXPECT_TRUE(std::isnan(found->next.z_m[2]));
-  // Without their means of 5/3 the cuts are 1/3, -11/3, 10/3 and 7/3, -17/3, 10/3. Half of their
-  // differences is 1, 1 and 0.
+  // Minus the mean of 5/3, the cuts are 1/3, -11/3, 10/3 and 7/3, -17/3, 10/3. Half of their
+  // differences are 1, 1 and 0.
   EXPECT_NEAR(*found->random_rms_m, std::sqrt((2 + 2) / 3.0), 1e-12);
   EXPECT_FALSE(next_cut(
       make_cutting_passes({{2, -2, kHole, kHole}, {kHole, 4, -4, 5}}, true, CuttingGain::one)));
@@ -239,8 +242,8 @@ TEST(CuttingByHand, PixelsMissingInAnyMapAreLeftOut) {
       make_cutting_passes({{2, -2, 3, kHole}, {kHole, 4, -4, 5}}, true, CuttingGain::one)));
 }
 
-// Deformation by clamping and its remaining part, over common pixels: a saddle s = 1, -1, -1, 1 at
-// the corners has no plane. After clamping: 3 s and a plane; released: 1 s.
+// All parts are calculated over the common pixels. The saddle s = 1, -1, -1, 1 at the corners
+// contains no plane. The clamped form is 3 s and a plane, the released form is 1 s.
 TEST(ClampingByHand, SaddleGivesPartsAndK) {
   const auto saddle = [](double size, double piston, double tilt) {
     std::vector<double> z;
@@ -266,7 +269,7 @@ TEST(ClampingByHand, SaddleGivesPartsAndK) {
   EXPECT_TRUE(clamping_by_K(before, after, -0.999));
   EXPECT_FALSE(clamping_by_K(before, after, INFINITY));
   EXPECT_FALSE(clamping_by_K(before, after, NAN));
-  // Each of two maps lacks a different pixel: all parts lack both.
+  // A different pixel is missing in each of two maps. Both pixels are missing in all parts.
   after.z_m[3] = released.z_m[12] = kHole;
   const auto holes = clamping_by_release(before, after, released);
   ASSERT_TRUE(holes) << holes.error().message;
@@ -275,7 +278,7 @@ TEST(ClampingByHand, SaddleGivesPartsAndK) {
     EXPECT_EQ(part->measured(), 14u);
     EXPECT_TRUE(std::isnan(part->z_m[3]) && std::isnan(part->z_m[12]));
   }
-  // Three pixels are too few, four are enough.
+  // Three common pixels are too few, four are enough.
   SurfaceMap few = after;
   for (std::size_t k = 0; k < 16; ++k)
     if (k != 0 && k != 2 && k != 8) few.z_m[k] = kHole;
@@ -284,8 +287,8 @@ TEST(ClampingByHand, SaddleGivesPartsAndK) {
   EXPECT_TRUE(clamping_by_release(before, few, saddle(1, 4, -1)));
 }
 
-// The remaining form contains a wave that is orthogonal to the elastic part, so K does not explain
-// it.
+// The released form contains a wave that is orthogonal to the elastic part. K does not explain this
+// wave.
 TEST(ClampingByHand, ReportsThePartThatKDoesNotExplain) {
   std::vector<double> x_waves, y_waves;
   for (int j = 0; j < 4; ++j)
@@ -306,7 +309,8 @@ TEST(ClampingByHand, ReportsThePartThatKDoesNotExplain) {
   EXPECT_NEAR(*found->K_unexplained_rms_m, 3, 1e-12);
 }
 
-// Pixels of 0.5 mm by 0.8 mm; a parabola has the same curvature everywhere, at edges and at holes.
+// Pixels of 0.5 mm by 0.8 mm. A parabola has the same curvature everywhere, also at edges and at
+// holes.
 TEST(PlateStressByHand, ParabolaOnOblongPixels) {
   const double xx = 0.02, yy = -0.05, xy = 0.03;
   const Plate plate{2e-3, 200e9, 0.3};
@@ -328,12 +332,13 @@ TEST(PlateStressByHand, ParabolaOnOblongPixels) {
   form.z_m[6 * 17 + 8] = form.z_m[7 * 17 + 8] = form.z_m[0] = kHole;
   const auto holes = plate_stress(form, plate, 5e-3);
   EXPECT_NEAR(holes->max_Pa, mises, 1e-6 * mises);
-  // A side of 1.6 mm reaches one row of 0.8 mm on each side; a smaller one is refused.
+  // A square with a side of 1.6 mm contains one more row of 0.8 mm on each side. A smaller square
+  // is refused.
   EXPECT_FALSE(plate_stress(form, plate, 1.59e-3));
   EXPECT_TRUE(plate_stress(form, plate, 1.61e-3));
 }
 
-// The curvature of x³ grows with x: the largest stress is at the last column.
+// The curvature of x³ increases with x, so the largest stress is at the last column.
 TEST(PlateStressByHand, LocatesTheLargestStress) {
   const auto growing = [](bool along_x, double sign) {
     SurfaceMap form{"form", 0, 0, 1e-3, 1e-3, 15, 15, {}, {}};
@@ -349,7 +354,7 @@ TEST(PlateStressByHand, LocatesTheLargestStress) {
     EXPECT_DOUBLE_EQ(plate_stress(growing(true, sign), plate, 4e-3)->x_m, 14e-3);
     EXPECT_DOUBLE_EQ(plate_stress(growing(false, sign), plate, 4e-3)->y_m, 14e-3);
   }
-  // A flat plate.
+  // A flat plate has no stress.
   const auto flat = plate_stress(small_map(5, 5, std::vector<double>(25, 0.0)), plate, 7);
   ASSERT_TRUE(flat);
   EXPECT_EQ(flat->max_Pa, 0);
@@ -357,7 +362,7 @@ TEST(PlateStressByHand, LocatesTheLargestStress) {
   EXPECT_EQ(flat->y_m, 0);
 }
 
-// Of 3 x 3 pixels only the middle one has a parabola about it: two rows do not determine one.
+// 3 x 3 pixels: only the square about the middle pixel determines a parabola. Two rows do not.
 TEST(PlateStressByHand, NeedsThreeRowsAndColumns) {
   const Plate plate{2e-3, 200e9, 0.3};
   const auto of = [&](const std::vector<double>& z) {
@@ -370,7 +375,7 @@ TEST(PlateStressByHand, NeedsThreeRowsAndColumns) {
   EXPECT_EQ(whole->y_m, 2);
   EXPECT_FALSE(of({1, 0, 1, 0, -1, 0, kHole, kHole, kHole}));
   EXPECT_FALSE(of({1, 0, 1, 0, kHole, 0, 1, 0, 1}));
-  // Seven of nine pixels are enough: least squares through the available pixels.
+  // Seven of nine pixels are enough. The parabola is fitted to them by least squares.
   const auto seven = of({1, 0, kHole, 0, -1, 0, kHole, 0, 1});
   ASSERT_TRUE(seven);
   EXPECT_EQ(seven->pixels, 1u);

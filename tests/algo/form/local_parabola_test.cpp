@@ -5,7 +5,7 @@
 namespace mdof::algo {
 namespace {
 
-// z = 3 + 2x - y + 5x² - 4xy + 7y² has the curvatures 10, -4 and 14 in every square.
+// z = 3 + 2x - y + 5x² - 4xy + 7y² has the second derivatives 10, -4 and 14 in every square.
 SurfaceMap paraboloid(std::size_t nx, std::size_t ny) {
   SurfaceMap map{"map", 0, 0, 0.5, 0.25, nx, ny, {}, {}};
   for (std::size_t j = 0; j < ny; ++j)
@@ -16,8 +16,8 @@ SurfaceMap paraboloid(std::size_t nx, std::size_t ny) {
   return map;
 }
 
-// Squares that fit into the map, that reach beyond its edge, that are as large as the map, and that
-// are extremely large.
+// The squares fit into the map, extend beyond its edge, are as large as the map, or are extremely
+// large.
 TEST(LocalParabola, FindsAParabolaWithAnySquare) {
   const SurfaceMap map = paraboloid(20, 12);
   for (const double side : {2.0, 5.0, 10.0, 100.0, 1e9, 1e300}) {
@@ -34,7 +34,8 @@ TEST(LocalParabola, FindsAParabolaWithAnySquare) {
   }
 }
 
-// 401 x 401 weights: a matrix with the square of this size would need 200 GB.
+// The square has 401 x 401 weights. A matrix whose size is the square of this number would need 200
+// GB.
 TEST(LocalParabola, LargeSquareNeedsLittleMemory) {
   const SurfaceMap map = paraboloid(401, 801);
   Parabola found;

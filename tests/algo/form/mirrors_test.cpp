@@ -1,8 +1,8 @@
-// The mirror of the paper, 295 x 95 mm in pixels of 0.66 mm, through clamping, passes and release,
-// as distributions over many mirrors. MDOF_MIRRORS: number of mirrors (default 3; the campaign uses
-// 200 and checks the limits). The random share is assumed to be drift over the hours of a pass, so
-// it has waves as long as the other shares: its part of the PV depends on that
-// (tests/CAMPAIGNS.md).
+// Simulates the mirror of the paper, 295 x 95 mm with pixels of 0.66 mm, from the clamping over the
+// passes to the release. The results are distributions over many mirrors. MDOF_MIRRORS is the
+// number of mirrors: by default 3; the campaign uses 200 and checks the limits. The random share is
+// assumed to be drift over the hours of a pass, so its waves are as long as those of the other
+// shares. Its contribution to the PV depends on this assumption (tests/CAMPAIGNS.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,18 +22,20 @@
 namespace mdof::algo {
 namespace {
 
-// RMS in um from the maps of the paper; numbers that the paper does not state are derived from the
-// maps (README.md).
+// RMS in um from the maps of the paper. Numbers that the paper does not state are calculated from
+// the maps (README.md).
 constexpr double kBefore = 0.467, kClamping = 0.934, kCutting = 0.296, kRelease = 0.074,
                  kRandom = 0.048, kNoise = 0.003, kBeforeWithClamping = -0.414,
                  kCuttingWithClamping = -0.131, kFig17 = 0.064;
-constexpr double kSmooth_m = 10e-3;  // of the correction, whose waves are 50 mm and longer
+// Smoothing of the correction, whose waves are 50 mm and longer.
+constexpr double kSmooth_m = 10e-3;
 
 class Mirror {
  public:
   explicit Mirror(unsigned seed) : engine_(seed) {}
 
-  // A map with RMS 1 um and without a plane: waves with lengths between the two, in all directions.
+  // A map with an RMS of 1 um and without a plane. Its waves have all directions and lengths from
+  // least_mm to most_mm.
   SurfaceMap waves(double least_mm, double most_mm) {
     SurfaceMap map = blank();
     std::vector<double> cx(map.nx), sx(map.nx);
@@ -55,7 +57,7 @@ class Mirror {
     }
     return normed(map);
   }
-  // A map with RMS 1 um and this correlation to `other`, which also has RMS 1 um.
+  // A map with an RMS of 1 um and the given correlation to `other`, which also has an RMS of 1 um.
   SurfaceMap correlated(SurfaceMap map, const SurfaceMap& other, double correlation) {
     add(map, other, -product(map, other));
     map = normed(map);
@@ -71,7 +73,7 @@ class Mirror {
                             tilt * static_cast<double>(k % map.nx) / static_cast<double>(map.nx));
     return map;
   }
-  // A measurement of a part that remains clamped: no new tilt between two measurements.
+  // A measurement of a part that remains clamped, so no tilt is added.
   SurfaceMap measured_in_place(SurfaceMap map) {
     for (double& z : map.z_m) z += 1e-6 * kNoise * normal_(engine_);
     return map;
@@ -117,7 +119,8 @@ void note(Figures& figures, const std::string& name, const SurfaceMap& map) {
   figures[name + " PV"].push_back(figures_of(flat).pv_m * 1e6);
 }
 
-// Four passes: the error of each cut against `wanted`; `second`: the cut of the second pass.
+// Simulates four passes and returns the error of each cut relative to `wanted`. `second` is set to
+// the cut of the second pass.
 std::vector<SurfaceMap> passes(Mirror& mirror, const SurfaceMap& wanted, const SurfaceMap& repeats,
                                const std::vector<SurfaceMap>& random, CuttingGain gain,
                                SurfaceMap& second, double smooth_m = 0) {
@@ -147,12 +150,13 @@ void simulate_paper_mirror(unsigned seed, Figures& figures) {
   for (int k = 0; k < 4; ++k) random.push_back(mirror.waves(80, 400));
   note(figures, "8 the same, passes drawn alone",
        Mirror::times(Mirror::sum(random[1], random[0], -1), kRandom));
-  // Passes share only the repeatable part, in each mirror and not just on average: sqrt(2) sigma.
+  // Passes have only the repeatable share in common. The random shares are uncorrelated in each
+  // mirror and not just on average, so their difference is sqrt(2) sigma.
   for (std::size_t k = 1; k < 4; ++k)
     for (std::size_t j = 0; j < k; ++j) random[k] = mirror.correlated(random[k], random[j], 0);
   for (SurfaceMap& pass : random) pass = Mirror::times(pass, kRandom);
 
-  // The clamped part, and the first path, from the measured maps.
+  // The form of the clamped part and the first path are calculated from measured maps.
   const SurfaceMap after = Mirror::sum(before, clamping);
   const SurfaceMap wanted =
       clamping_by_K(mirror.measured(before), mirror.measured(after), 0)->elastic;
@@ -175,9 +179,10 @@ void simulate_paper_mirror(unsigned seed, Figures& figures) {
     figures["gain 1, pass " + std::to_string(k + 1) + " RMS"].push_back(Mirror::rms_um(one[k]));
     figures["mean, pass " + std::to_string(k + 1) + " RMS"].push_back(Mirror::rms_um(mean[k]));
   }
-  for (int k = 0; k < 3; ++k)  // Table 2
+  for (int k = 0; k < 3; ++k)  // Table 2 of the paper
     note(figures, "repeated cut", Mirror::sum(repeats, random[static_cast<std::size_t>(k)]));
-  // The released part springs back by the clamping, plus the effect of the release.
+  // On release the part springs back by the clamping deformation; the effect of the release is
+  // added.
   const SurfaceMap spring = Mirror::sum(clamping, release);
   SurfaceMap released = Mirror::sum(second, spring, -1);
   remove_plane(released);
@@ -210,15 +215,15 @@ TEST(Mirrors, ReproduceThePaper) {
   for (const auto& [name, values] : figures)
     std::printf("%-44s %8.4f %8.4f %8.4f\n", name.c_str(), average(values), quantile(values, 0.05),
                 quantile(values, 0.95));
-  // RMS values of the paper.
+  // RMS values from the paper.
   const bool is_campaign = mirrors >= 100;
-  const double few = is_campaign ? 1 : 4;  // a few mirrors vary more
+  const double few = is_campaign ? 1 : 4;  // the average of a few mirrors varies more
   EXPECT_NEAR(average(figures["2 after clamping RMS"]), 0.854, 0.002);
   EXPECT_NEAR(average(figures["4 first machining RMS"]), 0.942, 0.004 * few);
   EXPECT_NEAR(average(figures["6 second machining RMS"]), 0.925, 0.014 * few);
   EXPECT_NEAR(average(figures["7 final RMS"]), 0.098, 0.004 * few);
   EXPECT_GE(quantile(figures["clamping taken out"], 0.05), 0.9);
-  // With gain 1 a third pass does not reduce the error; with the mean of three it does.
+  // With gain 1 a third pass does not reduce the error. With the mean of three passes it does.
   EXPECT_NEAR(average(figures["gain 1, pass 3 RMS"]), 0.068, 0.002 * few);
   EXPECT_NEAR(average(figures["gain 1, pass 4 RMS"]), 0.068, 0.002 * few);
   EXPECT_NEAR(average(figures["mean, pass 4 RMS"]), 0.0554, 0.0006 * 2 * few);
@@ -237,10 +242,10 @@ TEST(Mirrors, ReproduceThePaper) {
   const double at_fig_17 = within("8 the same, at the RMS of Fig. 17 PV");
   std::printf("at the RMS that the paper has left, 0.064 um, in %.1f %%\n", at_fig_17);
   if (!is_campaign) return;
-  // Gain 1 cuts the noise of each pixel, 3 nm, into the part, which adds to the PV. The difference
-  // of two random shares remains with any method (tests/CAMPAIGNS.md).
+  // Gain 1 cuts the noise of each pixel, 3 nm, into the part, which increases the PV. The
+  // difference of two random shares remains with any method (tests/CAMPAIGNS.md).
   EXPECT_GE(share, 80);
-  EXPECT_GE(smooth, 86);  // 90 is not reached; one sigma of 200 mirrors is 2
+  EXPECT_GE(smooth, 86);  // 90 is not reached; the standard deviation for 200 mirrors is 2
   EXPECT_GE(smooth, share);
   EXPECT_GE(at_fig_17, 90);
   EXPECT_LE(average(figures["mean, pass 4 RMS"]), 0.056);

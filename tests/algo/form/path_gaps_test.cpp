@@ -1,5 +1,5 @@
-// The path of a servo over gaps of more than a turn, at its beginning and at its end: Hermite
-// cubics by their four terms, over the arcs of the spiral.
+// The path of a servo over gaps of more than one turn, at its beginning and at its end. The
+// expected Hermite cubics are calculated from their four terms, over the arc length of the spiral.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::size_t kPointsPerTurn = 90;
 constexpr double kFeed_m = 0.5e-3;
-constexpr double kAlongX = 2e-3, kAlongY = -1e-3;  // slopes of the plane that is cut
+constexpr double kAlongX = 2e-3, kAlongY = -1e-3;  // slopes of the plane
 
-// A plane, measured where `is_part(radius, x, y)`.
+// A plane that is measured where `is_part(radius, x, y)` is true.
 template <class IsPart>
 SurfaceMap plane_with_gaps(IsPart&& is_part) {
   SurfaceMap map{"plane", -16e-3, -16e-3, 0.2e-3, 0.2e-3, 161, 161, {}, {}};
@@ -59,22 +59,24 @@ double arc_between(const std::vector<PathPoint>& p, std::size_t from, std::size_
       angle_of(static_cast<double>(to - from)) * (p[from].rho_m + p[to].rho_m) / 2;
   return std::hypot(across, around);
 }
-// Hermite cubic at the arc s of the length L between two ends.
+// Hermite cubic at the arc length s of a gap of the length L, from the heights and slopes at both
+// ends.
 double cubic(double s, double L, double z0, double slope0, double z1, double slope1) {
   const double t = s / L;
   return z0 * (2 * t * t * t - 3 * t * t + 1) + L * slope0 * (t * t * t - 2 * t * t + t) +
          z1 * (3 * t * t - 2 * t * t * t) + L * slope1 * (t * t * t - t * t);
 }
 
-// A ring from 4 to 9 mm is missing: ten turns. The path reaches the mean of the ends within half a
-// turn.
+// A ring from 4 to 9 mm is missing, which is ten turns. Within half a turn from each end, the path
+// reaches the mean of the heights of both ends.
 TEST(PathGaps, OfManyTurnsUseTheMeanOfTheEnds) {
   const auto points = points_over(
       plane_with_gaps([](double r, double, double) { return r < 4e-3 || r > 9e-3; }), 14e-3);
   std::size_t begin = 0;
   while (points[begin].on_part != OnPart::bridged) ++begin;
   std::size_t end = points.size() - 1;
-  // The edge of the ring consists of pixels and gives several gaps: the test takes the longest one.
+  // The edge of the ring consists of pixels, so the spiral has several gaps. The test uses the
+  // longest gap.
   std::size_t longest = 0, from = 0;
   for (std::size_t k = begin, first = begin; k <= end; ++k) {
     if (points[k].on_part != OnPart::bridged) first = k + 1;
@@ -101,7 +103,7 @@ TEST(PathGaps, OfManyTurnsUseTheMeanOfTheEnds) {
   }
 }
 
-// A sector is missing: each gap is a fraction of a turn.
+// A sector is missing, so each gap is a fraction of a turn.
 TEST(PathGaps, OfLessThanATurnUseOneCubic) {
   const auto points = points_over(
       plane_with_gaps([](double r, double x, double y) { return !(r > 5e-3 && x > 0 && y > 0); }),
@@ -123,7 +125,7 @@ TEST(PathGaps, OfLessThanATurnUseOneCubic) {
   EXPECT_GT(gaps, 10u);
 }
 
-// The middle is missing: the path keeps the last height.
+// The middle is missing, so the path keeps the last measured height.
 TEST(PathGaps, AtTheEndKeepTheLastHeight) {
   const auto points =
       points_over(plane_with_gaps([](double r, double, double) { return r > 5e-3; }), 12e-3);
@@ -134,7 +136,8 @@ TEST(PathGaps, AtTheEndKeepTheLastHeight) {
   EXPECT_GT(points.size() - last, 5 * kPointsPerTurn);
 }
 
-// The path begins beside the part for more than a turn: it has the first height on the part.
+// The path is beside the part for more than a turn at its beginning. There it has the first height
+// on the part.
 TEST(PathGaps, AtALongBeginningHaveTheFirstHeight) {
   const auto points =
       points_over(plane_with_gaps([](double r, double, double) { return r < 6e-3; }), 12e-3);
@@ -144,18 +147,18 @@ TEST(PathGaps, AtALongBeginningHaveTheFirstHeight) {
   for (std::size_t k = 0; k <= first; ++k) ASSERT_EQ(points[k].z_m, points[first].z_m);
 }
 
-// The path begins beside the part and reaches it within the first turn: the beginning continues
-// from the end of this turn.
+// The path is beside the part at its beginning and reaches the part within the first turn. The
+// heights at the beginning continue from the end of this turn.
 TEST(PathGaps, AtAShortBeginningContinueTheFirstTurn) {
   const auto points = points_over(
       plane_with_gaps([](double r, double x, double) { return r < 3e-3 || x < 1e-3; }), 12e-3);
   std::size_t first = 0;
   while (points[first].on_part == OnPart::bridged) ++first;
-  std::size_t last = kPointsPerTurn;  // of the first turn
+  std::size_t last = kPointsPerTurn;  // the end of the first turn
   while (points[last].on_part == OnPart::bridged) --last;
   ASSERT_GT(first, 10u);
   ASSERT_LT(last, kPointsPerTurn - 10);
-  // As if a turn before had run at the outermost radius.
+  // The path before the beginning is assumed to be a turn at the outermost radius.
   const double outer = points[0].rho_m;
   const std::size_t back = kPointsPerTurn - last;
   const auto arc_from_before = [&](std::size_t k) {
@@ -170,7 +173,7 @@ TEST(PathGaps, AtAShortBeginningContinueTheFirstTurn) {
         << k;
 }
 
-// Two more pixels are extended, not three.
+// The map is extended by two pixels. The path ends there, and not one pixel later.
 TEST(PathGaps, EndAtTheExtendedPixels) {
   const auto map = plane_with_gaps([](double, double x, double) { return x < 5e-3; });
   const double edge = [&] {
@@ -210,7 +213,8 @@ TEST(PathGaps, CallbackErrorEndsThePath) {
   }
 }
 
-// Defaults of a request: 720 points a turn, a pointed tool, three pixels beyond the edge.
+// Defaults of a request: 720 points per turn, a pointed tool, three extended pixels beyond the
+// edge.
 TEST(PathGaps, RequestHasDefaults) {
   const auto map = plane_with_gaps([](double, double x, double) { return x < 5e-3; });
   SpiralRequest request;
@@ -236,7 +240,8 @@ TEST(PathGaps, RequestHasDefaults) {
   EXPECT_NEAR(farthest - edge, 3 * 0.2e-3, 0.1e-3);
 }
 
-// The highest harmonic of an even length has no counterpart: its amplitude is not halved.
+// For an even number of points the highest harmonic has no conjugate, so its amplitude is not
+// halved.
 TEST(TurnSpectrumByHand, HighestHarmonicAndBand) {
   TurnSpectrum spectrum(8, 1);
   EXPECT_EQ(spectrum.turns(), 0u);
@@ -255,7 +260,7 @@ TEST(TurnSpectrumByHand, HighestHarmonicAndBand) {
   EXPECT_EQ(spectrum.undulations(1), 1u);
   EXPECT_NEAR(spectrum.left_out().pv, 1.2, 1e-12);
   EXPECT_NEAR(spectrum.left_out().rms, 0.6, 1e-12);
-  // A band from 1 to below 4 contains the first harmonic but not the fourth; a band below 1
+  // A band from 1 to below 4 contains the first harmonic but not the fourth. A band below 1
   // contains neither.
   for (const double band : {0.0, 0.9, 1.0, 3.9, 4.0}) {
     TurnSpectrum other(8, band);
@@ -265,7 +270,7 @@ TEST(TurnSpectrumByHand, HighestHarmonicAndBand) {
   }
 }
 
-// Amplitudes far below 1 are distinguished, too.
+// Amplitudes far below 1 are also distinguished.
 TEST(TurnSpectrumSmall, UndulationsAreRelativeToTheLargest) {
   TurnSpectrum spectrum(36, -1);
   for (int k = 0; k < 36; ++k) {

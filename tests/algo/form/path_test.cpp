@@ -1,4 +1,4 @@
-// The path of a fast tool servo: spiral, tool radius, edges, bridges, undulations.
+// Tests the path of a fast tool servo: spiral, tool radius, edges, bridges, undulations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +59,8 @@ TEST(SpiralPath, RunsInwardWithGrowingAngles) {
   }
 }
 
-// A sphere with radius R, offset by the tool radius r, is a sphere with radius R + r.
+// The path of a round tool with the radius r over a sphere with the radius R is a sphere with the
+// radius R + r.
 TEST(SpiralPath, OffsetsASphereByTheRoundTool) {
   constexpr double kR = 60e-3, r = 0.5e-3;
   const auto ball = [](double x, double y) { return std::sqrt(kR * kR - x * x - y * y) - kR; };
@@ -82,15 +83,15 @@ TEST(SpiralPath, CountsPointsWhereTheToolDoesNotFit) {
       walk(map_of([](double x, double) { return 20e-6 * std::cos(x / 0.3e-3); }, 0.05e-3),
            {0, 0, 4e-3, 0.2e-3, 60, 8e-3, 3});
   EXPECT_GT(walked.counts.too_sharp, 0u);
-  // The tool rests on the crests.
+  // The tool touches the crests only.
   for (const PathPoint& p : walked.points) {
     ASSERT_GT(p.z_m, -20e-6);
     ASSERT_LE(p.z_m, 20.1e-6);
   }
 }
 
-// Compared with the highest of very many tool positions: also at the bottom of a groove, where the
-// surface is level; the tool is nowhere deeper than it can go.
+// The path is compared with the highest of very many tool positions, also at the bottom of a groove
+// where the surface is level. The tool must not cut deeper than the surface permits.
 TEST(SpiralPath, LargeToolRestsOnTheWallsOfAGroove) {
   constexpr double r = 5e-3, kWave = 2e-3;
   const auto groove = [](double x, double y) {
@@ -113,7 +114,7 @@ TEST(SpiralPath, LargeToolRestsOnTheWallsOfAGroove) {
   EXPECT_GT(walked.counts.too_sharp, walked.points.size() / 4);
 }
 
-// The same on a map with one row, where the path is on the part twice a turn.
+// The same test on a map with one row. The path is on the part twice per turn.
 TEST(SpiralPath, LargeToolRestsOnTheWallsOfOneRow) {
   constexpr double r = 50e-3, kWave = 1e-3, kPixel = 0.02e-3;
   const auto groove = [](double x) { return 1e-6 * std::cos(2 * std::numbers::pi * x / kWave); };
@@ -143,8 +144,8 @@ TEST(SpiralPath, LargeToolRestsOnTheWallsOfOneRow) {
   EXPECT_GT(sharp, 10u);
 }
 
-// A part that is narrower than long: measured inside, extended by three pixels, and bridged
-// between.
+// A part that is narrower than long. The path is measured on the part, extended by three pixels
+// beyond it, and bridged elsewhere.
 TEST(SpiralPath, EdgesAreExtendedAndBridged) {
   const double d = 0.2e-3, half = 8e-3;
   const auto wave = [](double x, double y) { return 1e-6 * std::sin(x / 5e-3) + 40e-6 * y; };
@@ -181,9 +182,10 @@ TEST(SpiralPath, EdgesAreExtendedAndBridged) {
   EXPECT_EQ(counted[1], walked.counts.measured);
   EXPECT_EQ(counted[2], walked.counts.extended);
   EXPECT_GT(counted[0], 1000u);
-  EXPECT_LT(step, 0.042e-6);      // no jump: 2 pi 20 mm / 720 at a slope of 0.24 um/mm
-  EXPECT_LT(steepest, 0.003e-6);  // no kink
-  // The path begins beside the part and continues the end of the first turn.
+  EXPECT_LT(step, 0.042e-6);      // no step: 2 pi 20 mm / 720 at a slope of 0.24 um/mm
+  EXPECT_LT(steepest, 0.003e-6);  // no sudden change of the slope
+  // The path is beside the part at its beginning. Its heights continue from the end of the first
+  // turn.
   const double shift_m = half + 6 * d;
   const Walked beside = walk(map, {0, -shift_m, 20e-3, 1e-5, per_turn, 0, 3});
   ASSERT_EQ(beside.points.front().on_part, OnPart::bridged);
@@ -192,7 +194,8 @@ TEST(SpiralPath, EdgesAreExtendedAndBridged) {
               beside.points[0].z_m - beside.points[per_turn - 1].z_m, 0.02e-6);
 }
 
-// Between two ends the test calculates Eq. 9 independently; the path rises and falls at most twice.
+// The test calculates Eq. 9 independently between the two ends. The path changes its direction at
+// most twice.
 TEST(SpiralPath, BridgeIsAHermiteCubic) {
   SurfaceMap map =
       map_of([](double x, double y) { return 30e-6 * x - 10e-6 * y * (1 + x / 5e-3); });
@@ -212,7 +215,7 @@ TEST(SpiralPath, BridgeIsAHermiteCubic) {
   while (p[first].on_part != OnPart::bridged || p[first - 1].on_part == OnPart::bridged) ++first;
   std::size_t last = first;
   while (p[last].on_part == OnPart::bridged) ++last;
-  const std::size_t b = first - 1;  // B and A are on the part
+  const std::size_t b = first - 1;  // the points B and A are on the part
   const double ds = 2 * std::numbers::pi * 15e-3 / static_cast<double>(n);
   const double Bk = (3 * p[b].z_m - 4 * p[b - 1].z_m + p[b - 2].z_m) / (2 * ds),
                Ak = (-3 * p[last].z_m + 4 * p[last + 1].z_m - p[last + 2].z_m) / (2 * ds);
@@ -232,7 +235,8 @@ TEST(SpiralPath, RefusesAPathBesideThePart) {
   ASSERT_FALSE(far);
   EXPECT_EQ(far.error().remedy, Remedy::change_spiral);
   EXPECT_FALSE(SpiralPath::over(map, {0, 0, 1, 1e-12, 720, 0, 3}));
-  // A ring about the centre: its middle is bridged, close to the heights beside it.
+  // The middle of the map is missing. The bridged heights there are close to the heights beside
+  // them.
   map = map_of([](double x, double) { return 1e-3 * x; });
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)
@@ -253,14 +257,14 @@ TEST(TurnSpectrum, FindsHarmonicsForAnyLength) {
                      0.02 * (turn + 1) / 3 * std::sin(static_cast<double>(highest) * a));
       }
     spectrum.add(6);
-    spectrum.add(99);  // of an incomplete turn
+    spectrum.add(99);  // a reading of an incomplete turn
     EXPECT_EQ(spectrum.turns(), 3u);
     EXPECT_EQ(spectrum.undulations(0.01), highest) << n;
     EXPECT_EQ(spectrum.undulations(0.1), 3u) << n;
     EXPECT_EQ(spectrum.undulations(0.9), 1u) << n;
     if (highest == 15) {
       EXPECT_NEAR(spectrum.left_out().pv, 0.04, 0.001) << n;
-      // RMS of three turns with 1, 2 and 3 thirds of the amplitude.
+      // RMS of three turns with 1/3, 2/3 and 3/3 of the amplitude.
       EXPECT_NEAR(spectrum.left_out().rms, 0.02 * std::sqrt(14. / 27 / 2), 1e-9) << n;
     } else {
       EXPECT_NEAR(spectrum.left_out().pv, 0, 1e-14);
@@ -272,7 +276,8 @@ TEST(TurnSpectrum, FindsHarmonicsForAnyLength) {
   EXPECT_EQ(flat.undulations(0.01), 0u);
 }
 
-// A turn of a spiral over a sphere ends higher than it begins: this is not an undulation.
+// A spiral over a sphere ends each turn higher than it begins. This difference is not an
+// undulation.
 TEST(TurnSpectrum, FeedIsNoUndulation) {
   constexpr std::size_t n = 72;
   for (const double wave_m : {0.0, 1e-6}) {

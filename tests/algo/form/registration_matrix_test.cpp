@@ -1,7 +1,7 @@
-// Surfaces that determine none, one or all of the movements, compared with themselves plus features
-// of real parts: noise, a bow, a spike, a raised edge, the mark of a clamp. The difference must be
-// the added feature; a movement that hides it is a wrong result. A known movement must be found
-// where the shape determines it.
+// Surfaces that determine none, one or all of the movements are compared with copies of themselves.
+// The copies have features of real parts added: noise, a bow, a spike, a raised edge, the mark of a
+// clamp. The difference must be the added feature; a movement that hides the feature is a wrong
+// result. If the shape determines a known movement, the movement must be found.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -60,7 +60,7 @@ const std::vector<NamedShape>& shapes() {
   return all;
 }
 
-// Difference without its plane, by independent normal equations.
+// PV and RMS of the difference without its plane, calculated by separate normal equations.
 struct Left {
   double pv_m = 0, rms_m = 0;
 };
@@ -105,7 +105,7 @@ TEST(RegistrationMatrix, IdenticalMapsDoNotMove) {
   for (const auto& [name, z, undetermined] : shapes()) {
     const SurfaceMap a = map_on_grid(z);
     EXPECT_EQ(expect_no_movement(a, a, name).undetermined, undetermined) << name;
-    // Piston and tilt, and rounding to six digits of um as in a file.
+    // Piston and tilt, and heights that are rounded to six digits of um as in a file.
     SurfaceMap b = a, rounded = a;
     for (std::size_t k = 0; k < b.z_m.size(); ++k) {
       rounded.z_m[k] = std::nearbyint(a.z_m[k] * 1e12) * 1e-12;
@@ -150,8 +150,9 @@ TEST(RegistrationMatrix, NoiseMovesByNoMoreThanItsU) {
     for (const double sd_m : {1e-9, 50e-9}) {
       const SurfaceMap a = with_noise(map_on_grid(z), 1, sd_m),
                        b = with_noise(map_on_grid(z), 2, sd_m);
-      // With slopes of 1e-4 in 4000 pixels, u of a shift is about sd sqrt(2) / (1e-4 sqrt(4000));
-      // twice that, because interpolated heights have less noise, which attracts the fit.
+      // With slopes of 1e-4 in 4000 pixels, u of a shift is about sd sqrt(2) / (1e-4 sqrt(4000)).
+      // The limit includes a factor 2: interpolated heights have less noise, which attracts the
+      // fit.
       const bool is_fully_undetermined = undetermined == 3;
       const double shift_m = is_fully_undetermined ? 1e-12 : 12 * sd_m * 1.42 / (1e-4 * 63);
       const auto found = compare(a, b, Register::rigid);
@@ -165,7 +166,7 @@ TEST(RegistrationMatrix, NoiseMovesByNoMoreThanItsU) {
           << name;
       EXPECT_NEAR(found->pv_m, truth.pv_m, (is_fully_undetermined ? 1e-6 : 0.2) * truth.pv_m)
           << name;
-      // One map is exact, as nominal heights are. An exact cylinder still determines a turn.
+      // The first map is exact, as nominal heights are. An exact cylinder still determines a turn.
       if (is_fully_undetermined)
         expect_no_movement(map_on_grid(z), b, std::string(name) + " against noise");
       if (is_fully_undetermined)
@@ -187,8 +188,8 @@ TEST(RegistrationMatrix, ABowIsLeftWhereTheShapeDeterminesNoMovement) {
   }
 }
 
-// All movements are determined, so a movement can take a part of the bow: the part that linear
-// least squares with analytic slopes finds.
+// All movements are determined, so a movement can remove a part of the bow. Linear least squares
+// with analytic slopes gives the expected part.
 TEST(RegistrationMatrix, BowMovesAFreeformAsLeastSquares) {
   const double share = 0.02;
   const auto b_of = [&](double x, double y) { return freeform(x, y) + share * bow(x, y); };
@@ -233,7 +234,7 @@ TEST(RegistrationMatrix, FindsKnownMovementsThatAreDetermined) {
   EXPECT_NEAR(found->pose.shift_y_m, -0.77e-3, 4e-9);
   EXPECT_NEAR(found->pose.turn_rad / kDeg, 1.3, 1e-4);
   EXPECT_LT(found->rms_m, 1e-9);
-  // A plane and a sphere are the same everywhere: no difference remains for any position of B.
+  // A plane and a sphere are the same everywhere, so no difference remains for any position of B.
   for (const Shape& z : {Shape(flat), Shape(sphere), Shape(tilted)}) {
     const auto same = compare(a.z_m.empty() ? a : map_on_grid(z), moved(z, 0.41e-3, -0.77e-3, 1.3),
                               Register::rigid);
@@ -254,7 +255,7 @@ TEST(RegistrationMatrix, FindsKnownMovementsThatAreDetermined) {
   }
 }
 
-// A known movement and a mark: the mark has no influence on the movement found.
+// A known movement and the mark of a clamp. The mark must not change the movement found.
 TEST(RegistrationMatrix, MarkDoesNotDisturbAKnownMovement) {
   const SurfaceMap a = map_on_grid(freeform);
   SurfaceMap b = moved(freeform, 0.41e-3, -0.77e-3, 1.3);
@@ -284,7 +285,7 @@ TEST(RegistrationMatrix, UnrelatedShapesDoNotMove) {
   expect_no_movement(map_on_grid(waves), map_on_grid(flat), "long waves and flat");
 }
 
-// A nominal cylinder and a part with an error along its axis.
+// A nominal cylinder is compared with a part that has an error along the axis of the cylinder.
 TEST(RegistrationMatrix, ErrorAlongTheAxisOfACylinderRemains) {
   const auto part = [](double x, double y) { return cylinder(x, y) + 0.3e-6 * std::sin(y / 5e-3); };
   expect_no_movement(map_on_grid(cylinder), map_on_grid(part), "cylinder", {1e-6, 1e-3, 1e-3});

@@ -1,5 +1,6 @@
-// The map of a scan compared with a simple version of the same fit: it checks every cell for every
-// pixel, and orthogonalises the columns by the Gram-Schmidt method with pivoting.
+// The map of a scan is compared with a simple version of the same fit. The simple version checks
+// every cell for every pixel and orthogonalises the columns by the Gram-Schmidt method with
+// pivoting.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,7 +19,7 @@ struct MeanOfCell {
   double n = 0, x = 0, y = 0, z = 0;
 };
 
-// Means of the points in each cell; a cell is a quarter of a pixel wide.
+// Means of the points in each cell. The width of a cell is a quarter of a pixel.
 std::vector<MeanOfCell> expected_cell_means(const ScanPoints& points, double pixel_m) {
   std::map<std::pair<long, long>, MeanOfCell> cells;
   for (std::size_t i = 0; i < points.z_m.size(); ++i) {
@@ -43,8 +44,8 @@ double column_product(const ColumnOfFit& a, const ColumnOfFit& b) {
   return sum;
 }
 
-// Columns in the order of their independent parts; `pivot`: the length of each part. `first`: the
-// coefficient of columns[0] in the least-squares fit of b.
+// Columns in descending order of the parts that are independent of the columns before. `pivot`: the
+// lengths of these parts. `first`: the coefficient of given[0] in the least-squares fit of b.
 struct Orthogonal {
   std::vector<double> pivot;
   double first = 0;
@@ -70,7 +71,8 @@ Orthogonal orthogonalised(std::vector<ColumnOfFit> columns, ColumnOfFit b) {
       for (std::size_t i = 0; i < q.size(); ++i) columns[k][i] -= part * q[i];
     }
   }
-  // The part of columns[0] that is orthogonal to all others, with b (Frisch, Waugh).
+  // The coefficient follows from the part of given[0] that is orthogonal to all other columns
+  // (Frisch, Waugh).
   ColumnOfFit across = given[0];
   std::vector<ColumnOfFit> others(given.begin() + 1, given.end());
   for (std::size_t k = 0; k < others.size(); ++k) {
@@ -88,7 +90,7 @@ Orthogonal orthogonalised(std::vector<ColumnOfFit> columns, ColumnOfFit b) {
 
 struct Expected {
   double z_m = SurfaceMap::kMissing;
-  bool is_close = false;  // rounding may change a decision
+  bool is_close = false;  // a decision is so close that rounding may change it
 };
 
 Expected expected_at(const std::vector<MeanOfCell>& cells, double x_m, double y_m, double pixel_m) {
@@ -121,7 +123,8 @@ Expected expected_at(const std::vector<MeanOfCell>& cells, double x_m, double y_
   return expected;
 }
 
-// Dense on one side, sparse on the other; some points are almost at the same place.
+// The points are dense on one side and sparse on the other. Some points are almost at the same
+// place.
 ScanPoints scattered(unsigned seed, std::size_t n) {
   test::NoPattern random(seed);
   ScanPoints points;
@@ -163,8 +166,8 @@ TEST(ScanMapByHand, MatchesTheSimpleFit) {
   EXPECT_GT(missing, 50u);
 }
 
-// Pixels are at whole multiples of their size. A pixel with points on one side only has no height,
-// and rows without heights are omitted.
+// The positions of pixels are whole multiples of their size. A pixel with points on one side only
+// has no height. Rows without heights are omitted.
 TEST(ScanMapByHand, EndsWhereItsHeightsEnd) {
   ScanPoints points;
   for (int j = 0; j <= 24; ++j)
@@ -178,14 +181,14 @@ TEST(ScanMapByHand, EndsWhereItsHeightsEnd) {
   const SurfaceMap* const map = &found->map;
   EXPECT_NEAR(map->x0_m, -2e-3, 1e-15);
   EXPECT_NEAR(map->y0_m, 2e-3, 1e-15);
-  EXPECT_EQ(map->nx, 7u);  // -2 ... 4 mm: the points are from -2.6 to 4.9 mm
-  EXPECT_EQ(map->ny, 5u);  // 2 ... 6 mm: the points are from 1.1 to 7.1 mm
+  EXPECT_EQ(map->nx, 7u);  // -2 ... 4 mm; the points are at -2.6 to 4.9 mm
+  EXPECT_EQ(map->ny, 5u);  // 2 ... 6 mm; the points are at 1.1 to 7.1 mm
   EXPECT_EQ(map->dx_m, 1e-3);
   EXPECT_EQ(map->dy_m, 1e-3);
   for (const double z : map->z_m) EXPECT_NEAR(z, 3e-6, 1e-15);
 }
 
-// One point every quarter of a pixel, from (0, 0) on: every height of a paraboloid is exact.
+// One point every quarter of a pixel from (0, 0) on. The heights of a paraboloid must be exact.
 TEST(ScanMapByHand, ParaboloidIsExact) {
   constexpr double kPixel_m = 1e-3;
   ScanPoints points;

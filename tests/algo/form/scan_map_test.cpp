@@ -12,8 +12,8 @@ double part_m(double x, double y) {
   return 2e-6 + 3e-5 * x - 1e-5 * y + 4e-3 * x * x + 7e-3 * x * y - 5e-3 * y * y;
 }
 
-// Circles about (0, 0) with radii r from `first_mm` to `last_mm` in steps of 1 mm, a point every
-// `step_rad` / r.
+// Circles about (0, 0) with the radii r from `first_mm` to `last_mm` in steps of 1 mm. The angle
+// between points is `step_rad` / r.
 ScanPoints rings(double first_mm, double last_mm, double step_rad) {
   ScanPoints points;
   for (double r = first_mm; r < last_mm + 0.5; r += 1)
@@ -25,14 +25,14 @@ ScanPoints rings(double first_mm, double last_mm, double step_rad) {
   return points;
 }
 
-// The map reproduces a parabola on the circles and between them; outside them and in their middle
-// it has no heights.
+// On the circles and between them the map must reproduce a parabola. Outside the largest and inside
+// the smallest circle it has no heights.
 TEST(ScanMap, ReproducesAScannedParabola) {
   const auto found = scan_map(rings(6, 20, 0.5), 1e-3);
   ASSERT_TRUE(found) << found.error().message;
   const SurfaceMap* const map = &found->map;
   EXPECT_EQ(found->u.z_m.size(), map->z_m.size());
-  // Pixels at 20 mm have points on one side only: the map ends at 19 mm.
+  // Pixels at 20 mm have points on one side only, so the map ends at 19 mm.
   EXPECT_EQ(map->nx, 39u);
   EXPECT_EQ(map->ny, 39u);
   EXPECT_NEAR(map->x0_m, -19e-3, 1e-15);
@@ -52,7 +52,7 @@ TEST(ScanMap, ReproducesAScannedParabola) {
   EXPECT_GT(between, 700u);
 }
 
-// More points reduce the effect of their noise.
+// If a pixel has more points, their noise has less effect.
 TEST(ScanMap, AveragesNoise) {
   ScanPoints points = rings(1, 20, 0.02);
   double sign = 1;
@@ -68,8 +68,8 @@ TEST(ScanMap, AveragesNoise) {
   EXPECT_LT(std::sqrt(square / 700), 0.1e-6);
 }
 
-// In 100 scans with known noise, the height of the part is within 2 u in 95.4 % of the pixels, and
-// the mean square of error / u is 1.
+// In 100 scans with known noise, 95.4 % of the heights must be within 2 u of the true height. The
+// mean square of error / u must be 1.
 TEST(ScanMap, UContainsTheTruth) {
   std::mt19937 engine(3);
   std::normal_distribution<double> normal(0, 0.2e-6);

@@ -1,5 +1,5 @@
-// A map as a surface: polynomials that its cubics reproduce exactly, its extension beyond the
-// pixels, and its values where pixels for the slopes are missing.
+// Tests the surface of a map: polynomials that its cubics reproduce exactly, its extension beyond
+// the pixels, and its values where pixels for the slopes are missing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kColumn_m = 2e-3, kRow_m = 0.5e-3;
 
-// A map of the function z of column and row, both from 0 on.
+// A map of z(column, row); columns and rows are counted from 0.
 SurfaceMap map_in_pixels(std::size_t nx, std::size_t ny,
                          const std::function<double(double, double)>& z) {
   SurfaceMap map{"pixels", 1e-3, -2e-3, kColumn_m, kRow_m, nx, ny, {}, {}};
@@ -24,7 +24,7 @@ SurfaceMap map_in_pixels(std::size_t nx, std::size_t ny,
       map.z_m.push_back(z(static_cast<double>(i), static_cast<double>(j)));
   return map;
 }
-// The surface at a column and a row.
+// The surface at a column and a row, which may be fractions.
 bool surface_at(const Surface& surface, double i, double j, std::size_t rings, SurfacePoint& p) {
   return surface.at(1e-3 + i * kColumn_m, -2e-3 + j * kRow_m, rings, p);
 }
@@ -34,7 +34,8 @@ double height_at(const Surface& surface, double i, double j, std::size_t rings) 
   return p.z_m;
 }
 
-// Differences over five pixels are exact to the fourth degree, the Hermite cubic to the third.
+// Differences over five pixels are exact for polynomials to the fourth degree, the Hermite cubic to
+// the third.
 TEST(SurfacePolynomials, ReproduceCubicsAndTheirSlopes) {
   const auto f = [](double x) { return 1 + x * (0.7 + x * (-0.3 + 0.02 * x)); };
   const auto df = [](double x) { return 0.7 + x * (-0.6 + 0.06 * x); };
@@ -60,12 +61,14 @@ TEST(SurfacePolynomials, ContinueAParabola) {
       EXPECT_NEAR(height_at(surface, i, j, 4), z(i, j), 1e-10);
   for (const double j : {-4.0, -0.5, 6.5, 10.0})
     EXPECT_NEAR(height_at(surface, 3.5, j, 4), z(3.5, j), 1e-10);
-  // A corner is reached along both directions; each pixel on this way counts as a ring.
+  // The way to a pixel beyond a corner is along both directions. Each pixel on this way counts as a
+  // ring.
   EXPECT_NEAR(height_at(surface, -2, -2, 4), z(-2, -2), 1e-10);
   SurfacePoint p;
   EXPECT_FALSE(surface_at(surface, -2, -3, 4, p));
   EXPECT_FALSE(surface_at(surface, -2, -2, 3, p));
-  // Positions up to 0.01 pixel beyond the last pixel are accepted, so that rounding excludes none.
+  // Positions up to 0.01 pixel beyond the last pixel are accepted, so that rounding errors exclude
+  // none.
   for (const double beyond : {0.009, 0.011}) {
     const bool is_there = beyond < 0.01;
     EXPECT_EQ(surface_at(surface, -4 - beyond, 3, 4, p), is_there);
@@ -82,7 +85,7 @@ TEST(SurfacePolynomials, ContinueAParabola) {
   EXPECT_FALSE(surface_at(surface, NAN, 3, 4, p));
 }
 
-// The least-squares line through values at the distances 1, 2 ... n pixels, at 0.
+// Value at 0 of the least-squares line through values at the distances 1, 2 ... n pixels.
 double line_at_zero(const std::vector<double>& nearest_first) {
   const auto n = static_cast<double>(nearest_first.size());
   if (nearest_first.size() == 1) return nearest_first[0];
@@ -96,7 +99,7 @@ double line_at_zero(const std::vector<double>& nearest_first) {
   return mean - xy / xx * mean_x;
 }
 
-// A single row: only pixels of this row exist for its extension.
+// A map with one row: only the pixels of this row determine its extension.
 TEST(SurfaceExtension, IsTheLineThroughUpToFourPixels) {
   const std::vector<double> z = {3, 7, 4, 9, 5};
   for (std::size_t n = 1; n <= 5; ++n) {
@@ -110,11 +113,11 @@ TEST(SurfaceExtension, IsTheLineThroughUpToFourPixels) {
     const double first_left = line_at_zero(left), first_right = line_at_zero(right);
     EXPECT_NEAR(height_at(surface, -1, 0, 2), first_left, 1e-12) << n;
     EXPECT_NEAR(height_at(surface, static_cast<double>(n), 0, 2), first_right, 1e-12) << n;
-    // The next extended pixel uses the first one and the three nearest pixels.
+    // The second extended pixel uses the first extended pixel and the three nearest pixels.
     left.insert(left.begin(), first_left);
     if (left.size() > 4) left.resize(4);
     EXPECT_NEAR(height_at(surface, -2, 0, 2), line_at_zero(left), 1e-12) << n;
-    // Across the row each extended pixel has one pixel beside it.
+    // Across the row, each extended pixel has only one neighbour.
     EXPECT_NEAR(height_at(surface, 0, 1, 2), z[0], 1e-12);
     EXPECT_NEAR(height_at(surface, 0, -1, 2), z[0], 1e-12);
   }
@@ -130,16 +133,16 @@ TEST(SurfaceExtension, IsTheParabolaThroughThreePixels) {
   }
 }
 
-// The value in a hole is the mean over the sides that have the most pixels.
+// The value in a hole is the mean of the extensions from those sides that have the most pixels.
 TEST(SurfaceExtension, HoleUsesTheSidesWithTheMostPixels) {
   SurfaceMap map = map_in_pixels(3, 3, [](double i, double j) { return i * i + 10 * j * j * j; });
   map.z_m[4] = SurfaceMap::kMissing;
-  // Its neighbours are 0 + 10, 4 + 10, 1 + 0 and 1 + 80, one on each side.
+  // The four neighbours of the hole are 0 + 10, 4 + 10, 1 + 0 and 1 + 80, one on each side.
   EXPECT_NEAR(height_at(Surface(map, 1, Extension::line), 1, 1, 1), (10 + 14 + 1 + 81) / 4.0,
               1e-12);
   SurfaceMap row = map_in_pixels(5, 1, [](double i, double) { return i * i * i; });
   row.z_m[1] = SurfaceMap::kMissing;
-  // To its right are 8, 27, 64; to its left is one pixel.
+  // To the right of the hole are 8, 27 and 64, to the left is one pixel.
   EXPECT_NEAR(height_at(Surface(row, 1, Extension::line), 1, 0, 1), line_at_zero({8, 27, 64}),
               1e-12);
   row = map_in_pixels(5, 1, [](double i, double) { return i * i * i; });
@@ -152,7 +155,8 @@ TEST(SurfaceExtension, HoleUsesTheSidesWithTheMostPixels) {
   EXPECT_TRUE(surface_at(Surface(row, 1, Extension::line), 1, 0, 0, p));
 }
 
-// At most 254 pixels are extended: the outermost have no pixels beyond them for the slopes.
+// A map is extended by at most 254 pixels. The outermost extended pixels have no pixels beyond them
+// for the slopes.
 constexpr double kOutermost = 254;
 TEST(SurfaceAtItsEnd, UsesThreePixelsThenStraightLines) {
   const auto f = [](double x) { return 1e-3 * x * x - 0.05 * x + 2; };
@@ -170,7 +174,7 @@ TEST(SurfaceAtItsEnd, UsesThreePixelsThenStraightLines) {
     EXPECT_NEAR(p.slope_x * kColumn_m, df(i) * g(j), 1e-6) << i << ' ' << j;
     EXPECT_NEAR(p.slope_y * kRow_m, f(i) * dg(j), 1e-6) << i << ' ' << j;
   };
-  // Five or three pixels exist for each slope: a parabola is reproduced.
+  // Each slope is calculated from five or three pixels, which reproduces a parabola.
   for (const double in : {251.5, 252.0, 252.3, 252.9, 253.0}) {
     expect_parabola(-in, 4);
     expect_parabola(-in, 4.4);
@@ -181,7 +185,7 @@ TEST(SurfaceAtItsEnd, UsesThreePixelsThenStraightLines) {
     expect_parabola(last + in, 4.4);
     expect_parabola(4.7, last + in);
   }
-  // Linear between the last two pixels.
+  // The surface is linear between the last two pixels.
   const auto expect_straight = [&](double i, double t, double j) {
     ASSERT_TRUE(surface_at(surface, i + t, j, 254, p)) << i << ' ' << j;
     EXPECT_NEAR(p.z_m, ((1 - t) * f(i) + t * f(i + 1)) * g(j), 1e-6);
@@ -196,13 +200,13 @@ TEST(SurfaceAtItsEnd, UsesThreePixelsThenStraightLines) {
     expect_straight(-kOutermost, t, 4);
     expect_straight(last + kOutermost - 1, t, 4);
   }
-  // Bilinear between four pixels.
+  // The surface is bilinear between four pixels.
   ASSERT_TRUE(surface_at(surface, -kOutermost + 0.25, 4.75, 254, p));
   const double x0 = f(-kOutermost), x1 = f(-kOutermost + 1);
   EXPECT_NEAR(p.z_m, (0.75 * x0 + 0.25 * x1) * (0.25 * g(4) + 0.75 * g(5)), 1e-6);
   EXPECT_NEAR(p.slope_x * kColumn_m, (x1 - x0) * (0.25 * g(4) + 0.75 * g(5)), 1e-6);
   EXPECT_NEAR(p.slope_y * kRow_m, (0.75 * x0 + 0.25 * x1) * (g(5) - g(4)), 1e-6);
-  // The last pixel has no next one: its slope is 0.
+  // There is no pixel after the last one, so the slope is 0.
   ASSERT_TRUE(surface_at(surface, last + kOutermost, 4, 254, p));
   EXPECT_NEAR(p.z_m, f(last + kOutermost) * g(4), 1e-6);
   EXPECT_EQ(p.slope_x, 0);

@@ -17,7 +17,7 @@ MatrixXd three_by_two() {
   return A;
 }
 
-// By hand: the line through (0, 6), (1, 0), (2, 0) is 5 - 3 x.
+// Calculated by hand: the least-squares line of (0, 6), (1, 0), (2, 0) is 5 - 3 x.
 TEST(LeastSquares, FindsTheLineOfTheTextbook) {
   const LeastSquares fit(three_by_two());
   EXPECT_EQ(fit.rank(), 2);
@@ -44,7 +44,7 @@ TEST(LeastSquares, ToleranceRemovesDependentColumns) {
   EXPECT_EQ(fit.basis().cols(), 2);
 }
 
-// The equation x + y = 2 has the shortest solution (1, 1) and does not determine the direction (1,
+// The equation x + y = 2 has the shortest solution (1, 1). It does not determine the direction (1,
 // -1).
 TEST(LeastNorm, GivesTheShortestSolutionAndTheNullSpace) {
   const LeastNorm fit(MatrixXd{{1.0, 1.0}, {2.0, 2.0}, {0.0, 0.0}});
@@ -66,7 +66,7 @@ TEST(LeastNorm, ToleranceDeterminesTheRank) {
   EXPECT_EQ(LeastNorm(A, 1e-6).rank(), 1);
 }
 
-// The four conditions of Moore and Penrose.
+// Tests the four conditions of Moore and Penrose.
 TEST(LeastNorm, InverseIsTheMoorePenroseInverse) {
   MatrixXd A(5, 4);
   for (Eigen::Index i = 0; i < 5; ++i)

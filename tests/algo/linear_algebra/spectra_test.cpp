@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-// By hand: A Aᵀ of [[3, 0], [4, 5]] has the eigenvalues 45 and 5.
+// Calculated by hand: for A = [[3, 0], [4, 5]], A Aᵀ has the eigenvalues 45 and 5.
 TEST(SingularValues, MatchTheTextbook) {
   const MatrixXd A{{3.0, 0.0}, {4.0, 5.0}};
   const auto svd = singular_values(A);

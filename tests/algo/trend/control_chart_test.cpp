@@ -13,8 +13,8 @@ std::vector<ChartValue> values(const std::vector<double>& x, double u = 0) {
   return out;
 }
 
-// Flow rates of the NIST/SEMATECH handbook 6.3.2.2: mean 50.81, mean moving range 1.8778, limits
-// 45.8155 and 55.8041 (calculated there as 50.81 ± 3 · 1.8778 / 1.128).
+// Flow rates of the NIST/SEMATECH handbook 6.3.2.2. The mean is 50.81, the mean moving range
+// 1.8778; the limits 45.8155 and 55.8041 are calculated there as 50.81 ± 3 · 1.8778 / 1.128.
 TEST(ControlChart, MatchesTheExampleOfTheHandbook) {
   const auto x = values({49.6, 47.6, 49.9, 51.3, 47.8, 51.2, 52.6, 52.4, 53.6, 52.1});
   const auto chart = control_chart(x, 10);
@@ -35,14 +35,14 @@ TEST(ControlChart, BaselineHasTheRequestedLength) {
   EXPECT_FALSE(control_chart(x, 1));
   EXPECT_FALSE(control_chart(x, 3));
   EXPECT_FALSE(control_chart(x, 8));
-  // The chart has moved after the first value already.
+  // The change from 0 to 9 is within the baseline. The move is reported at the value 90.
   const auto first = control_chart(values({0, 9, 9, 9, 9, 90}), 5);
   ASSERT_TRUE(first->moved);
   EXPECT_EQ(first->moved->since, 5U);
 }
 
-// Calculated by hand: 1 2 1 2 1 has the mean 1.4, ranges of 1 and sigma 1/1.128. 4 is within 1.4 +
-// 2.66, 5 is not.
+// Calculated by hand: 1 2 1 2 1 has the mean 1.4, moving ranges of 1 and sigma 1/1.128. The upper
+// limit is 1.4 + 2.66; the value 4 is below it, 5 is above.
 TEST(ControlChart, ComparesTheLastValueWithTheOthers) {
   EXPECT_FALSE(control_chart(values({1, 2, 1, 2, 1, 4}))->moved);
   const auto chart = control_chart(values({1, 2, 1, 2, 1, 5}));
@@ -55,8 +55,9 @@ TEST(ControlChart, ComparesTheLastValueWithTheOthers) {
   EXPECT_TRUE(control_chart(values({1, 2, 1, 2, 1, -3}))->moved->by < 0);
 }
 
-// Calculated by hand: the squares of 0 12 12 12 24 about two means are 108 if the first or the last
-// value is separate, and 168 between. The first of equal results is used.
+// Calculated by hand: the series 0 12 12 12 24 is divided into two parts. The sum of squares about
+// the two means is 108 if the first or the last value is separate, and 168 for other divisions. The
+// first of equal results is used.
 TEST(ControlChart, ReportsTheFirstOfEqualSteps) {
   const auto chart = control_chart(values({0, 12, 12, 12, 24}), 4);
   ASSERT_TRUE(chart->moved);
@@ -74,7 +75,7 @@ TEST(ControlChart, LargeUncertaintyWidensTheLimits) {
 }
 
 TEST(ControlChart, ReportsEightOnOneSide) {
-  std::vector<double> x = {1, -1, 1, -1, 1, -1};  // sigma 1.77
+  std::vector<double> x = {1, -1, 1, -1, 1, -1};  // sigma is 1.77
   for (int i = 0; i < 7; ++i) x.push_back(1.5);
   EXPECT_FALSE(control_chart(values(x), 6)->moved);
   x.push_back(1.5);
@@ -84,7 +85,7 @@ TEST(ControlChart, ReportsEightOnOneSide) {
   ASSERT_TRUE(chart->moved);
   EXPECT_EQ(chart->moved->since, 6u);
   EXPECT_NEAR(chart->moved->by, 1.5, 1e-12);
-  x[9] = 0;  // on the centre, so on no side
+  x[9] = 0;  // on the centre, which belongs to neither side
   EXPECT_TRUE(control_chart(values(x), 6)->one_side.empty());
 }
 
@@ -102,7 +103,8 @@ TEST(ControlChart, NeedsEnoughValues) {
   EXPECT_FALSE(control_chart(values({1, 2, 1, 2, 1}), 3));
 }
 
-// Four and five values on one side of the centre, with one value between that equals the centre.
+// Four values and five values are on one side of the centre. The value between them equals the
+// centre.
 TEST(ControlChart, ValueOnTheCentreEndsARow) {
   std::vector<ChartValue> x(4, {5, 1});
   for (int i = 0; i < 12; ++i) x.push_back({i == 6 ? 5 : 5.5, 1});

@@ -1,4 +1,4 @@
-// Readings outside the calibrated range of a probe.
+// Tests readings outside the calibrated range of a probe.
 #include "algo/plausibility/calibrated_stretch.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// Probe B is calibrated from t = -10 to 30 um and reads 5 % too much.
+// Probe B is calibrated from t = -10 to 30 um; its readings are 5 % too large.
 Rig calibrated(bool gap = false) {
   Rig rig = test::rig_x();
   Calibration& c = rig.probes[1].calibration;
@@ -32,18 +32,18 @@ TEST(CalibratedStretch, ReportsReadingsOutsideTheRange) {
   const auto said = stretch_notices(calibrated(), {point(-20e-6), point(40e-6), point(5e-6)});
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].severity, Severity::doubtful);
-  // The ends as displacements: 0.95 of -10 and 30 um.
+  // As displacements, the ends of the range are 0.95 times -10 and 30 um.
   EXPECT_EQ(test::shown(said),
             "beyond_calibration B from_um=-20 to_um=40 calibrated_from_um=-9.5 "
             "calibrated_to_um=28.5\n");
-  // A gap grows when the target recedes.
+  // If the probe reads a gap, the reading increases when the target moves away.
   EXPECT_EQ(test::shown(stretch_notices(calibrated(true), {point(0), point(40e-6)})),
             "beyond_calibration B from_um=0 to_um=40 calibrated_from_um=-28.5 "
             "calibrated_to_um=9.5\n");
 }
 
 TEST(CalibratedStretch, AcceptsATenthBeyondTheRange) {
-  // A tenth of 38 um is 3.8 um.
+  // A tenth of the range of 38 um is 3.8 um.
   EXPECT_TRUE(stretch_notices(calibrated(), {point(-13.2e-6), point(32.2e-6)}).empty());
   EXPECT_EQ(stretch_notices(calibrated(), {point(-13.4e-6)}).size(), 1U);
   EXPECT_EQ(stretch_notices(calibrated(), {point(32.4e-6)}).size(), 1U);

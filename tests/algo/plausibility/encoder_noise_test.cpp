@@ -1,4 +1,4 @@
-// All stops are found with a noisy encoder.
+// All stops must be found although the encoder is noisy.
 #include <gtest/gtest.h>
 
 #include "algo/plausibility/noise_floor.h"
@@ -54,7 +54,7 @@ TEST(EncoderNoise, FindsTheSameStopsForAnyBlockSize) {
   }
 }
 
-// Half of the slots are at rest; the other half is ten times as noisy.
+// Half of the slots are at rest. The noise in the other half is ten times as large.
 TEST(EncoderNoise, FloorIsTheNoiseAtRest) {
   std::mt19937_64 engine(3);
   std::normal_distribution<> unit;

@@ -1,4 +1,5 @@
-// Height maps that end before the probes do: notices with plane, direction and probe.
+// Height maps that do not cover the travel of the probes. The notices state plane, direction and
+// probe.
 #include "algo/plausibility/map_cover.h"
 #include "tests/shown.h"
 
@@ -7,7 +8,7 @@
 namespace mdof::algo {
 namespace {
 
-// Two probes over a top plane, at x = 0 and 10 mm and 20 mm apart along y.
+// Two probes over a top plane, at x = 0 and x = 10 mm; their distance along y is 20 mm.
 struct Mapped {
   Rig rig;
   Fixture fixture;
@@ -34,7 +35,7 @@ struct Mapped {
 TEST(MapCover, HasNoNoticeIfTheMapCoversTheTravel) {
   EXPECT_TRUE(Mapped({-60e-3, 10e-3}, {-10e-3, 10e-3}).said(0, 60e-3).empty());
   EXPECT_TRUE(Mapped({-60e-3, 10e-3}, {-10e-3, 10e-3}).said(-49e-6, 60.049e-3).empty());
-  EXPECT_TRUE(Mapped({0}, {0}).said(0, 60e-3).empty());  // constant in both directions
+  EXPECT_TRUE(Mapped({0}, {0}).said(0, 60e-3).empty());  // the map is constant in both directions
   EXPECT_TRUE(Mapped({-60e-3, 10e-3}, {0}).said(0, 60e-3).empty());
   EXPECT_TRUE(Mapped({}, {}).said(0, 60e-3).empty());
 }
@@ -61,7 +62,7 @@ TEST(MapCover, ChecksBothEndsAndOnlyItsProbes) {
   EXPECT_TRUE(mapped.said(-1, 1).empty());
 }
 
-// The axes of a side plane are x and z; the axes of a plane across the motion are y and z.
+// The map axes are x and z for a side plane, and y and z for a plane across the motion.
 TEST(MapCover, UsesTheAxesOfThePlane) {
   Mapped mapped({-60e-3, 10e-3}, {15e-3, 25e-3});
   for (FixtureProbe& probe : mapped.fixture.probes) {
@@ -89,7 +90,7 @@ TEST(MapCover, UsesTargetTravelOfPointsWithErrors) {
   EXPECT_TRUE(map_notices(mapped.rig, mapped.fixture, std::vector<MeasuredPoint>(2)).empty());
 }
 
-// A plane across the motion has the axes y and z, for any travel of the axis.
+// A plane across the motion has the map axes y and z, so the travel has no effect.
 TEST(MapCover, PlaneAcrossTheMotionHasYAndZ) {
   Mapped mapped({-11e-3, 11e-3}, {4e-3, 6e-3});
   for (FixtureProbe& probe : mapped.fixture.probes) {

@@ -1,4 +1,5 @@
-// The lower quartile of the slots, slot by slot. Mutation tests (tests/mutate) found these cases.
+// Tests the lower quartile of the slots. The slots are given one by one. Mutation tests
+// (tests/mutate) found these cases.
 #include "algo/plausibility/noise_floor.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,8 @@ namespace {
 
 constexpr std::size_t kRowsOfSlot = 16;
 
-// Mean |second difference| of white noise with this sd, reduced by the share by which the quartile
-// of 16 values lies below the mean.
+// Mean |second difference| of white noise with this standard deviation. It is reduced, because the
+// quartile of 16 values is below their mean.
 double mean_second_difference(double sd) {
   return std::sqrt(6) * std::sqrt(2 / std::numbers::pi) * sd * (1 - 0.72 / 4);
 }
@@ -26,7 +27,7 @@ double noise_floor_for(const std::vector<double>& sds) {
   return floor.sd();
 }
 
-// Centres of the bins, eight per octave: 17/32, 19/32 ... 31/32.
+// Centres of the bins: 17/32, 19/32 ... 31/32, eight per octave.
 double middle(int eighth, int exponent) {
   return std::ldexp((17 + 2 * eighth) / 32.0, exponent);
 }

@@ -1,4 +1,4 @@
-// Each event at a stop is reported by a notice or a flag.
+// A notice or a flag reports each event at a stop.
 #include <gtest/gtest.h>
 
 #include "tests/algo/detected.h"
@@ -81,7 +81,7 @@ TEST(Notices, ReportsARecordingHole) {
   }
 }
 
-// The axis stops `creep_um` before its target and creeps to the target.
+// A log in which the axis stops `creep_um` before its target and creeps to the target.
 FrameBlock creeping(const SteppingLog& log, double creep_um, double from_s, double to_s) {
   constexpr double kApproach_s = 0.2;
   FrameBlock frames = log.frames();
@@ -106,7 +106,7 @@ TEST(Notices, ReportsACreepingStopKeptOrLeftOut) {
   EXPECT_NEAR(little.points[2].position_m, 10e-3, 18e-6);
   ASSERT_EQ(little.notices.size(), 1u);
   EXPECT_EQ(little.notices[0].code, NoticeCode::stop_crept);
-  // The stop creeps towards + over nearly its whole length.
+  // The axis creeps in the positive direction during nearly the whole stop.
   const double length_s =
       1e-9 * static_cast<double>(clean.points[2].end_ns - clean.points[2].begin_ns);
   const auto crept = events_with_kind(little, DwellEventKind::crept);

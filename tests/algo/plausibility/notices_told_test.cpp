@@ -1,4 +1,5 @@
-// Which events become a notice, and how many. Mutation tests (tests/mutate) found these cases.
+// Tests which events are reported by a notice, and how many. Mutation tests (tests/mutate) found
+// these cases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +18,7 @@ using test::shown;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-// Two stops at 0 and 10 mm, from 10 s to 11 s and from 20 s to 21 s.
+// Two stops: at 0 mm from 10 s to 11 s, and at 10 mm from 20 s to 21 s.
 std::vector<Point> two_points() {
   std::vector<Point> points(2);
   points[0].position_m = 0, points[1].position_m = 10e-3;
@@ -35,7 +36,7 @@ bool is_reported_event(DwellEventKind kind, double position_mm, double time_s,
   return !found.empty();
 }
 
-// A short stop directly before or after a point at its position needs no notice.
+// If a short stop is directly before or after a point at its position, it is not reported.
 TEST(NoticesTold, ShortStopBesideItsPointIsNotReported) {
   for (const DwellEventKind kind : {DwellEventKind::short_stop, DwellEventKind::creep}) {
     EXPECT_TRUE(is_reported_event(kind, 5, 15));
@@ -45,11 +46,11 @@ TEST(NoticesTold, ShortStopBesideItsPointIsNotReported) {
     EXPECT_TRUE(is_reported_event(kind, 9.99, 22.1));
     EXPECT_TRUE(is_reported_event(kind, 9.94, 20.5));
     EXPECT_FALSE(is_reported_event(kind, 9.96, 20.5));
-    EXPECT_TRUE(is_reported_event(kind, 10, 10.5));  // at the time of the other point
+    EXPECT_TRUE(is_reported_event(kind, 10, 10.5));  // during the time of the other point
   }
 }
 
-// The axis turns around beyond the end targets.
+// Short stops beyond the end targets are turns of the axis.
 TEST(NoticesTold, TurnBeyondTheEndsIsNotReported) {
   EXPECT_TRUE(is_reported_event(DwellEventKind::short_stop, 10.04, 30));
   EXPECT_FALSE(is_reported_event(DwellEventKind::short_stop, 10.06, 30));
@@ -67,7 +68,8 @@ TEST(NoticesTold, EventsOfPositionsAreAlwaysReported) {
   }
 }
 
-// Ten notices of a kind are listed, then the number of the others; jumps come first.
+// Ten notices of each kind are listed, followed by the number of the other notices. Jumps come
+// first.
 TEST(NoticesTold, ReportsTenOfAKind) {
   std::vector<DwellEvent> events(10, {DwellEventKind::hole, kSecond_ns, 5e-3, 1e-3, 2});
   events.push_back({DwellEventKind::jump, 3 * kSecond_ns, 4e-3, -25e-6, 0});
@@ -81,8 +83,8 @@ TEST(NoticesTold, ReportsTenOfAKind) {
   EXPECT_EQ(shown(twelve.back()), "more_alike count=2 alike=recording_hole");
 }
 
-// The axis moves by `per_window_m` per window of 50 ms; the tolerance is 2 um. A window is slow up
-// to 50 um. The stretch is reported when it ends.
+// The axis moves by `per_window_m` in each window of 50 ms; the tolerance is 2 um. A window is slow
+// up to 50 um. The stretch of slow windows is reported at its end.
 std::optional<DwellEvent> slow_over(int windows, double per_window_m, bool stood = false,
                                     double most_m = 200e-6) {
   SlowStretch stretch;
@@ -121,7 +123,7 @@ TEST(SlowStretchRule, RejectsShortLongAndStoppedStretches) {
   EXPECT_FALSE(slow_over(10, -20.1e-6));
   EXPECT_FALSE(slow_over(10, 10e-6, true));
   EXPECT_TRUE(slow_over(10, 49.9e-6, false, 1));
-  EXPECT_FALSE(slow_over(10, 50.1e-6, false, 1));  // faster than a slow window
+  EXPECT_FALSE(slow_over(10, 50.1e-6, false, 1));  // above the limit of a slow window
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Notices name each fault of a run; a correct run has no notices.
+// A notice reports each fault of a run. A correct run has no notices.
 #include "algo/plausibility/plausibility.h"
 
 #include <gtest/gtest.h>
@@ -35,11 +35,12 @@ struct Judged {
   std::string all() const { return test::shown(notices); }
 };
 
-// Evaluates a run as the pipeline does; point i has valid errors if `solved(i)` is true.
+// Evaluates a run in the same way as the pipeline. The errors of point i are valid if `solved(i)`
+// is true.
 template <class Solved>
 Judged judge(const Machine& machine, const std::vector<double>& targets_m, Solved solved) {
   Rig rig = five_plain_probes();
-  rig.probes.resize(1);  // the machine has one probe
+  rig.probes.resize(1);  // Machine simulates one probe
   DwellDetector detector({}, {"A"}, {200e-6});
   std::vector<Point> points;
   detector.push(machine.frames, points);
@@ -191,8 +192,8 @@ TEST(Plausibility, ReportsThatAPendulumIsAssumed) {
   EXPECT_TRUE(judge(m).says("pendulum_assumed\n"));
 }
 
-// The end targets of a pendulum cycle have one visit by design; any other missing visit is
-// reported.
+// In a pendulum cycle the end targets have one visit per cycle, which is not reported. Any other
+// missing visit is reported.
 TEST(Plausibility, PendulumHasOneVisitAtItsEnds) {
   const auto pendulum = [](int missed) {
     Machine m;
@@ -231,7 +232,7 @@ void scale(ProbeFigures& p, double factor) {
 
 TEST(Units, CorrectRunHasNoNotices) {
   EXPECT_EQ(said(five_plain_probes(), right()), "");
-  Plausibility quiet = right();  // a good, well adjusted axis
+  Plausibility quiet = right();  // a well adjusted axis with low noise
   for (auto& p : quiet.probes) p = {p.id, 78, 1e-9, 0.1e-6, -0.05e-6, 0.05e-6};
   EXPECT_EQ(said(five_plain_probes(), quiet), "");
 }
@@ -289,7 +290,7 @@ TEST(Units, ReportsWrongUnitOfTheFixture) {
   }
 }
 
-// From the second run on, all three targets are approached 0.3 mm further.
+// From the second run on, all three targets are 0.3 mm further than in the first run.
 TEST(Plausibility, ReportsShiftedTargetsWithTimeAndShift) {
   Sequence sequence;
   sequence.targets_m = {0, 0.3e-3, 10e-3, 10.3e-3, 20e-3, 20.3e-3};
@@ -321,10 +322,10 @@ TEST(Plausibility, ReportsShiftedTargetsWithTimeAndShift) {
     ++reported;
     EXPECT_NEAR(test::number(notice, "shift_mm"), 0.3, 1e-9);
     EXPECT_NEAR(test::number(notice, "time_s"), 22,
-                1e-9);  // end of the third stop of the first run
+                1e-9);  // end of the third stop of run 1
   }
   EXPECT_EQ(reported, 1u);
-  // Figures of the probes' readings at these stops.
+  // The figures are calculated from the probes' readings at these stops.
   const Plausibility found = plausibility(run);
   ASSERT_EQ(found.probes.size(), 5u);
   EXPECT_EQ(found.probes[2].id, "C");
@@ -339,10 +340,10 @@ TEST(Plausibility, ReportsShiftedTargetsWithTimeAndShift) {
   EXPECT_TRUE(std::isnan(none.min_m) && std::isnan(none.max_m) && std::isnan(none.travel_m));
 }
 
-// One stop is enough to detect noise above 1 µm or 0.25 % of the range. Without stops there is no
-// notice.
+// One stop is enough to detect noise above 1 µm or above 0.25 % of the range. Without stops there
+// is no notice.
 TEST(Plausibility, OneStopShowsANoisyProbe) {
-  const Rig rig = five_plain_probes();  // ranges of 400 µm
+  const Rig rig = five_plain_probes();  // the range of each probe is 400 µm
   const auto noisy = [&](std::size_t points, double sd_m) {
     Plausibility figures;
     for (const Probe& probe : rig.probes) {

@@ -1,4 +1,4 @@
-// The rule of resolution.h, calculated by hand: which steps are a resolution.
+// Tests the rule of resolution.h with values calculated by hand: which steps are the resolution.
 #include "algo/plausibility/resolution.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// Each step lies between two repeated readings.
+// Resolution of readings with these steps; each reading is repeated once.
 double step_of(const std::vector<double>& steps) {
   std::vector<double> readings = {0, 0};
   for (const double step : steps) {
@@ -36,17 +36,17 @@ TEST(Resolution, IsAStepThatOccursThreeTimes) {
   EXPECT_EQ(step_of({1, 1.02, 1.06}), 0);
 }
 
-// Three quarters of few steps must agree; with sixteen or more steps, an eighth must agree.
+// Of few steps, three quarters must be equal. Of sixteen or more steps, an eighth must be equal.
 TEST(Resolution, NeedsMostOfFewSteps) {
   EXPECT_EQ(step_of(repeated(1, 6, {2, 4})), 1);
   EXPECT_EQ(step_of(repeated(1, 5, {2, 4, 8})), 0);
-  EXPECT_EQ(step_of(repeated(4, 6, {1, 2})), 4);  // a single smaller step does not count
+  EXPECT_EQ(step_of(repeated(4, 6, {1, 2})), 4);  // a single smaller step is ignored
   EXPECT_EQ(step_of(repeated(1, 3, {2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096})), 0);
   EXPECT_EQ(step_of(repeated(1, 3, {2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192})),
             1);
 }
 
-// Only the 64 smallest of many steps are kept; eight of them must agree.
+// The rule uses only the 64 smallest of many steps; eight of them must be equal.
 TEST(Resolution, IsTheSmallestRepeatedStepOfMany) {
   std::vector<double> steps;
   for (int i = 0; i < 200; ++i) steps.push_back(i % 20 == 0 ? 1 : i % 5 == 1 ? 3 : 100);
@@ -59,24 +59,24 @@ TEST(Resolution, NeedsRepeatedReadings) {
   Resolution none;
   none.add(std::vector<double>{0, 0, 1, 2, 2, 3, 3.5, 3.5,
                                4});  // no step has repeated readings on both sides
-  none.add(std::vector<double>{0, 1, 1, 2, 2, 3, 3, 4, 4});  // begins in noise
-  none.add(std::vector<double>{0, 0, 1});                    // too few
+  none.add(std::vector<double>{0, 1, 1, 2, 2, 3, 3, 4, 4});  // begins without a repeated reading
+  none.add(std::vector<double>{0, 0, 1});                    // too few steps
   none.add(std::vector<double>{0, 0, INFINITY, INFINITY, 0, 0, INFINITY, INFINITY, 0, 0});
   EXPECT_EQ(none.step(), 0);
-  Resolution parts;  // the same readings in parts
+  Resolution parts;  // the same readings in several blocks
   for (int i = 0; i < 3; ++i) parts.add(std::vector<double>{0, 0, 2, 2});
   EXPECT_EQ(parts.step(), 2);
 }
 
-// Noise of half a step or more averages the rounding out. With less noise the rounding has a
-// rectangular distribution.
+// If the noise is at least half a step, the rounding errors average out. If it is smaller, the
+// rounding error has a rectangular distribution.
 TEST(Resolution, IsInTheUncertaintyUnlessNoiseAveragesIt) {
   EXPECT_EQ(with_resolution(3, 1.0, 2), 3);
   EXPECT_NEAR(with_resolution(3, 0.99, 2), std::sqrt(9 + 4 / 12.0), 1e-12);
   EXPECT_NEAR(with_resolution(0, 0, 6), 6 / std::sqrt(12), 1e-12);
 }
 
-// Readings that repeat many times contain no steps of 0.
+// Readings that repeat many times have no steps of 0.
 TEST(Resolution, ReadingsMayRepeatManyTimes) {
   std::vector<double> readings;
   for (const double x : {0.5, 2.5, 0.5, 2.5}) readings.insert(readings.end(), 40, x);
@@ -85,8 +85,8 @@ TEST(Resolution, ReadingsMayRepeatManyTimes) {
   EXPECT_EQ(resolution.step(), 2);
 }
 
-// Steps of 1 from a repeated reading to a single one, and the other way round; the other steps
-// differ.
+// The equal steps of 1 are from a repeated reading to a single one, or from a single one to a
+// repeated one. The other steps differ.
 TEST(Resolution, NeedsRepeatedReadingsOnBothSides) {
   Resolution left, right;
   left.add(std::vector<double>{0, 0, 1, 3, 3, 4, 8, 8, 9, 17, 17, 18, 34, 34, 35, 67, 67});
@@ -95,8 +95,8 @@ TEST(Resolution, NeedsRepeatedReadingsOnBothSides) {
   EXPECT_EQ(right.step(), 0);
 }
 
-// Other steps that grow by 6 % do not agree. Eight of 64 steps must agree; later larger steps
-// change nothing.
+// The other steps grow by 6 % each, so no two are equal. Eight of 64 steps must be equal. Further,
+// larger steps change nothing.
 TEST(Resolution, NeedsEightOfSixtyFourSteps) {
   const auto steps_with_outliers = [](std::size_t strays, std::size_t equal) {
     std::vector<double> steps;
@@ -110,8 +110,8 @@ TEST(Resolution, NeedsEightOfSixtyFourSteps) {
   EXPECT_NEAR(step_of(later), 128, 1e-9);
 }
 
-// Only rows 2 to 9 are used. Probe B repeats its reading in the fifth of these rows, so it has no
-// resolution from there on.
+// Only rows 2 to 9 are used. Probe B repeats its reading in the fifth of these rows; from this row
+// on, its resolution is unknown.
 TEST(ProbeResolution, IsUnknownForAProbeSlowerThanTheEncoder) {
   FrameBlock frames;
   frames.probe_m = {{0, 1, 0, 0, 2, 2, 0, 0, 2, 2, 7}, {0, 1, 0, 0, 3, 3, 0, 0, 3, 3, 7}};

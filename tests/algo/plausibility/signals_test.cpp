@@ -1,5 +1,5 @@
-// Notices about constant signals at and beside each limit, for stops made by hand, and steps of an
-// encoder. Mutation tests (tests/mutate) found these cases.
+// Tests notices about constant signals on both sides of each limit, for stops that are defined by
+// hand. Also tests the steps of an encoder. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using test::shown;
 
-constexpr double kU_m = 1e-9;    // u of the mean of a stop: 8 nm are within its noise
+constexpr double kU_m = 1e-9;    // u of the mean of a stop; a change of 8 nm is within the noise
 constexpr double kSd_m = 10e-9;  // standard deviation of single readings
 
 Rig rig_of(std::size_t probes) {
@@ -30,8 +30,8 @@ Rig rig_of(std::size_t probes) {
   return rig;
 }
 
-// Stops of 0.5 s, a second apart, at targets 1, 2, 3, ...; the reading of each probe grows by 1 µm
-// per stop.
+// Stops of 0.5 s in intervals of one second, at targets 1, 2, 3, ... The reading of each probe
+// increases by 1 µm per stop.
 Sequence stops_of(std::size_t probes, int n) {
   Sequence sequence;
   for (int i = 0; i < n; ++i) {
@@ -54,7 +54,7 @@ Notices said(const Sequence& sequence, std::size_t probes = 5) {
   return signal_notices({rig, sequence, none});
 }
 
-// Probe C reads 3 µm from stop `first` on.
+// From stop `first` on, the reading of probe C is 3 µm.
 Sequence with_dead_probe(int n, std::size_t first, double wobble_m = 0) {
   Sequence sequence = stops_of(5, n);
   for (std::size_t i = first; i < sequence.points.size(); ++i)
@@ -73,8 +73,8 @@ TEST(Signals, ReportsAProbeThatNeverMoves) {
   EXPECT_EQ(shown(found[0]), "probe_insensitive C stops=12 from_s=0 reading_um=3");
 }
 
-// The output of probe B ends at 7.5 um. Three stops at different times read this value; it is the
-// highest or lowest reading.
+// The output of probe B is limited to 7.5 um. Three stops at different times have this reading,
+// which is the highest or lowest reading.
 TEST(Signals, ReportsAClippedAmplifier) {
   const auto clipped = [](const std::vector<std::size_t>& at, double reading_m, int n = 12) {
     Sequence sequence = stops_of(5, n);
@@ -97,7 +97,7 @@ TEST(Signals, ReportsAClippedAmplifier) {
   EXPECT_TRUE(clipped({0, 1, 2}, 7.5e-6, 3).empty()) << "no stop has noise";
 }
 
-// The resolution of the probe exceeds its noise, so stops without scatter are normal.
+// The resolution of the probe is coarser than its noise, so stops without scatter are normal.
 TEST(Signals, ProbeWithCoarseResolutionIsNotClipped) {
   Sequence sequence = stops_of(5, 12);
   for (std::size_t i = 0; i < 12; ++i) {
@@ -109,7 +109,7 @@ TEST(Signals, ProbeWithCoarseResolutionIsNotClipped) {
 }
 
 TEST(Signals, ReportsAProbeThatDiesWithItsTime) {
-  const auto found = said(with_dead_probe(12, 5));  // it read 0 to 4 um before
+  const auto found = said(with_dead_probe(12, 5));  // before stop 5 the probe reads 0 to 4 um
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(shown(found[0]), "probe_insensitive C stops=7 from_s=5 reading_um=3");
 }
@@ -118,7 +118,7 @@ TEST(Signals, DeadProbeNeedsSixStopsAtThreePlaces) {
   EXPECT_EQ(said(with_dead_probe(12, 6)).size(), 1u);
   EXPECT_EQ(said(with_dead_probe(12, 7)).size(), 0u);   // five stops
   EXPECT_EQ(said(with_dead_probe(28, 21)).size(), 1u);  // a quarter of the stops
-  EXPECT_EQ(said(with_dead_probe(32, 25)).size(), 0u);  // less than a quarter
+  EXPECT_EQ(said(with_dead_probe(32, 25)).size(), 0u);  // less than a quarter of the stops
   for (const int places : {2, 3}) {
     Sequence few = with_dead_probe(12, 0);
     for (std::size_t i = 0; i < few.points.size(); ++i)
@@ -132,8 +132,8 @@ TEST(Signals, ConstantMeansWithinEightTimesU) {
   EXPECT_EQ(said(with_dead_probe(12, 0, 8.1e-9)).size(), 0u);
 }
 
-// The other probes, and the probe itself before it died, must have moved by fifty times that limit:
-// 400 nm.
+// The readings of the other probes, and of the probe itself before its fault, must have changed by
+// 50 times the limit of 8 nm: 400 nm.
 TEST(Signals, OtherProbesMustMove) {
   for (const double step_m : {38e-9, 35e-9}) {  // 418 nm and 385 nm over eleven steps
     Sequence slow = with_dead_probe(12, 0);
@@ -168,7 +168,8 @@ TEST(Signals, IgnoresStopsWithoutValue) {
   EXPECT_EQ(test::number(found[0], "stops"), 11);
 }
 
-// In stop 4, the first `restless` probes have `times` times their usual sd.
+// Stops of which stop 4 is restless: there, the standard deviation of the first `restless` probes
+// is `times` times its usual value.
 Sequence with_restless_stop(std::size_t probes, int stops, std::size_t restless, double times) {
   Sequence sequence = stops_of(probes, stops);
   for (std::size_t k = 0; k < restless; ++k) sequence.points[4].point.probe_sd_m[k] = times * kSd_m;
@@ -189,11 +190,10 @@ TEST(Signals, NeedsThreeProbesAndHalfOfThemAt30TimesSd) {
   EXPECT_EQ(said(with_restless_stop(7, 12, 3, 40), 7).size(), 0u);
   EXPECT_EQ(said(with_restless_stop(5, 6, 3, 40)).size(), 1u);
   EXPECT_EQ(said(with_restless_stop(5, 5, 3, 40)).size(),
-            0u);  // too few stops to know the usual sd
+            0u);  // too few stops to determine the usual sd
   Sequence stepped = with_restless_stop(5, 12, 3, 40);
   for (std::size_t i = 0; i < 12; ++i)
-    if (i != 4)
-      stepped.points[i].point.probe_sd_m[0] = 0;  // without noise the sd contains no information
+    if (i != 4) stepped.points[i].point.probe_sd_m[0] = 0;  // an sd of 0 gives no information
   EXPECT_EQ(said(stepped).size(), 0u);
   Sequence unknown = with_restless_stop(5, 12, 4, 40);
   for (const std::size_t i : {1u, 2u, 7u}) unknown.points[i].point.probe_sd_m.assign(5, kNaN);
@@ -201,7 +201,7 @@ TEST(Signals, NeedsThreeProbesAndHalfOfThemAt30TimesSd) {
   EXPECT_EQ(said(unknown).size(), 1u);
 }
 
-// An axis with the speed `speed_m` per scan of 1 ms, which moves by `step_m` more at row 30.
+// An axis that moves by `speed_m` per scan of 1 ms, and by `step_m` more at row 30.
 struct Rows {
   std::vector<std::int64_t> time_ns;
   std::vector<double> encoder_m;
@@ -238,7 +238,7 @@ TEST(EncoderJumpRule, FindsNothingWithoutAJump) {
   EXPECT_FALSE(jump_in(rows_of(0, 100e-6), 31));
   EXPECT_FALSE(jump_in(rows_of(0, 100e-6), 0, 30));
   EXPECT_TRUE(jump_in(rows_of(0, 100e-6), 30, 31));
-  // 10 m/s² over two scans of 1 ms move the axis by 2.5 µm to and fro.
+  // An acceleration of 10 m/s² over two scans of 1 ms moves the axis by 2.5 µm.
   EXPECT_FALSE(jump_in(rows_of(0, 2.4e-6), 0, 60, 1e-9));
   EXPECT_TRUE(jump_in(rows_of(0, 2.6e-6), 0, 60, 1e-9));
 }
@@ -254,7 +254,7 @@ TEST(EncoderJumpRule, SpikeOfOneScanIsNoJump) {
 }
 
 // The larger of two steps is returned. A step at a gap in time is ignored, because the axis may
-// have moved in the gap.
+// have moved during the gap.
 TEST(EncoderJumpRule, FindsTheLargestStepOutsideGaps) {
   Rows two = rows_of(0, 60e-6);
   for (std::size_t i = 45; i < 60; ++i) two.encoder_m[i] -= 100e-6;
@@ -268,7 +268,7 @@ TEST(EncoderJumpRule, FindsTheLargestStepOutsideGaps) {
   }
 }
 
-// A sudden start of the axis changes the speed, so it is no jump.
+// A sudden start of the axis is a change of speed and not a jump.
 TEST(EncoderJumpRule, StartIsNoJump) {
   Rows rows = rows_of(0, 0);
   for (std::size_t i = 30; i < 60; ++i) rows.encoder_m[i] = 50e-6 * static_cast<double>(i - 29);

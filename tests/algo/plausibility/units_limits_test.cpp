@@ -1,4 +1,5 @@
-// Notices about units on both sides of each limit. Mutation tests (tests/mutate) found these cases.
+// Tests notices about wrong units on both sides of each limit. Mutation tests (tests/mutate) found
+// these cases.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double kRange_m = 400e-6;
 
-// Five probes 5 mm apart; probe B reads a gap. The rig has no fault.
+// A rig without faults: five probes 5 mm apart, of which probe B reads a gap.
 Rig rig_with_gap_probe() {
   Rig rig;
   for (int k = 0; k < 5; ++k) {
@@ -64,7 +65,8 @@ TEST(UnitsLimits, ReportsRateBeyondEachLimit) {
   }
 }
 
-// The readings are within a thousandth of half the range, 0.2 um, and the noise is below 0.5 nm.
+// A probe is reported if its readings are within a thousandth of half its range, 0.2 um, and its
+// noise is below 0.5 nm.
 TEST(UnitsLimits, ReportsAProbeInMillimetres) {
   const double least_m = 1e-3 * kRange_m / 2;
   EXPECT_EQ(count_probe_notices({"B", 78, 0.1e-9, 1e-9, -least_m, 0}), 1u);
@@ -74,11 +76,11 @@ TEST(UnitsLimits, ReportsAProbeInMillimetres) {
   EXPECT_EQ(count_probe_notices({"B", 78, 0.5e-9, 1e-9, 0, least_m}), 0u);
   EXPECT_EQ(count_probe_notices({"B", 78, 0.49e-9, 1e-9, 0, least_m}), 1u);
   EXPECT_EQ(count_probe_notices({"B", 78, 0, 0, 0, least_m}),
-            0u);  // the reading does not change at all
-  EXPECT_EQ(count_probe_notices({"B", 0, 0, 1e-9, 0, 0}), 0u);  // there are no readings
+            0u);                                                // the reading does not change
+  EXPECT_EQ(count_probe_notices({"B", 0, 0, 1e-9, 0, 0}), 0u);  // no readings
 }
 
-// The noise exceeds both 1 um and 0.25 % of the range.
+// A probe is reported if its noise exceeds both 1 um and 0.25 % of its range.
 TEST(UnitsLimits, ReportsAProbeInNanometres) {
   EXPECT_EQ(count_probe_notices({"B", 78, 1.01e-6, 20e-6, -8e-6, 12e-6}), 1u);
   EXPECT_EQ(count_probe_notices({"B", 78, 0.99e-6, 20e-6, -8e-6, 12e-6}), 0u);
@@ -91,7 +93,8 @@ TEST(UnitsLimits, ReportsAProbeInNanometres) {
   }
 }
 
-// The middle of the readings differs from zero by more than a tenth of the range, 40 um.
+// A probe is reported if the middle of its readings differs from zero by more than a tenth of its
+// range, 40 um.
 TEST(UnitsLimits, ReportsAGapWithoutOffset) {
   EXPECT_EQ(count_probe_notices({"B", 78, 10e-9, 20e-6, -50.1e-6, -30e-6}), 1u);
   EXPECT_EQ(count_probe_notices({"B", 78, 10e-9, 20e-6, -49.9e-6, -30e-6}), 0u);
@@ -114,13 +117,14 @@ TEST(UnitsLimits, ReportsFixtureSizeBeyondEachLimit) {
         rig.probes[k].position_m[axis] = size_m * static_cast<double>(k) / 4;
       }
       EXPECT_EQ(said_of(figures(), rig), said) << size_m << " along " << axis;
-      for (auto& probe : rig.probes) probe.position_m[axis] -= 0.6;  // far from the origin
+      // The fixture is far from the origin.
+      for (auto& probe : rig.probes) probe.position_m[axis] -= 0.6;
       EXPECT_EQ(said_of(figures(), rig), size_m < 5e-3 ? 2u : 1u) << size_m;
     }
   }
 }
 
-// A default fixture of 35 mm whose positions are written in cm, and in tenths of a mm.
+// A default fixture of 35 mm. Its positions are written in cm, in mm, and in tenths of a mm.
 TEST(UnitsLimits, ReportsLengthsWrongByAFactorOfTen) {
   for (const auto& [factor, says] : {std::pair(0.1, "fixture_too_narrow"), std::pair(1.0, ""),
                                      std::pair(10.0, "fixture_too_wide")}) {

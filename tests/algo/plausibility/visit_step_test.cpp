@@ -23,8 +23,8 @@ using test::shown;
 constexpr int kTargets = 13;
 constexpr double kNoise = 20e-9, kStop_s = 2;
 
-// Points of `runs` runs forward and back with five probes. `more`: change of probe E at each stop,
-// m.
+// Points of `runs` runs in both directions with five probes. `more`: change of the reading of probe
+// E at stop n, m.
 std::vector<MeasuredPoint> repeated_log(std::uint64_t seed, const std::function<double(int)>& more,
                                         int runs = 3) {
   std::mt19937_64 engine(seed);
@@ -71,8 +71,8 @@ TEST(VisitStep, ReportsProbeAndVisit) {
   EXPECT_NE(shown(said[0]).find(" run=2 target=12 approach=reverse"), std::string::npos);
 }
 
-// On the fly, a visit is a bin. If the probe steps in the middle of a bin, the u of this bin is
-// about as large as the step.
+// In a run in motion, a visit is a bin. If the probe steps in the middle of a bin, the u of this
+// bin is about as large as the step.
 TEST(VisitStep, IsFoundWithinAVisit) {
   const Rig rig = test::rig_x();
   for (const int at : {15, 40, 70}) {
@@ -130,7 +130,7 @@ TEST(VisitStep, DoesNotRepeatStepsFoundInDwells) {
   points[40].point.flags = {{Flag::step, "E"}};
   EXPECT_TRUE(visit_steps(test::rig_x(), points).empty());
   EXPECT_TRUE(visit_steps(test::rig_x(), {}).empty());
-  // A single run visits each place once.
+  // A single run visits each target and direction once.
   EXPECT_TRUE(visit_steps(test::rig_x(), repeated_log(
                                              7, [](int n) { return n >= 15 ? 2e-7 : 0; }, 1))
                   .empty());
@@ -148,11 +148,12 @@ TEST(VisitStep, ReportsASecondCopyOfARun) {
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(shown(said[0]), "readings_copied copies=26 points=52");
   EXPECT_TRUE(repeat_notices(test::rig_x(), repeated_log(3, no_change)).empty());
-  for (MeasuredPoint& p : points) p.point.probe_sd_m.assign(5, 0);  // points without noise repeat
+  // Points without noise may be equal.
+  for (MeasuredPoint& p : points) p.point.probe_sd_m.assign(5, 0);
   EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
 }
 
-// The blocks of the second copy begin at other scans, so its dwells have other means.
+// The blocks of the second copy begin at other scans, so the means of its stops differ.
 TEST(VisitStep, ReportsACopyWithShiftedDwells) {
   auto points = repeated_log(3, no_change, 1);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].point.scan_fingerprint = i + 1;
@@ -169,7 +170,7 @@ TEST(VisitStep, ReportsACopyWithShiftedDwells) {
   EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
 }
 
-// A single visit cannot show slow noise. This notice does not reject a table.
+// A single visit does not show slow noise. The notice does not prevent a table.
 TEST(VisitStep, ReportsTargetsVisitedOnce) {
   SyntheticRun synthetic{.rig = test::rig_x(), .runs = 1};
   const auto said = repeat_notices(synthetic.rig, synthetic.measure().points);
@@ -180,12 +181,12 @@ TEST(VisitStep, ReportsTargetsVisitedOnce) {
   EXPECT_TRUE(repeat_notices(synthetic.rig, synthetic.measure().points).empty());
 }
 
-// At least six copies and a tenth of all points are needed.
+// Copies are reported if at least six points and at least a tenth of all points are copies.
 TEST(VisitStep, ReportsCopiesFromSixAndATenthOn) {
   const auto said = [](std::size_t copies, std::size_t all) {
     auto points = repeated_log(3, no_change);
     points.resize(all);
-    // Points of the second run copy points of the first run.
+    // Points of the second run become copies of points of the first run.
     for (std::size_t i = 0; i < copies; ++i) points[26 + i].point = points[i].point;
     return repeat_notices(test::rig_x(), points);
   };
@@ -196,7 +197,7 @@ TEST(VisitStep, ReportsCopiesFromSixAndATenthOn) {
   EXPECT_EQ(said(6, 40).size(), 1u);
 }
 
-// Visits of one probe, grouped by target and direction.
+// Visits with a reading of one probe, grouped by target and direction.
 struct PlacesOfProbe {
   std::vector<const MeasuredPoint*> visits;
   std::vector<std::vector<std::size_t>> places;
@@ -221,7 +222,7 @@ struct PlacesOfProbe {
   }
 };
 
-// Fits each possible step separately, and the smooth change by powers of the time.
+// Fits each possible step separately. The smooth change is fitted by powers of the time.
 std::vector<VisitStep> exhaustive_steps(const std::vector<MeasuredPoint>& points) {
   std::vector<VisitStep> steps;
   for (std::size_t k = 0; k < 5; ++k) {
@@ -267,8 +268,8 @@ std::vector<VisitStep> exhaustive_steps(const std::vector<MeasuredPoint>& points
   return steps;
 }
 
-// Logs with irregular times, stops without approach or reading, few places, and steps from small to
-// large: the result equals the exhaustive fit.
+// The logs have irregular times, stops without approach or reading, few targets, and steps from
+// small to large. The result must equal the exhaustive fit.
 TEST(VisitStep, MatchesTheExhaustiveFit) {
   const Rig rig = test::rig_x();
   std::size_t found = 0, logs = 0;
@@ -305,8 +306,10 @@ TEST(VisitStep, MatchesTheExhaustiveFit) {
   EXPECT_LT(found, 2 * logs);
 }
 
-// A step is accepted if before · after / all, summed over the places, is at least 2. Three places
-// with four visits have 3/4 each after the first visit, two places with eight visits have 7/8 each.
+// `before` and `after` are the numbers of visits of a place before and after the step. A step is
+// accepted if before · after / all visits, summed over the places, is at least 2. After the first
+// visit, each of three places with four visits contributes 3/4, each of two places with eight
+// visits 7/8.
 TEST(VisitStep, NeedsFourPlacesOrMoreVisits) {
   const auto found = [](int targets, int visits, int before, double u_m) {
     std::vector<MeasuredPoint> points;
@@ -326,11 +329,11 @@ TEST(VisitStep, NeedsFourPlacesOrMoreVisits) {
   EXPECT_EQ(found(4, 4, 2, 0)[0].point, 8u);
   EXPECT_NEAR(found(4, 4, 2, 0)[0].size_m, 100e-9, 1e-15);
   EXPECT_NEAR(found(4, 4, 2, 0)[0].sd_m, 1e-9 / 6,
-              1e-15);  // without noise, the smallest accepted sd
+              1e-15);  // the smallest sd that is accepted if there is no noise
   EXPECT_NEAR(found(4, 4, 2, 1e-9)[0].sd_m, 1e-9, 1e-15);
   EXPECT_EQ(found(3, 4, 1, 0).size(), 1u);
   EXPECT_TRUE(found(2, 8, 1, 0).empty());
-  // A step below six times u is not found.
+  // A step below six times u is not reported.
   EXPECT_TRUE(found(4, 4, 2, 16.7e-9).empty());
 }
 
@@ -347,7 +350,7 @@ TEST(VisitStep, CopiesNeedEqualPositionAndNoise) {
   EXPECT_EQ(said([](MeasuredPoint& p) { p.point.position_m += 1e-9; }), 0u);
   EXPECT_EQ(said([](MeasuredPoint& p) { p.point.probe_m[2] += 1e-12; }), 0u);
   EXPECT_EQ(said([](MeasuredPoint& p) { p.target = 14 - p.target; }), 0u);
-  // Only one probe has noise.
+  // Only probe A has noise.
   auto points = repeated_log(3, no_change, 2);
   for (std::size_t i = 0; i < 26; ++i) points[i].point.probe_sd_m = {1e-9, 0, 0, 0, 0};
   for (std::size_t i = 26; i < points.size(); ++i) points[i].point = points[i - 26].point;
@@ -356,7 +359,7 @@ TEST(VisitStep, CopiesNeedEqualPositionAndNoise) {
   EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
 }
 
-// Half a second is long enough for a log. Visits at the same instant have no order, so they show no
+// A log of half a second is long enough. Visits at the same time have no order, so they show no
 // change.
 TEST(VisitStep, NeedsDifferentTimes) {
   auto points = repeated_log(7, [](int n) { return n >= 40 ? 200e-9 : 0; });
@@ -366,7 +369,7 @@ TEST(VisitStep, NeedsDifferentTimes) {
   EXPECT_TRUE(visit_steps(test::rig_x(), points).empty());
 }
 
-// A step of five times the noise is not found, regardless of the number of visits.
+// A step of five times the noise is not reported, for any number of visits.
 TEST(VisitStep, IgnoresStepsBelowSixTimesTheNoise) {
   const Rig rig = test::rig_x();
   EXPECT_TRUE(visit_steps(rig, repeated_log(

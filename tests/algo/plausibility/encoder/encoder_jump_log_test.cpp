@@ -1,4 +1,5 @@
-// Jumps of an axis at rest, in a whole log: each jump is found once, at any position.
+// Jumps of the encoder in a whole log while the axis is at rest. Each jump must be found once, at
+// any row.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-// The log takes 2.5 s at 1 kHz; from row `row` on the encoder reads `by_m` more.
+// From row `row` on, the reading of the encoder is larger by `by_m`. The log takes 2.5 s at 1 kHz.
 struct EncoderShift {
   std::size_t row;
   double by_m;
@@ -57,7 +58,8 @@ std::vector<DwellEvent> find_shift_jumps(const std::vector<EncoderShift>& shifts
   return jumps;
 }
 
-// A slot of the detection has 12 or 13 rows; a window has four slots.
+// A slot of the detection has 12 or 13 rows; a window has four slots. The jump is at each row of a
+// window.
 TEST(EncoderJumpInALog, IsFoundOnceAtEachPhaseOfTheSlot) {
   for (std::size_t row = 1000; row < 1054; ++row) {
     const auto jumps = find_shift_jumps({{row, 100e-6}});
@@ -69,28 +71,29 @@ TEST(EncoderJumpInALog, IsFoundOnceAtEachPhaseOfTheSlot) {
   }
 }
 
-// The limit is ten tolerances of 2 µm.
+// A jump is reported if it exceeds ten times the tolerance of 2 µm.
 TEST(EncoderJumpInALog, LimitIsTenTolerances) {
   EXPECT_TRUE(find_shift_jumps({{1020, 19.8e-6}}).empty());
   EXPECT_EQ(find_shift_jumps({{1020, 20.2e-6}}).size(), 1u);
   EXPECT_EQ(find_shift_jumps({{1020, -20.2e-6}}).size(), 1u);
 }
 
-// A jump is a wrong count if the count returns within a second and less than half of the limit is
-// left.
+// A jump is a wrong count, and not reported, if two conditions are met: the count returns within a
+// second, and the remaining difference is below half of the limit.
 TEST(EncoderJumpInALog, IgnoresAJumpThatReturnsWithinASecond) {
   EXPECT_TRUE(find_shift_jumps({{1000, 100e-6}, {1990, -100e-6}}).empty());
   EXPECT_EQ(find_shift_jumps({{1000, 100e-6}, {2010, -100e-6}}).size(), 2u);
   EXPECT_TRUE(find_shift_jumps({{1000, 100e-6}, {1500, -109e-6}}).empty());
   EXPECT_EQ(find_shift_jumps({{1000, 100e-6}, {1500, -111e-6}}).size(), 2u);
   EXPECT_EQ(find_shift_jumps({{1000, 100e-6}, {1500, 100e-6}}).size(), 2u);
-  // The last two of three jumps are a wrong count.
+  // The second and third of these jumps are a wrong count.
   const auto three = find_shift_jumps({{500, 60e-6}, {1000, 100e-6}, {1500, -100e-6}});
   ASSERT_EQ(three.size(), 1u);
   EXPECT_NEAR(three[0].size_m, 60e-6, 0.1e-6);
 }
 
-// The axis moved by 100 µm during the hole; the jump after the hole does not cancel this movement.
+// The axis moved by 100 µm during a hole in the log. The jump after the hole must not be cancelled
+// by this movement.
 TEST(EncoderJumpInALog, HoleIsNoJump) {
   std::size_t holes = 0, jumps = 0;
   for (const DwellEvent& event : find_shift_events({{1000, 100e-6}, {1800, -100e-6}}, 1000, 1600)) {

@@ -1,5 +1,5 @@
-// Jumps of known size on a moving axis, and single spikes, at speeds up to 10 mm/s in both
-// directions.
+// Jumps of known size and single spikes of an encoder. The axis moves at speeds up to 10 mm/s in
+// both directions.
 #include "algo/plausibility/encoder/encoder_jump.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 constexpr std::int64_t kScan_ns = 1'000'000;
 constexpr std::size_t kRows = 60, kAt = 30;
 
-// Encoder readings of kRows scans at intervals of 1 ms; the jump is at row kAt.
+// Encoder readings of kRows scans in intervals of 1 ms. The jump is at row kAt.
 struct Motion {
   double speed_mm_s = 0, acceleration_m_s2 = 0, jump_um = 0, noise_um = 0;
   std::uint64_t seed = 1;
@@ -71,8 +71,8 @@ TEST(EncoderJumpInMotion, SpikeOfOneScanIsNoJumpAtAnySpeed) {
   }
 }
 
-// An accelerating axis. The error of a jump's size is at most twice the change of speed per scan
-// times the scan interval.
+// The axis accelerates. The size of a jump has an error of at most twice the change of the speed
+// per scan, times the scan interval.
 TEST(EncoderJumpInMotion, AccelerationIsNoJump) {
   for (const double speed : kSpeeds_mm_s) {
     for (const double acceleration : {-5.0, -1.0, 1.0, 5.0}) {
@@ -88,7 +88,7 @@ TEST(EncoderJumpInMotion, AccelerationIsNoJump) {
   }
 }
 
-// A start or stop within one scan is no jump.
+// The axis starts or stops within one scan. This is no jump.
 TEST(EncoderJumpInMotion, StartOrStopIsNoJump) {
   for (const double speed : kSpeeds_mm_s) {
     std::vector<double> start(kRows), stop(kRows);
@@ -102,7 +102,7 @@ TEST(EncoderJumpInMotion, StartOrStopIsNoJump) {
   }
 }
 
-// A device repeats each count for two or three scans.
+// The encoder repeats each count for two or three scans.
 TEST(EncoderJumpInMotion, RepeatedCountsAreNoJump) {
   for (const double speed : kSpeeds_mm_s) {
     for (const std::size_t scans : {2u, 3u}) {
@@ -113,8 +113,8 @@ TEST(EncoderJumpInMotion, RepeatedCountsAreNoJump) {
   }
 }
 
-// With noise of 0.2 um, no jump is found where there is none, and the size is correct within the
-// noise of four readings.
+// The noise is 0.2 um. It must not cause a false jump, and the size of a jump must be correct
+// within the noise of four readings.
 TEST(EncoderJumpInMotion, NoiseNeitherCausesNorHidesAJump) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const double speed = kSpeeds_mm_s[seed % kSpeeds_mm_s.size()];
@@ -127,20 +127,21 @@ TEST(EncoderJumpInMotion, NoiseNeitherCausesNorHidesAJump) {
   }
 }
 
-// A jump over two scans has a neighbour of the same size, so the axis itself has moved.
+// A jump over two scans consists of two steps of the same size. Such a movement is attributed to
+// the axis.
 TEST(EncoderJumpInMotion, JumpOverTwoScansIsRejected) {
   for (const double speed : kSpeeds_mm_s) {
     auto rows = Motion{.speed_mm_s = speed, .jump_um = 100}.encoder_m();
     rows[kAt] -= 50e-6;
     EXPECT_FALSE(jump_among(rows)) << speed;
-    rows[kAt] += 40e-6;  // 90 and 10 um: more than four times the neighbour
+    rows[kAt] += 40e-6;  // steps of 90 and 10 um: the larger is more than four times the smaller
     EXPECT_TRUE(jump_among(rows)) << speed;
   }
 }
 
-// Another jump three scans later or earlier changes the speed after or before this jump. A sixth of
-// it is in the size of this jump and of its neighbour; a jump must be four times as large as its
-// neighbour.
+// Another jump three scans earlier or later changes the speed before or after this jump. A sixth of
+// its size is added to the size of this jump and to the size of the neighbouring step. A jump must
+// be four times as large as the neighbouring steps.
 TEST(EncoderJumpInMotion, JumpBesideALargeJumpIsRejected) {
   for (const std::size_t other : {kAt - 3, kAt + 3}) {
     for (const double size_um : {30.0, 50.0}) {

@@ -1,4 +1,4 @@
-// Positions that an axis with at most 100 m/s can and cannot have reached.
+// Positions that an axis with a speed of at most 100 m/s can or cannot have reached.
 #include "algo/plausibility/encoder/place_watch.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +28,8 @@ FrameBlock frames_at(const std::vector<TimedPlace>& places) {
   return frames;
 }
 
-// '+' for each frame with a valid position, '-' for each frame without. The axis begins at 0 m and
-// 0 ms.
+// One character for each frame: '+' if the frame has a valid position, '-' if it has none. The axis
+// is at 0 m at 0 ms.
 std::string placed(PlaceWatch& watch, const std::vector<TimedPlace>& places) {
   const FrameBlock frames = frames_at(places);
   std::string text;
@@ -47,7 +47,7 @@ std::string placed(const std::vector<TimedPlace>& places) {
   return placed(watch, places);
 }
 
-// 0.1 m per millisecond, plus 50 um for noise.
+// The reach is 0.1 m per millisecond, plus 50 um for noise.
 TEST(PlaceWatch, ReachIsSpeedTimesTime) {
   EXPECT_EQ(placed({{1, 0.10004}}), "+");
   EXPECT_EQ(placed({{1, 0.10006}}), "-");
@@ -57,16 +57,17 @@ TEST(PlaceWatch, ReachIsSpeedTimesTime) {
   EXPECT_EQ(placed({{1, kNaN}, {2, 0.2}, {3, kNaN}}), "-+-");
 }
 
-// Positions that continue from a stray position are stray, even if the axis could have reached them
-// in the time.
+// Positions that continue from an invalid position are also invalid, even if the axis could have
+// reached them in the time.
 TEST(PlaceWatch, PositionsAfterAStrayPositionAreStray) {
   EXPECT_EQ(placed({{1, 1}, {5, 1}, {20, 1.001}}), "---");
-  // The count jumps back to a position that the axis can have reached: 0.7 m from the stray
-  // position in 3 ms.
+  // The count returns to a position that the axis can have reached. It is 0.7 m from the invalid
+  // position, 3 ms later.
   EXPECT_EQ(placed({{1, 1}, {4, 0.3}, {5, 0.35}}), "-++");
-  EXPECT_EQ(placed({{1, 1}, {4, 0.5}}), "--");  // 0.5 m from both positions, in 4 and 3 ms
-  // A position ten times as close to the last valid position as to the stray position is valid,
-  // after any time.
+  // 0.5 m from the valid position (4 ms) and from the invalid one (3 ms).
+  EXPECT_EQ(placed({{1, 1}, {4, 0.5}}), "--");
+  // If a position is ten times nearer to the last valid position than to the invalid position, it
+  // is valid after any time.
   EXPECT_EQ(placed({{1, 1}, {40, 0.09}}), "-+");
   EXPECT_EQ(placed({{1, 1}, {40, 0.095}}), "--");
   EXPECT_EQ(placed({{1, 1}, {40, -0.1}}), "-+");
@@ -77,7 +78,7 @@ TEST(PlaceWatch, LeavesOutOnlyMissingPositionsBeforeItBegins) {
   PlaceWatch watch(100);
   EXPECT_EQ(placed(watch, {{1, 0}, {2, 50}, {3, kNaN}, {4, -50}}), "++-+");
   EXPECT_EQ(watch.left_out(), 1u);
-  // The last frame gives the position of the axis.
+  // The last frame before defines the position of the axis.
   watch.begin_at(4 * kMs, -50);
   EXPECT_EQ(placed(watch, {{5, -49.9}, {6, 0}}), "+-");
 }

@@ -1,5 +1,5 @@
-// The rule of probe_step.h on both sides of each limit, with columns made by hand. Mutation tests
-// (tests/mutate) found these cases.
+// Tests the rule of probe_step.h on both sides of each limit, with columns that are calculated by
+// hand. Mutation tests (tests/mutate) found these cases.
 #include "algo/plausibility/probe/probe_step.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kRows = 40, kAt = 17;
 
-// Three probes and an axis at rest, except for the changes that a test adds; probe B steps by 1 um.
+// Three probes and an axis at rest. A test adds changes to them. Probe B steps by 1 um.
 struct Rows {
   FrameBlock frames;
 
@@ -24,7 +24,7 @@ struct Rows {
       frames.time_ns.push_back(1'000'000 * static_cast<std::int64_t>(i));
     for (std::size_t i = at; i < kRows; ++i) frames.probe_m[1][i] = size_m;
   }
-  // Adds `by_m` to every second row from `from` to `to`.
+  // Adds `by_m` to every second row, from row `from` to before row `to`.
   void shake(std::vector<double>& x, double by_m, std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; i += 2) x[i] += by_m;
   }
@@ -52,7 +52,8 @@ TEST(ProbeStepRule, FindsStepsFromFirstToBeforeLast) {
   EXPECT_TRUE(Rows(kRows).steps().empty());
 }
 
-// The size needs three readings on each side, beyond the reading next to the step.
+// The size is calculated from three readings on each side. The reading next to the step is not
+// used.
 TEST(ProbeStepRule, NeedsThreeSettledReadingsOnEachSide) {
   EXPECT_EQ(Rows(4).steps(0, 2, 20).size(), 1u);
   EXPECT_EQ(Rows(3).steps(0, 2, 20).size(), 0u);
@@ -60,12 +61,12 @@ TEST(ProbeStepRule, NeedsThreeSettledReadingsOnEachSide) {
   EXPECT_EQ(Rows(37).steps(0, 10, 38).size(), 0u);
   EXPECT_EQ(Rows(14).steps(10, 12, 20).size(), 1u);
   EXPECT_EQ(Rows(13).steps(10, 12, 20).size(), 0u);
-  EXPECT_EQ(Rows(17).steps(0, 1, 20).size(), 0u);  // no readings around to compare with
+  EXPECT_EQ(Rows(17).steps(0, 1, 20).size(), 0u);  // no surrounding readings to compare with
   EXPECT_EQ(Rows(17).steps(0, 10, 39).size(), 0u);
 }
 
-// The size is the difference of medians of three readings, without the reading next to the step, so
-// one of the three may deviate.
+// The size is the difference between the medians of three readings on each side, without the
+// reading next to the step. One of the three readings may deviate.
 TEST(ProbeStepRule, SizeIsTheMedianOfThreeReadings) {
   Rows rows;
   rows.frames.probe_m[1][kAt - 2] = rows.frames.probe_m[1][kAt - 1] = -0.4e-6;
@@ -105,7 +106,7 @@ TEST(ProbeStepRule, IsRejectedIfAnotherProbeStepsByAQuarter) {
   }
 }
 
-// The axis may move by 2 um more than twice its movement in the surrounding rows.
+// The axis may move by up to 2 um plus twice its movement in the surrounding rows.
 TEST(ProbeStepRule, IsRejectedIfTheAxisMoves) {
   for (const double moves_um : {1.9, 2.1}) {
     Rows rows;
@@ -132,20 +133,22 @@ TEST(ProbeStepRule, NeedsGoodReadings) {
   }
 }
 
-// The noise of the encoder is 2 um. An axis that moves further at the step has moved the probe.
+// The noise of the encoder is 2 um. If the axis moves by more than its noise at the step, the
+// movement explains the change of the probe.
 TEST(ProbeStepRule, AxisWithinItsNoiseIsAtRest) {
   for (const auto& [by_m, count] : {std::pair(1.9e-6, 1U), {2.1e-6, 0U}}) {
     Rows rows;
     for (std::size_t i = kAt; i < kRows; ++i) rows.frames.encoder_m[i] = by_m;
     EXPECT_EQ(rows.steps().size(), count) << by_m;
-    Rows restless;  // twice the movement in the surrounding rows is allowed, too
+    Rows restless;  // twice the movement in the surrounding rows is permitted, too
     restless.shake(restless.frames.encoder_m, 0.5e-6, 21, kRows);
     for (std::size_t i = kAt; i < kRows; ++i) restless.frames.encoder_m[i] += by_m + 1e-6;
     EXPECT_EQ(restless.steps().size(), count) << by_m;
   }
 }
 
-// The median of three readings on each side is used, in any order.
+// The size uses the median of three readings on each side, so the order of the readings has no
+// effect.
 TEST(ProbeStepRule, OneOfThreeReadingsMayDeviate) {
   for (const std::size_t at : {kAt + 1, kAt + 2, kAt + 3, kAt - 4, kAt - 3, kAt - 2})
     for (const double off_m : {-0.1e-6, 0.1e-6}) {

@@ -1,4 +1,4 @@
-// The rules of probe_watch.h on both sides of each limit, scan by scan.
+// Tests the rules of probe_watch.h on both sides of each limit. The scans are given one by one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kScan_ns = 1'000'000;
 
-// A watch that takes one scan after another; the stops are given by the test.
+// A ProbeWatch that receives one scan after another. The test itself defines the stops.
 struct Watched {
   ProbeWatch watch;
   std::vector<double> reading_m;
@@ -35,7 +35,7 @@ struct Watched {
   }
 };
 
-// Each of ten readings is held for `each` scans, then one reading for `held` scans. Returns whether
+// Ten readings are repeated for `each` scans, then one reading for `held` scans. Returns whether
 // the probe is reported as frozen.
 bool frozen_by_noise(int each, int held, int stops, double sd_m, double resolution_m) {
   Watched w(1);
@@ -54,8 +54,8 @@ TEST(ProbeWatchRule, FrozenIsEightTimesTheLongestSpanAnd128Scans) {
   EXPECT_TRUE(frozen_by_noise(20, 160, 3, 2e-9, 1e-9));
   EXPECT_FALSE(frozen_by_noise(1, 127, 3, 2e-9, 1e-9));
   EXPECT_TRUE(frozen_by_noise(1, 128, 3, 2e-9, 1e-9));
-  EXPECT_FALSE(frozen_by_noise(1, 128, 2, 2e-9, 1e-9));  // at least three stops are needed
-  EXPECT_FALSE(frozen_by_noise(1, 128, 3, 1e-9, 1e-9));  // the noise does not exceed the resolution
+  EXPECT_FALSE(frozen_by_noise(1, 128, 2, 2e-9, 1e-9));  // at least three stops are required
+  EXPECT_FALSE(frozen_by_noise(1, 128, 3, 1e-9, 1e-9));  // the noise is not above the resolution
   EXPECT_FALSE(frozen_by_noise(1, 128, 3, 1e-12, 0));    // rounding of the arithmetic only
 }
 
@@ -71,8 +71,8 @@ TEST(ProbeWatchRule, OneStopWithoutNoisePreventsDetection) {
   EXPECT_TRUE(w.watch.frozen().empty());
 }
 
-// A span extends from the first scan of the held reading to the scan with another reading; each
-// span is separate.
+// The span of a constant reading lasts from its first scan to the first scan with another reading.
+// Each span is reported separately.
 TEST(ProbeWatchRule, EachSpanHasItsTimesAndReading) {
   Watched w(2);
   w.stops(1, 3, 2e-9);
@@ -87,7 +87,7 @@ TEST(ProbeWatchRule, EachSpanHasItsTimesAndReading) {
     since_ns.push_back(w.t_ns);
     for (int i = 0; i < 300; ++i) w.scan(0);
     until_ns.push_back(w.t_ns);
-    live(200);  // the probe works again; its spans count for the longest normal span
+    live(200);  // the probe works again; its spans are normal spans
   }
   const auto frozen = w.watch.frozen();
   ASSERT_EQ(frozen.size(), 2u);
@@ -107,7 +107,8 @@ struct Travel {
   double travel_m = 10e-3, share = 0.9, range_in_steps = 5;
 };
 
-// The stops contain no information about noise: the axis moves, but the reading is constant.
+// The readings are constant at stops, so the stops do not show the noise. The reading remains
+// constant while the axis moves.
 bool frozen_by_travel(const Travel& t) {
   constexpr double kStep_m = 100e-9;
   Watched w(1);
@@ -133,7 +134,8 @@ TEST(ProbeWatchRule, FrozenOverFourFifthsOfTheTravel) {
   EXPECT_TRUE(frozen_by_travel({.range_in_steps = 4.1}));
 }
 
-// The last of `probes` never changes, and `noisy` of the others have noise in their stops.
+// The reading of the last of `probes` probes never changes. `noisy` of the other probes have noise
+// at their stops.
 bool dead_from_the_start(std::size_t probes, std::size_t noisy, int rows, double travel_m) {
   Watched w(probes);
   for (std::size_t k = 0; k < noisy; ++k) w.stops(k, 3, 2e-9);
@@ -159,7 +161,7 @@ TEST(ProbeWatchRule, DeadFromTheStartIfHalfOfTheOthersWork) {
   EXPECT_FALSE(dead_from_the_start(5, 4, 128, 0.99e-3));
 }
 
-// The readings of `alive` of five probes change while the axis moves.
+// The readings of `alive` of five probes change while the axis moves by travel_m.
 bool chain_is_dead(std::size_t alive, double travel_m) {
   Watched w(5);
   for (int i = 0; i < 128; ++i) {
@@ -176,8 +178,8 @@ TEST(ProbeWatchRule, ChainWithAtMostOneWorkingProbeIsDead) {
   EXPECT_FALSE(chain_is_dead(0, 0.99e-3));
 }
 
-// Number of reported steps of `size_m` if `seen` steps are seen and the stops have the standard
-// deviations `sd_m`.
+// Number of reported steps of `size_m`. The log contains `seen` such steps, and the readings of the
+// stops have the standard deviations `sd_m`.
 std::size_t reported_step_count(double size_m, std::size_t seen, const std::vector<double>& sd_m,
                                 double resolution_m) {
   FrameBlock frames;

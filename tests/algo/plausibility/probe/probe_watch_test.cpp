@@ -1,4 +1,4 @@
-// A frozen or stepped probe is detected; clean logs have no notices.
+// A probe with a frozen or stepped reading is detected. Logs without faults have no notices.
 #include <gtest/gtest.h>
 
 #include "tests/algo/detected.h"
@@ -30,7 +30,7 @@ TEST(ProbeWatch, HasNoNoticesForSixtyCleanLogs) {
 
 TEST(ProbeWatch, FrozenProbeIsNotUsedAfterItFreezes) {
   for (const double step_um :
-       {1e-6, 0.05, 0.1}) {  // the last two: readings are constant in most stops
+       {1e-6, 0.05, 0.1}) {  // with 0.05 and 0.1 most stops have constant readings
     for (const double from_s : {25.3, 30.0, 31.2}) {
       SteppingLog log;
       log.probe_step_um = step_um;
@@ -66,7 +66,7 @@ TEST(ProbeWatch, DetectsAProbeThatIsDeadFromTheStart) {
   std::fill(frames.probe_m[3].begin(), frames.probe_m[3].end(), 1.25e-6);
   const auto found = detect(log, frames);
   for (const Point& p : found.points) EXPECT_TRUE(has_flag(p, Flag::frozen, "D"));
-  // If the other probes have no noise either, the constant reading may be real.
+  // If the other probes have no noise either, the constant reading may be correct.
   log.probe_noise_um = 0;
   log.probe_step_um = 0;
   log.drift_um_per_min = 0;
@@ -90,7 +90,7 @@ TEST(ProbeWatch, FlagsARecoveredProbeOnlyWhileFrozen) {
 TEST(ProbeWatch, ReportsAndFlagsAStepOfOneProbe) {
   for (const double rate : {200.0, 500.0, 4000.0}) {
     for (const double size_um : {-0.6, 24.0}) {
-      for (const double at_s : {20.1, 20.3, 20.5, 20.7}) {  // in a stop and in motion
+      for (const double at_s : {20.1, 20.3, 20.5, 20.7}) {  // at stops and in motion
         SteppingLog log;
         log.rate_hz = rate;
         FrameBlock frames = log.frames();
@@ -107,7 +107,7 @@ TEST(ProbeWatch, ReportsAndFlagsAStepOfOneProbe) {
   }
 }
 
-// A step of all probes is a movement of the machine.
+// If all probes step together, the machine has moved.
 TEST(ProbeWatch, IgnoresAStepOfAllProbes) {
   SteppingLog log;
   FrameBlock frames = log.frames();

@@ -5,7 +5,8 @@
 namespace mdof::algo {
 namespace {
 
-// The default fixture of X: A, B, C measure along Z at the top, D, E along Y at the side.
+// A probe of the default fixture of X: A, B, C at the top measure along Z, D, E at the side measure
+// along Y.
 std::string probe(const std::string& id, const std::string& position, const std::string& measures,
                   const std::string& more = "") {
   return "[[probe]]\nid = \"" + id + "\"\nposition_mm = " + position + "\n" + measures +
@@ -35,7 +36,7 @@ TEST(Clearance, SideProbesLimitYAndTopProbesLimitZ) {
   EXPECT_EQ(ids(motions[2]), "ABC");
   for (const auto& probe : motions[1].probes) {
     EXPECT_NEAR(probe.range_m, 100e-6, 1e-12);
-    EXPECT_EQ(probe.towards, 0);  // the side is unknown for a displacement
+    EXPECT_EQ(probe.towards, 0);  // unknown if a probe reads displacements
     EXPECT_FALSE(probe.contact_m);
   }
   const std::string y = clearance_text(motions[1]);
@@ -60,7 +61,7 @@ TEST(Clearance, GapAndStandoffShowDirectionAndContact) {
   EXPECT_NEAR(motions[1].probes[0].contact_m.value(), 100e-6, 1e-12);
 }
 
-// The code transforms a rig of Y into its local frame and back.
+// The code transforms a rig for Y into its local frame and the result back to machine axes.
 TEST(Clearance, RefersToTheMachineAxesForAnyAxis) {
   std::string text = "name = \"r\"\naxis = \"Y\"\n";
   text += probe("A", "[0, 10, 0]", "measures = \"+Z\"") +

@@ -1,5 +1,5 @@
-// Rigs that contradict themselves are refused with the names of their parts; ambiguous rigs ask for
-// a key.
+// A rig that contradicts itself is refused; the message states which probes and planes contradict.
+// For an ambiguous rig the message asks for a key.
 #include "algo/model/fixture.h"
 
 #include <gtest/gtest.h>
@@ -47,8 +47,8 @@ TEST(Fixture, AcceptsTheDefaultWithAndWithoutPlanes) {
   EXPECT_EQ(refusal(test::rig_x_toml() + kPlanes), "");
 }
 
-// A calibration found directions that differ by 0.2 mrad: the target is not turned by them, and the
-// axis moves along its faces.
+// The calibrated directions of the probes differ by 0.2 mrad. This must not turn the target: the
+// axis moves along the faces of the target.
 TEST(Fixture, CalibratedDirectionDoesNotTurnTheTarget) {
   Rig rig = *parse_rig(test::mounting_rig_toml(""), "rig.toml");
   ASSERT_TRUE(rig.planes.empty());
@@ -72,7 +72,8 @@ TEST(Fixture, RefusesAProbeOffItsPlane) {
 }
 
 TEST(Fixture, RefusesOnePlaneAtTwoPlaces) {
-  // Only E is at y = 14: D and E measure in the same direction, towards one face.
+  // E is at y = 14 mm, D at y = 15 mm. Both measure in the same direction, so they must face the
+  // same plane.
   const std::string moved =
       replaced(test::rig_x_toml(), "[10.000000, 15.000000, 20.000000]", "[10, 14, 20]");
   EXPECT_TRUE(says(refusal(moved), {"\"D\" and \"E\"", "15 mm", "14 mm", "[[plane]]"}));
@@ -104,10 +105,10 @@ TEST(Fixture, NamesTheExistingPlanes) {
   EXPECT_TRUE(says(refusal(unknown), {"\"D\"", "\"sied\"", "\"top\"", "\"side\""}));
 }
 
-// Each probe of a plane in turn is 0.1 mm away from it: the message names this probe. Up to 1 µm is
-// accepted.
+// Each probe in turn is 0.1 mm away from the plane of the other probes; the message must name it.
+// Distances up to 1 µm are accepted.
 TEST(Fixture, NamesTheProbeThatIsOffThePlane) {
-  const std::size_t across[] = {2, 2, 2, 1, 1};  // coordinate along which the probe measures
+  const std::size_t across[] = {2, 2, 2, 1, 1};  // coordinate that the probe measures
   for (std::size_t k = 0; k < 5; ++k)
     for (const double off_m : {-0.1e-3, 0.1e-3, 0.9e-6, 1.1e-6}) {
       Rig rig = test::rig_x();
@@ -120,8 +121,8 @@ TEST(Fixture, NamesTheProbeThatIsOffThePlane) {
     }
 }
 
-// Linear in both directions between nodes, constant outside; one row or one column is constant
-// across.
+// The height is linear in both directions between nodes and constant outside. A map with one row or
+// one column is constant across it.
 TEST(HeightAt, IsBilinearAndConstantOutside) {
   const HeightMap map{{0, 2}, {10, 11, 13}, {1, 2, 6, 3, 5, 1}};
   EXPECT_NEAR(height_at(map, 0, 10), 1, 1e-15);

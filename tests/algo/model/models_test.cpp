@@ -16,7 +16,8 @@
 namespace mdof::algo {
 namespace {
 
-// Random errors of the size of the paper's simulations: ±1 mrad, ±50 µm, d 0 … 60 mm.
+// Random errors as large as in the paper's simulations: angles of ±1 mrad, displacements of ±50 µm,
+// d from 0 to 60 mm.
 struct Draw {
   explicit Draw(unsigned seed, double angle_rad = 1e-3) : rng(seed), angle(angle_rad) {}
   double uniform(double half) { return std::uniform_real_distribution<>(-half, half)(rng); }
@@ -32,13 +33,14 @@ SmallAngleFixture small(const Rig& rig) {
   return make_small_angle_fixture(make_fixture(rig).value()).value();
 }
 
-// The definition in the paper: P0 = T⁻¹ P1; the line of the probe meets the target where P0 is on
-// it.
+// The definition in the paper. The point P1 on the line of the probe belongs to P0 = T⁻¹ P1 on the
+// target. P0 must be on the plane of the target.
 double output_by_inverse(const Errors5& e, double d, double x, double y_or_z, bool top, double h) {
   Eigen::Matrix4d T;
   T << 1, -e[kEz], e[kEy], d, e[kEz], 1, -e[kEx], e[kDy], -e[kEy], e[kEx], 1, e[kDz], 0, 0, 0, 1;
   const Eigen::Matrix4d inverse = T.inverse();
-  // P1 = base + s * along; the coordinate of P0 that must reach its nominal value is linear in s.
+  // P1 = base + s * along. The coordinate of P0 across the plane is linear in s and must equal its
+  // nominal value.
   const Eigen::Vector4d base =
       top ? Eigen::Vector4d(x, y_or_z, 0, 1) : Eigen::Vector4d(x, 0, y_or_z, 1);
   const Eigen::Vector4d along = top ? Eigen::Vector4d(0, 0, 1, 0) : Eigen::Vector4d(0, 1, 0, 0);
@@ -85,7 +87,8 @@ TEST(ExactModel, HoldsForLargeAngles) {
   }
 }
 
-// algo/README.md: ε̂x = εx - p εz, ε̂y = εy + q εz, and ε̂z = (εz - εx εy)/(1 + εy²); δ̂ likewise.
+// Omitted terms by algo/README.md: ε̂x = εx - p εz, ε̂y = εy + q εz, ε̂z = (εz - εx εy)/(1 + εy²),
+// and similar for δ̂.
 TEST(SimplifiedModel, DiffersFromTruthByTheOmittedTerms) {
   const auto f = small(test::rig_x());
   Draw draw(4);
@@ -109,7 +112,7 @@ TEST(SimplifiedModel, DiffersFromTruthByTheOmittedTerms) {
   }
   EXPECT_LT(worst_angle, 1.01e-6);
   EXPECT_LT(worst_length, 0.11e-6);
-  EXPECT_GT(worst_angle, 0.9e-6);  // the omitted terms are not 0
+  EXPECT_GT(worst_angle, 0.9e-6);  // the omitted terms must not be 0
 }
 
 TEST(SmallAngle, BatchGivesTheBitsOfSingleSolutions) {
@@ -156,7 +159,8 @@ TEST(SmallAngle, ProbeOrderAndDirectionComeFromTheRig) {
   const auto m = exact_outputs(*solver.small_angle(), 0.03, e);
   std::vector<double> readings(5);
   for (std::size_t k = 0; k < 5; ++k) readings[solver.small_angle()->probe[k]] = m[k];
-  EXPECT_LT(m[0] * exact_outputs(small(test::rig_x()), 0.03, e)[0], 0);  // the sign is reversed
+  // The sign of the reading is reversed.
+  EXPECT_LT(m[0] * exact_outputs(small(test::rig_x()), 0.03, e)[0], 0);
   const AxisErrors got = solver.solve(0.03, readings, {});
   ASSERT_TRUE(got.valid);
   for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(got.local[k], e[k], 1e-14);
@@ -222,15 +226,16 @@ TEST(RigidModel, CorrectsReadingsForKnownFlatness) {
   EXPECT_GT(std::abs(flat.solve(0.03, {m.data(), m.data() + 5}, {}).local[kDz] - e[kDz]), 1e-7);
 }
 
-// A height map in the wrong unit is steeper than any surface: if the iteration does not converge,
-// there is no result.
+// A height map in the wrong unit is steeper than any surface. If the iteration does not converge,
+// the point is not solved.
 TEST(RigidModel, ReadingsWithoutASolutionAreNotSolved) {
   Rig rig = test::rig_x();
   TargetPlane top;
   top.normal = {0, 0, 1};
   TargetPlane side;
   side.normal = {0, 1, 0};
-  // Teeth of 0.9 mm, 1.4 mm apart; the yaw moves them relative to D and E.
+  // The map has teeth with a height of 0.9 mm every 1.4 mm. The yaw moves the teeth relative to D
+  // and E.
   for (int i = -80; i <= 80; ++i) {
     side.flatness.first_m.push_back(0.7e-3 * i);
     const double height_m = i % 2 == 0 ? 0 : 0.9e-3;
@@ -282,7 +287,8 @@ TEST(RigidModel, RefusesEachAngleAboveQuarterRadian) {
   }
 }
 
-// Standard deviation of 20,000 solutions of noisy readings compared with the stated covariance.
+// The standard deviation of 20,000 solutions of noisy readings is compared with the stated
+// covariance.
 TEST(Covariance, MatchesTheScatterOfNoisySolutions) {
   for (const Rig& rig : {test::rig_x(), test::rig_oblique()}) {
     const Solver solver = Solver::create(rig, Model::rigid).value();
@@ -310,13 +316,13 @@ TEST(Covariance, MatchesTheScatterOfNoisySolutions) {
       EXPECT_NEAR(std::sqrt(sum2[k] / trials) / std::sqrt(stated[6 * k]), 1, 0.025) << k;
     }
     const double expected = stated[5 * kDz + kEy];
-    EXPECT_NEAR(cross / trials / expected, 1, 0.05);  // at a large travel they are correlated
+    EXPECT_NEAR(cross / trials / expected, 1, 0.05);  // correlated at a large travel
   }
 }
 
 TEST(Solver, NamesTheErrorsThatFourProbesCannotSee) {
   Rig rig = test::rig_x();
-  rig.probes.pop_back();  // without E, yaw and horizontal straightness are inseparable
+  rig.probes.pop_back();  // without E, yaw and horizontal straightness cannot be separated
   const auto refused = Solver::create(rig, Model::rigid);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::bad_input);
@@ -371,11 +377,12 @@ TEST(Axis, NamedAndLocalErrorsAreInverse) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     EXPECT_EQ(local_from_named(axis, named_from_local(axis, e)), e);
   }
-  const Errors5 y = named_from_local(Axis::y, e);  // schema/axis.h
+  const Errors5 y = named_from_local(Axis::y, e);  // formulas in schema/axis.h
   EXPECT_EQ(y, (Errors5{-1, 2, -4, 3, 5}));
 }
 
-// A roll of the machine about its own axis has the same sign for any orientation of the fixture.
+// All local frames are right-handed, so a roll about the axis of motion has the same sign for each
+// axis.
 TEST(Axis, LocalFramesAreRightHanded) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const auto a = local_axes(axis);
@@ -385,7 +392,7 @@ TEST(Axis, LocalFramesAreRightHanded) {
         R(i, j) = a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
     }
     EXPECT_NEAR(R.determinant(), 1, 0);
-    EXPECT_EQ(R(static_cast<Eigen::Index>(axis), 0), 1);  // x along the motion
+    EXPECT_EQ(R(static_cast<Eigen::Index>(axis), 0), 1);  // the local x axis is along the motion
   }
 }
 

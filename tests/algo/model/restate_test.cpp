@@ -1,4 +1,4 @@
-// Errors at another point, compared with a pose from Eigen's rotations.
+// Errors at another point. They are compared with a pose that is calculated by rotations of Eigen.
 #include "algo/model/restate.h"
 
 #include <gtest/gtest.h>
@@ -25,14 +25,15 @@ Case random_case(std::mt19937_64& random) {
 }
 
 Eigen::Matrix3d local_frame(Axis axis) {
-  Eigen::Matrix3d L;  // columns: local x, y, z in machine coordinates
+  Eigen::Matrix3d L;  // its columns are the local axes x, y, z in machine coordinates
   if (axis == Axis::x) L = Eigen::Matrix3d::Identity();
   if (axis == Axis::y) L << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   if (axis == Axis::z) L << 0, 1, 0, 0, 0, 1, 1, 0, 0;
   return L;
 }
 
-// e(P) of a rigid carriage, local frame: Rz(C) Ry(B) Rx(A) about the axes of the machine.
+// Error e(P) of the point P of a rigid carriage in the local frame: Rz(C) Ry(B) Rx(A) about the
+// axes of the machine.
 Eigen::Vector3d error_at(const Case& c, const Eigen::Vector3d& P_machine) {
   const Eigen::Matrix3d L = local_frame(c.axis);
   const Eigen::Vector3d angles = L * Eigen::Vector3d(c.local[kEx], c.local[kEy], c.local[kEz]);

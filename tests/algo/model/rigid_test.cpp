@@ -9,8 +9,9 @@
 namespace mdof::algo {
 namespace {
 
-// A sixth probe is at the position of A and reads 1 µm more. With weights of 4 and 1 the residual
-// of A is 1/5 µm and of the sixth probe 4/5 µm: √((1 + 16)/25/6) µm. A seventh probe is not used.
+// A sixth probe is at the position of A and reads 1 µm more than A. With the weights 4 and 1, the
+// residual of A is 1/5 µm, the residual of the sixth probe 4/5 µm, and the rms √((1 + 16)/25/6) µm.
+// A seventh probe is not used.
 TEST(RigidModel, ResidualIsTheRmsOfTheProbesInUse) {
   Fixture fixture = make_fixture(test::rig_x()).value();
   for (const std::size_t k : {0, 3}) fixture.probes.push_back(fixture.probes[k]);
@@ -23,8 +24,8 @@ TEST(RigidModel, ResidualIsTheRmsOfTheProbesInUse) {
   ASSERT_TRUE(found.valid) << found.reason;
   EXPECT_TRUE(found.reason.empty());
   EXPECT_NEAR(found.residual_m, std::sqrt(17.0 / 150) * 1e-6, 1e-11);
-  // At A the fit takes a fifth of the 1 µm; the fit of probes without a second one equals their
-  // readings.
+  // The fit at A is 1/5 µm above the reading of A. At the probes without a redundant probe the fit
+  // equals the reading.
   const Eigen::VectorXd fitted = rigid_readings(fixture, 7e-3, found.local);
   EXPECT_NEAR(fitted(0) - exact(0), 0.2e-6, 1e-11);
   for (const Eigen::Index k : {1, 2, 3, 4}) EXPECT_NEAR(fitted(k), exact(k), 1e-11) << k;

@@ -13,7 +13,8 @@ Fixture paper_fixture() {
   return make_fixture(test::rig_x()).value();
 }
 
-// By hand at a travel of 5 mm: n·δ/(n·u) and lever × n/(n·u). The second probe is not used.
+// Calculated by hand at a travel of 5 mm: n·δ/(n·u) for displacements, lever × n/(n·u) for angles.
+// The second probe is not used.
 TEST(Visibility, FirstOrderJacobianByHand) {
   const Fixture fixture{Axis::x,
                         {{"P", {12e-3, 3e-3, 7e-3}, {0.6, 0, 0.8}, {0, 0, 1}, 0, {}, {}},
@@ -27,7 +28,8 @@ TEST(Visibility, FirstOrderJacobianByHand) {
   EXPECT_LT((J - expected).cwiseAbs().maxCoeff(), 1e-15);
 }
 
-// The five probes of the paper after 17.3 mm of travel; levers in units of 10 mm.
+// Jacobian of the five probes of the paper at a travel of 17.3 mm; the levers are in units of 10
+// mm.
 TEST(Visibility, ConditionScalesAnglesByTenMillimetres) {
   Eigen::Matrix<double, 5, 5> J;
   J << 0, 1, 0, 0.73, 0,   //
@@ -43,8 +45,8 @@ TEST(Visibility, ConditionScalesAnglesByTenMillimetres) {
   EXPECT_NEAR(seen.condition, singular(0) / singular(4), 1e-9);
 }
 
-// Without E the probes cannot separate EYX and ECX. Without B they cannot see εx = εy together with
-// the δy and δz that compensate it.
+// Without E the probes cannot separate EYX and ECX. Without B they cannot detect the combination of
+// εx = εy with the δy and δz that compensate it.
 TEST(Visibility, NamesTheErrorsOfUnseenCombinations) {
   using Names = std::vector<std::string>;
   const Fixture fixture = paper_fixture();

@@ -1,5 +1,5 @@
-// Redundant probes are weighted by their uncertainty: the weighted least-squares solution, to first
-// order by the normal equations.
+// Redundant probes are weighted by their uncertainty. The expected change is the weighted
+// least-squares solution to first order, by the normal equations.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -38,7 +38,7 @@ SevenReadings simulated_seven_readings(const Solver& solver, const Errors5& trut
           rigid_jacobian(solver.fixture(), kWeightedTravel_m, truth)};
 }
 
-// The change of the errors by `change` of the readings: (J'WJ)^-1 J'W change.
+// Change of the errors if the readings change by `change`: (J'WJ)^-1 J'W change.
 Eigen::VectorXd by_normal_equations(const Eigen::MatrixXd& J, const Eigen::VectorXd& weights,
                                     const Eigen::VectorXd& change) {
   const Eigen::MatrixXd W = weights.asDiagonal();
@@ -53,7 +53,7 @@ TEST(ProbeWeights, FollowFromTheUncertainties) {
     for (std::size_t bad = 0; bad < 7; ++bad) {
       std::vector<double> readings = nominal.all, u = kProbesU_m;
       readings[bad] += 10e-9;
-      if (!known) u[3] = 0;  // with one unknown u all weights are equal
+      if (!known) u[3] = 0;  // if one u is unknown, all weights are equal
       Eigen::VectorXd weights(7), change = Eigen::VectorXd::Zero(7);
       for (Eigen::Index k = 0; k < 7; ++k) {
         const double u_nm = 1e9 * kProbesU_m[static_cast<std::size_t>(k)];
@@ -70,7 +70,7 @@ TEST(ProbeWeights, FollowFromTheUncertainties) {
     }
 }
 
-// A probe without a reading has no weight and needs no u.
+// A probe without a reading has the weight 0, and its u is not needed.
 TEST(ProbeWeights, LostProbeNeedsNoU) {
   const Solver solver = seven_probes();
   const Errors5 truth = {2e-6, -1e-6, 1e-4, -2e-4, 3e-4};
@@ -89,7 +89,7 @@ TEST(ProbeWeights, LostProbeNeedsNoU) {
   for (std::size_t e = 0; e < 5; ++e)
     EXPECT_NEAR(found.local[e] - truth[e], expected[static_cast<Eigen::Index>(e)],
                 e < 2 ? 1e-13 : 1e-11);
-  // The covariance is the inverse of the normal equations.
+  // The covariance equals the inverse matrix of the normal equations.
   const Eigen::MatrixXd W = (1e18 * weights).asDiagonal();
   const Eigen::MatrixXd C = (nominal.jacobian.transpose() * W * nominal.jacobian).inverse();
   for (Eigen::Index i = 0; i < 5; ++i)

@@ -31,7 +31,8 @@ TEST(BinFit, IsExactForAnAsymmetricParabola) {
 }
 
 TEST(BinFit, ReducesAWaveByTheStatedShare) {
-  // The parabola reduces a wave with a length of 5 bins by (pi / 5)^4 / 280 of its amplitude.
+  // The parabola changes the amplitude of a wave with a length of 5 bins by the share (pi / 5)^4 /
+  // 280.
   const double turn = std::acos(-1.0) / 5;
   BinReadings top(4001, [=](double x) { return 1e-6 * std::cos(turn * x); });
   EXPECT_NEAR(top.fit().value - 1e-6, -1e-6 * std::pow(turn, 4) / 280, 3e-11);
@@ -49,8 +50,8 @@ TEST(BinFit, RejectsSpikes) {
   }
 }
 
-// Three of five neighbours are spikes, so their median is a spike. The result is the fit without
-// the spikes.
+// Three of five neighbours are spikes, so the median of the five is a spike. The result must equal
+// the fit without the spikes.
 TEST(BinFit, RejectsAdjacentSpikes) {
   const auto wave = [](double x) { return 1e-6 * x + 3e-7 * x * x; };
   for (const double height_m : {50e-6, -50e-6})
@@ -77,7 +78,7 @@ TEST(BinFit, RejectsAdjacentSpikes) {
     }
 }
 
-// A step, and a form that deviates far from a line, contain no spikes.
+// Neither a step nor a form that deviates far from a straight line contains spikes.
 TEST(BinFit, RejectsNothingAtAStep) {
   for (const double from : {-0.8, -0.5, 0.0, 0.5, 0.8}) {
     BinReadings bin(40, [=](double x) { return x > from ? 3e-7 : 0; });
@@ -92,7 +93,7 @@ TEST(BinFit, StatesTheScatterOfItsValue) {
   double square = 0, u_square = 0;
   constexpr int kBins = 400;
   for (int k = 0; k < kBins; ++k) {
-    BinReadings bin(50, [&](double) {  // sd 1e-8, uniform: the same numbers in every library
+    BinReadings bin(50, [&](double) {  // uniform with sd 1e-8; the same numbers in every library
       return 1e-8 * std::sqrt(12.0) * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
     });
     const auto found = bin.fit();
@@ -100,7 +101,7 @@ TEST(BinFit, StatesTheScatterOfItsValue) {
     u_square += found.u * found.u;
   }
   EXPECT_NEAR(std::sqrt(square / kBins), 1.5e-8 / std::sqrt(50.0), 1.5e-10);
-  EXPECT_NEAR(std::sqrt(u_square / square), 1.1, 0.12);  // u is never below that of white noise
+  EXPECT_NEAR(std::sqrt(u_square / square), 1.1, 0.12);  // u is at least the u of white noise
 }
 
 TEST(BinFit, NeedsEightReadings) {
@@ -109,8 +110,8 @@ TEST(BinFit, NeedsEightReadings) {
   EXPECT_EQ(few.fit().value, 0);
 }
 
-// The readings have no pattern. The expected parabola is calculated by the method of Gram and
-// Schmidt. Its sd has the degrees of freedom n - 3.
+// The readings have no pattern. The expected parabola is calculated by the Gram-Schmidt method. The
+// standard deviation of its residuals has n - 3 degrees of freedom.
 TEST(BinFit, MatchesTheLeastSquaresParabolaAndItsScatter) {
   std::mt19937_64 random(11);
   for (const int n : {8, 9, 23}) {
@@ -120,7 +121,7 @@ TEST(BinFit, MatchesTheLeastSquaresParabolaAndItsScatter) {
     const auto found = fit_bin(bin.place, bin.reading, 1e-6, bin.scratch);  // no reading is a spike
     const auto count = static_cast<std::size_t>(n);
     ASSERT_EQ(found.used, count);
-    // Columns x², x, 1: each is made orthogonal to the columns before it.
+    // The columns x², x and 1. Each column is made orthogonal to the columns before it.
     std::vector<std::vector<double>> q(3, std::vector<double>(count));
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t k = 0; k < 3; ++k)
@@ -137,7 +138,7 @@ TEST(BinFit, MatchesTheLeastSquaresParabolaAndItsScatter) {
       double part = 0, square = 0;
       for (std::size_t i = 0; i < count; ++i)
         part += q[k][i] * left[i], square += q[k][i] * q[k][i];
-      value = part / square;  // of the constant, which is the last column
+      value = part / square;  // coefficient of the last column, the constant
       for (std::size_t i = 0; i < count; ++i) left[i] -= value * q[k][i];
     }
     double square = 0;
@@ -147,7 +148,7 @@ TEST(BinFit, MatchesTheLeastSquaresParabolaAndItsScatter) {
   }
 }
 
-// The result for fewer than eight readings contains only their number.
+// For fewer than eight readings, the result contains only the number of readings.
 TEST(BinFit, IsEmptyForFewerThanEightReadings) {
   BinReadings few(7, [](double x) { return 1e-6 + 1e-6 * x; });
   const auto none = few.fit();
@@ -161,8 +162,9 @@ TEST(BinFit, IsEmptyForFewerThanEightReadings) {
   EXPECT_NEAR(enough.fit().value, 1e-6, 1e-18);
 }
 
-// A spike between four equal neighbours deviates from them by its full height. The two readings at
-// each end have neighbours on one side only, so their limit is twice as high. The limit is 50 nm.
+// A spike between equal neighbours deviates from their median by its full height; the limit is 50
+// nm. The two readings at each end have neighbours on one side only, so their limit is twice as
+// high.
 TEST(BinFit, SpikeLimitIsTwiceAsHighAtTheEnds) {
   constexpr int kReadings = 21;
   for (int at = 0; at < kReadings; ++at) {
@@ -180,8 +182,8 @@ TEST(BinFit, SpikeLimitIsTwiceAsHighAtTheEnds) {
   }
 }
 
-// Both halves have the same places, so they determine no slope. The value is the level of the
-// readings.
+// Both halves of the readings have the same positions, so they determine no slope. The value is the
+// mean of the readings.
 TEST(BinFit, HasNoSlopeIfBothHalvesHaveTheSamePlaces) {
   BinFit found;
   std::vector<double> place, reading, scratch;

@@ -1,5 +1,5 @@
-// Logs of an axis that moves forward and back, with a known position over time: statements, notices
-// and points of the run in motion.
+// Logs of an axis that moves forward and in reverse; its position over time is known. The tests
+// check the statements, notices and points of a run in motion.
 #include "algo/on_the_fly/on_the_fly.h"
 
 #include <gtest/gtest.h>
@@ -19,10 +19,10 @@ constexpr double kOut_m_s = 10e-3, kBack_m_s = 5e-3, kTravel_m = 20e-3;
 constexpr double kWave_m = 8e-3, kHeight_m = 20e-6;
 constexpr std::int64_t kFirst_ns = 7'000'000'000;
 
-// Differences from a steady motion forward and back.
+// Changes of a steady motion forward and in reverse.
 struct MotionLog {
   double travel_m = kTravel_m;
-  double stop_at_m = -1, stop_s = 0;  // on the way forward
+  double stop_at_m = -1, stop_s = 0;  // a stop in the forward pass
   double delay_s = 0;                 // delay of the probe
   std::function<bool(std::int64_t ms)> scanned = [](std::int64_t) { return true; };
 
@@ -62,8 +62,8 @@ void expect_in(const std::string& text, const std::string& words) {
   EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
 }
 
-// Bins of 1 mm at 1 to 19 mm in both directions. The mean speed is (10 + 5)/2 mm/s. Two periods of
-// 15 Hz fit in a bin: 2 * 7.5 mm/s / 1 mm.
+// The bins of 1 mm are at 1 to 19 mm in both directions. The mean speed is (10 + 5)/2 mm/s. Noise
+// with at least two periods per bin has a frequency of 15 Hz: 2 * 7.5 mm/s / 1 mm.
 TEST(OnTheFlyRun, StatesSpeedsBinsAndScatter) {
   const OnTheFly run = measured({});
   const std::string said = test::shown(run.statements());
@@ -89,7 +89,8 @@ TEST(OnTheFlyRun, StatesSpeedsBinsAndScatter) {
   EXPECT_NEAR(run.summary().encoder_max_m, kTravel_m, 1e-9);
 }
 
-// The readings alternate by ±1 nm about the form, so the parabola of a bin leaves about 1 nm.
+// The readings alternate by ±1 nm about the form, so the residuals of the parabola of a bin are
+// about 1 nm.
 TEST(OnTheFlyRun, ScatterMatchesTheReadings) {
   const OnTheFly run = measured({});
   double square = 0, n = 0;
@@ -105,7 +106,8 @@ TEST(OnTheFlyRun, ScatterMatchesTheReadings) {
   EXPECT_NEAR(std::stod(said.substr(at + 28)), nm, 0.006 * nm);
 }
 
-// Forward and reverse readings differ by the delay times the sum of both speeds.
+// The difference between forward and reverse readings is proportional to the delay times the sum of
+// both speeds.
 TEST(OnTheFlyRun, ReportsAnUndeclaredDelay) {
   const std::string said = test::shown(measured({.delay_s = 2e-3}).notices());
   expect_in(said, "reading_delayed A delay_ms=");
@@ -122,7 +124,7 @@ TEST(OnTheFlyRun, ReportsAnUndeclaredDelay) {
   EXPECT_EQ(test::shown(measured({}).notices()).find("reading_delayed"), std::string::npos);
 }
 
-// The axis stops for 0.3 s at 7 mm, in the bin that begins at 6.5 mm, 0.65 s after the start.
+// The axis stops for 0.3 s at 7 mm. The bin at 7 mm begins at 6.5 mm, 0.65 s after the start.
 TEST(OnTheFlyRun, LeavesOutTheBinOfAStop) {
   const OnTheFly run = measured({.stop_at_m = 7e-3, .stop_s = 0.3});
   expect_in(test::shown(run.notices()), "bin_of_changing_speed position_mm=7 time_s=0.65");
@@ -130,8 +132,8 @@ TEST(OnTheFlyRun, LeavesOutTheBinOfAStop) {
   EXPECT_EQ(run.sequence().points.size(), 37U);
 }
 
-// A stop in the first or last bin belongs to the acceleration or deceleration of the axis, so it
-// needs no notice. A stop in another bin is reported.
+// A stop in the first or last bin belongs to the acceleration or deceleration of the axis and is
+// not reported. A stop in another bin is reported.
 TEST(OnTheFlyRun, DoesNotReportAStopInTheOutermostBins) {
   for (const double at_mm : {1.0, 2.0, 18.0, 19.0}) {
     const OnTheFly run = measured({.stop_at_m = 1e-3 * at_mm, .stop_s = 0.3});
@@ -142,7 +144,7 @@ TEST(OnTheFlyRun, DoesNotReportAStopInTheOutermostBins) {
   }
 }
 
-// A third of the scans is missing at the start of the bin at 12 mm: a gap within the bin. If two
+// If a third of the scans is missing at the start of the bin at 12 mm, the bin has a gap. If two
 // thirds are missing, the bin is left out.
 TEST(OnTheFlyRun, LeavesOutABinWithoutScans) {
   const auto without = [](std::int64_t from_ms, std::int64_t to_ms) {
@@ -157,7 +159,7 @@ TEST(OnTheFlyRun, LeavesOutABinWithoutScans) {
   expect_in(test::shown(many.notices()), "bin_with_gap position_mm=12 ");
 }
 
-// The range from 2 to 12 mm determines the targets, not the passes.
+// The range from 2 to 12 mm limits the targets. The passes are longer.
 TEST(OnTheFlyRun, RangeDeterminesTheTargets) {
   OnTheFlyOptions options;
   options.from_mm = 2;
@@ -174,14 +176,14 @@ TEST(OnTheFlyRun, ExplainsWhyThereIsNoPoint) {
   ASSERT_FALSE(too_short);
   expect_in(too_short.error().message, "contains no whole bin of 1 mm around a target");
   OnTheFlyOptions fine;
-  fine.interval_mm = 0.02;  // 2 and 4 scans per bin; the error asks for kLeastReadingsPerBin + 1
+  fine.interval_mm = 0.02;  // 2 and 4 scans per bin; kLeastReadingsPerBin + 1 are required
   const Status dense = measured({}, fine).check_has_points();
   ASSERT_FALSE(dense);
   expect_in(dense.error().message, "and 1000 Hz a bin of 0.02 mm has ");
 }
 
-// Stops of 0.5 s between the bins, and 1 mm in 5 ms from one stop to the next. A bin has two or
-// three scans, but at the mean speed of 2 mm/s a bin of 0.5 mm would have 250.
+// The axis stops for 0.5 s between the bins and moves 1 mm in 5 ms from stop to stop. A bin has two
+// or three scans. At the mean speed of 2 mm/s, a bin of 0.5 mm would have 250 scans.
 TEST(OnTheFlyRun, SuggestsReplayWithStopsForALogWithStops) {
   FrameBlock frames = empty_frames(1);
   for (std::int64_t ms = 0; ms < 20 * 505; ++ms) {
@@ -201,8 +203,8 @@ TEST(OnTheFlyRun, SuggestsReplayWithStopsForALogWithStops) {
   EXPECT_EQ(why.error().remedy, Remedy::replay_with_stops) << why.error().message;
 }
 
-// The readings have steps of 0.5 µm and repeat over several rows. u is the standard uncertainty of
-// a rectangular distribution, 0.5 µm/√12.
+// The readings are rounded to steps of 0.5 µm and repeat over several rows. u is the standard
+// uncertainty of a rectangular distribution, 0.5 µm/√12.
 TEST(OnTheFlyRun, LearnsTheResolutionOfTheProbe) {
   const MotionLog log;
   FrameBlock frames = log.frames();
@@ -218,7 +220,8 @@ TEST(OnTheFlyRun, LearnsTheResolutionOfTheProbe) {
   EXPECT_GT(rectangle_u_count, 30U);
 }
 
-// Forward over 20 mm in 2 s and back in 4 s, from -50 mm on: the mean speed is 40 mm / 6 s.
+// Forward the axis moves 20 mm in 2 s, in reverse in 4 s, from -50 mm on. The mean speed is 40 mm /
+// 6 s.
 TEST(OnTheFlyRun, ExplanationStatesTheMeanSpeed) {
   OnTheFlyOptions fine;
   fine.bin_mm = 0.02;
@@ -233,17 +236,17 @@ TEST(OnTheFlyRun, ExplanationStatesTheMeanSpeed) {
   expect_in(why.error().message, "mm/s and 1000 Hz a bin of 0.02 mm has 3");
 }
 
-// One gap on the way forward, before the scan period is known, and two on the way back.
+// The forward pass has one gap, before the scan period is known; the reverse pass has two gaps.
 TEST(OnTheFlyRun, CountsTheGapsOfEveryPass) {
   const OnTheFly run = measured({.scanned = [](std::int64_t ms) {
     for (const std::int64_t begin : {1160, 3000, 4000})
       if (ms >= begin && ms < begin + 35) return false;
-    return ms % 1000 != 500;  // one lost scan is no gap
+    return ms % 1000 != 500;  // one missing scan is no gap
   }});
   EXPECT_EQ(run.summary().gaps, 3U);
 }
 
-// The reading of the probe is constant from 8 mm on; before, it changed all the time.
+// From 8 mm on, the reading of the probe is constant. Before, it changes with each scan.
 TEST(OnTheFlyRun, FlagsPointsOfAFrozenProbe) {
   FrameBlock frames = MotionLog().frames();
   for (std::size_t i = 800; i < frames.size(); ++i) frames.probe_m[0][i] = frames.probe_m[0][800];
@@ -259,8 +262,8 @@ TEST(OnTheFlyRun, FlagsPointsOfAFrozenProbe) {
   EXPECT_GT(flagged, 28U);
 }
 
-// Bins of 0.5 mm at every millimetre. The gap from 11.2 mm to 11.75 mm lies between the bins at 11
-// and 12 mm.
+// The bins are 0.5 mm long, with one bin per millimetre. The gap from 11.2 mm to 11.75 mm is
+// between the bins at 11 and 12 mm.
 TEST(OnTheFlyRun, GapBetweenTwoBinsFlagsNeither) {
   OnTheFlyOptions options;
   options.bin_mm = 0.5;
@@ -271,7 +274,7 @@ TEST(OnTheFlyRun, GapBetweenTwoBinsFlagsNeither) {
     EXPECT_FALSE(has_flag(p.point, Flag::gap)) << p.target;
 }
 
-// The same motion, shifted by 30 mm and by -50 mm; the bins keep their distances.
+// The same motion, shifted by 30 mm and by -50 mm. The distances between the bins are unchanged.
 TEST(OnTheFlyRun, FindsTheEndsOfTravelAtAnyOffset) {
   for (const double off_m : {30e-3, -50e-3}) {
     OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
@@ -286,7 +289,7 @@ TEST(OnTheFlyRun, FindsTheEndsOfTravelAtAnyOffset) {
   }
 }
 
-// The first row is 5 m away, and three rows have no position.
+// The first row has a position 5 m away, and three rows have no position.
 TEST(OnTheFlyRun, CountsRowsWithoutPosition) {
   OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
   FrameBlock frames = MotionLog().frames();
@@ -299,8 +302,8 @@ TEST(OnTheFlyRun, CountsRowsWithoutPosition) {
   EXPECT_NEAR(run.summary().encoder_max_m, kTravel_m, 1e-9);
 }
 
-// A gap is longer than three periods: two lost scans are no gap, three are one. The gaps are the
-// first interval of the log, one on the way forward and one on the way back.
+// A gap is longer than three scan periods: three missing scans are a gap, two are not. The log has
+// three gaps: its first interval, one in the forward pass and one in the reverse pass.
 TEST(OnTheFlyRun, GapIsLongerThanThreePeriods) {
   const OnTheFly run = measured({.scanned = [](std::int64_t ms) {
     return !(ms >= 1 && ms < 4) && !(ms >= 601 && ms < 603) && !(ms >= 1201 && ms < 1204) &&
@@ -309,8 +312,8 @@ TEST(OnTheFlyRun, GapIsLongerThanThreePeriods) {
   EXPECT_EQ(run.summary().gaps, 3U);
 }
 
-// Passes between these positions at 10 mm/s, with one bin per millimetre. Two of five passes, then
-// two of four, cross the targets from 1 to 7 mm.
+// The axis moves between these positions at 10 mm/s, with one bin per millimetre. In the first log
+// two of five passes cross the targets from 1 to 7 mm, in the second log two of four.
 TEST(OnTheFlyRun, TargetNeedsHalfOfThePasses) {
   const auto sequence_over = [](const std::vector<double>& ends_mm) {
     FrameBlock frames = empty_frames(1);
@@ -334,7 +337,7 @@ TEST(OnTheFlyRun, TargetNeedsHalfOfThePasses) {
   EXPECT_NEAR(few.targets_m.front(), 9e-3, 1e-12);
   EXPECT_EQ(few.targets, 11);
   ASSERT_EQ(few.left_out.size(), 16U);
-  EXPECT_NEAR(few.left_out[1].position_m, 7e-3, 1e-5);  // after 8 mm, where the axis turned
+  EXPECT_NEAR(few.left_out[1].position_m, 7e-3, 1e-5);  // the bin after 8 mm, where the axis turned
   EXPECT_EQ(few.points.size(), 55U);
   const Sequence half = sequence_over({20, 0, 20, 8, 20});
   EXPECT_NEAR(half.targets_m.front(), 1e-3, 1e-12);

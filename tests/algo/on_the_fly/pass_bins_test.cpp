@@ -1,4 +1,4 @@
-// Bins of passes whose position over time has a closed form.
+// Bins of passes. The position over time is a known function.
 #include "algo/on_the_fly/pass_bins.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
 
-// A pass at `place_m` (m over s), with a row at each whole ms for which `scanned` is true, and one
-// probe with the reading `reading_m` (m over the position in m).
+// A pass with one probe. `place_m`: position in m at a time in s. `reading_m`: reading in m at a
+// position in m. The pass has a row at each whole ms for which `scanned` is true.
 FrameBlock pass_over(double seconds, const std::function<double(double)>& place_m,
                      const std::function<bool(std::int64_t)>& scanned,
                      const std::function<double(double)>& reading_m) {
@@ -35,7 +35,7 @@ double nothing(double) {
   return 0;
 }
 
-// Targets at 5 and 10 mm, bins of 1 mm.
+// Bins of a pass with targets at 5 and 10 mm and bins of 1 mm.
 PassBins found_in(const FrameBlock& frames, int direction) {
   OnTheFlyOptions options;
   options.interval_mm = 0;
@@ -68,14 +68,14 @@ TEST(PassBins, SpeedIsCorrectWithAndWithoutMissingScans) {
         EXPECT_NEAR(bin.point.probe_m[0], 4e-6 + 2e-3 * target_m, 1e-15);
         EXPECT_NEAR(bin.slope[0], 2e-3, 1e-12);
         if (some_are_missing) continue;
-        EXPECT_NEAR(static_cast<double>(bin.point.samples), 101, 1);  // rounding at both ends
+        EXPECT_NEAR(static_cast<double>(bin.point.samples), 101, 1);  // the two ends are rounded
         EXPECT_NEAR(1e-9 * static_cast<double>(bin.point.end_ns - bin.point.begin_ns), 0.1, 2e-3);
       }
     }
 }
 
-// At a steady acceleration a, the rms about a straight line over the time T of a bin is a T²/(12
-// √5). The limit is 0.75 % of the bin.
+// With a constant acceleration a, the positions during the time T of a bin deviate from a straight
+// line by the rms a T²/(12 √5). The limit is 0.75 % of the bin.
 TEST(PassBins, LeavesOutAnAccelerationAboveTheLimit) {
   const double speed = 10e-3, T = 0.1;
   const double limit = 0.0075 * 1e-3 * 12 * std::sqrt(5.0) / (T * T);
@@ -104,7 +104,8 @@ TEST(PassBins, LeavesOutAnAccelerationAboveTheLimit) {
   }
 }
 
-// The noise of the encoder is no change of speed; its second differences determine the noise.
+// The noise of the encoder is not a change of the speed. Its size follows from the second
+// differences.
 TEST(PassBins, EncoderNoiseIsNoChangeOfSpeed) {
   std::uint32_t state = 1;
   const auto noise = [&] {
@@ -123,16 +124,17 @@ TEST(PassBins, ReportsTooFewScansAndGaps) {
   const auto at = [](std::int64_t from, std::int64_t to) {
     return [=](std::int64_t ms) { return ms < from || ms >= to; };
   };
-  auto found = found_in(pass_over(1.2, way, at(460, 520), nothing), 1);  // 60 of 101 scans
+  // 60 of 101 scans are missing.
+  auto found = found_in(pass_over(1.2, way, at(460, 520), nothing), 1);
   ASSERT_EQ(found.left_out.size(), 1U);
   EXPECT_EQ(found.left_out[0].fault, BinFault::gap);
   EXPECT_EQ(found.left_out[0].position_m, 5e-3);
   EXPECT_NEAR(static_cast<double>(found.left_out[0].scans), 41, 1);
-  found = found_in(pass_over(1.2, way, at(460, 500), nothing), 1);  // 40 of 101
+  found = found_in(pass_over(1.2, way, at(460, 500), nothing), 1);  // 40 of 101 scans are missing
   ASSERT_EQ(found.bins.size(), 2U);
   EXPECT_EQ(to_string(found.bins[0].point.flags), "gap");
   EXPECT_TRUE(found.bins[1].point.flags.empty());
-  // At 0.2 m/s a bin has 5 or 6 scans.
+  // A bin has 5 or 6 scans at 0.2 m/s.
   found = found_in(pass_over(
                        0.1, [](double t) { return 0.2 * t; }, each, nothing),
                    1);
@@ -140,8 +142,8 @@ TEST(PassBins, ReportsTooFewScansAndGaps) {
   EXPECT_EQ(found.left_out[0].fault, BinFault::too_few);
 }
 
-// Interpolated rows between the readings of a slow probe contain no information. A lost row is
-// flagged.
+// Rows between the readings of a slow probe are interpolated and give no information. A missing row
+// is flagged.
 TEST(PassBins, FitOnlyFreshReadings) {
   auto frames = pass_over(
       1.2, [](double t) { return 10e-3 * t; }, each, [](double x) { return 1e-6 + 2e-3 * x; });
@@ -158,8 +160,8 @@ TEST(PassBins, FitOnlyFreshReadings) {
     EXPECT_NEAR(bin.slope[0], 2e-3, 1e-10);
     EXPECT_TRUE(bin.point.flags.empty());
   }
-  // The rows from 450 to 550 ms belong to the first bin. One is over the range, then one more is
-  // missing.
+  // The rows from 450 to 550 ms belong to the first bin. First one row is over the range, then
+  // the reading of another row is missing, too.
   frames.probe_quality.assign(1, std::vector<Quality>(frames.size(), Quality::good));
   frames.probe_quality[0][480] = Quality::over_range;
   found = found_in(frames, 1);
@@ -169,7 +171,7 @@ TEST(PassBins, FitOnlyFreshReadings) {
   found = found_in(frames, 1);
   EXPECT_EQ(to_string(found.bins[0].point.flags), "saturated:A missing:A");
   EXPECT_FALSE(std::isnan(found.bins[0].point.probe_m[0]));
-  frames.probe_quality[0][490] = Quality::over_range;  // two of 101 rows
+  frames.probe_quality[0][490] = Quality::over_range;  // two of 101 rows are over the range
   found = found_in(frames, 1);
   EXPECT_EQ(to_string(found.bins[0].point.flags), "saturated:A lost:A");
   EXPECT_TRUE(std::isnan(found.bins[0].point.probe_m[0]));
@@ -182,7 +184,7 @@ TEST(PassBins, FitOnlyFreshReadings) {
   EXPECT_FALSE(std::isnan(found.bins[1].point.probe_m[0]));
 }
 
-// The bin at 5 mm extends from 450 to 550 ms. A gap of ten scans before the bin does not flag it.
+// The bin at 5 mm is from 450 to 550 ms. A gap of ten scans before the bin does not flag it.
 TEST(PassBins, GapFlagsOnlyItsBin) {
   const auto flags_of = [](std::int64_t from_ms, std::int64_t to_ms) {
     const auto frames = pass_over(
@@ -196,10 +198,11 @@ TEST(PassBins, GapFlagsOnlyItsBin) {
   EXPECT_EQ(flags_of(440, 449), none);
   EXPECT_EQ(flags_of(552, 560), none);
   EXPECT_EQ(flags_of(470, 480), gap);
-  EXPECT_EQ(flags_of(470, 472), none);  // three periods are no gap
+  EXPECT_EQ(flags_of(470, 472), none);  // three scan periods are no gap
 }
 
-// With two scans at the ends of a bin, the scans between them are a gap. One scan alone is too few.
+// With two scans at the ends of a bin, the interval between them is a gap. One scan in a bin is too
+// few.
 TEST(PassBins, TwoScansAtTheEndsLeaveAGap) {
   for (const bool both : {true, false}) {
     const auto frames = pass_over(

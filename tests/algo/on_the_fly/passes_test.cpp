@@ -13,7 +13,8 @@
 namespace mdof::algo {
 namespace {
 
-using PassFound = std::tuple<double, double, int>;  // from and to in whole µm, direction
+// First and last position in whole µm; direction.
+using PassFound = std::tuple<double, double, int>;
 
 FrameBlock frames_over_turns(const std::vector<double>& turns_mm) {
   FrameBlock frames = empty_frames(1);
@@ -43,7 +44,7 @@ std::vector<PassFound> find_all_passes(const FrameBlock& frames, std::size_t blo
 
 TEST(PassFinder, FindsTheSamePassesForAnyBlockSize) {
   auto frames = frames_over_turns({5, 5, 20, 20, 0, 0.03, 0, 10});
-  frames.encoder_m[1500] += 1e-3;  // a spike is no turn
+  frames.encoder_m[1500] += 1e-3;  // a spike, which is no turn
   const auto whole = find_all_passes(frames, frames.size());
   ASSERT_EQ(whole.size(), 3U);
   EXPECT_EQ(whole[0], (PassFound{5000, 20000, 1}));
@@ -74,7 +75,7 @@ OnTheFlyOptions every_from_to(double interval_mm, double from_mm, double to_mm) 
 TEST(TargetGrid, HasWholeBinsOnly) {
   const TargetGrid grid(every(1), {});
   const auto targets = grid.between(-1.4e-3, 2.5e-3, 100);
-  ASSERT_EQ(targets.size(), 3U);  // 0, 1, 2 mm: the bin around -1 mm begins at -1.5 mm
+  ASSERT_EQ(targets.size(), 3U);  // 0, 1, 2 mm; the bin at -1 mm would begin at -1.5 mm
   EXPECT_EQ(targets.front().position_m, 0);
   EXPECT_EQ(targets.back().position_m, 2e-3);
   EXPECT_TRUE(grid.known().empty());
@@ -100,7 +101,7 @@ TEST(TargetGrid, RejectsOptionsWithoutTargets) {
   EXPECT_TRUE(check_on_the_fly(every_from_to(1, 0, 60), {}));
 }
 
-// The end of a log ends its pass; later frames begin a new pass.
+// The end of a log ends its last pass. Later frames begin a new pass.
 TEST(PassFinder, StartsANewPassAfterFlush) {
   std::vector<PassFound> found;
   const auto take = [&](const AxisPass& pass) {

@@ -10,8 +10,9 @@ namespace {
 
 constexpr double kSpeed_m_s = 0.02, kLate_s = 1e-3;
 
-// Two passes over 41 targets. The readings are late by kLate_s, and the directions of the axis
-// differ by a constant and a line. `alike`: correlation of the noise of neighbouring targets.
+// Two passes over 41 targets. The readings are delayed by kLate_s. The two directions of the axis
+// differ by a constant and a linear function. `alike`: correlation of the noise of neighbouring
+// targets.
 std::vector<PassBins> late_passes(std::mt19937_64& engine, double noise_m, double alike) {
   std::normal_distribution<> normal;
   std::vector<PassBins> passes(2);
@@ -61,8 +62,8 @@ TEST(ReadingLag, MatchesManualCalculationWithoutNoise) {
   EXPECT_TRUE(lag.significant);
 }
 
-// The expected values are calculated from the normal equations of three unknowns: constant, line
-// and delay. The residuals of neighbours are correlated.
+// Expected: the normal equations of three unknowns (constant, line and delay). The residuals of
+// neighbouring targets are correlated.
 TEST(ReadingLag, UIsWidenedForCorrelatedNeighbours) {
   std::mt19937_64 engine(9);
   const std::vector<PassBins> passes = late_passes(engine, 2e-9, 0.7);
@@ -74,7 +75,7 @@ TEST(ReadingLag, UIsWidenedForCorrelatedNeighbours) {
     x.push_back(out.point.position_m - 0.02);
     f.push_back(-2 * kSpeed_m_s * out.slope[0]);
   }
-  // Constant and line are orthogonal over these positions.
+  // The constant and the line are orthogonal over these positions.
   const auto without_line = [&](std::vector<double> v) {
     double mean = 0, xv = 0, xx = 0;
     for (std::size_t i = 0; i < v.size(); ++i)
@@ -95,8 +96,8 @@ TEST(ReadingLag, UIsWidenedForCorrelatedNeighbours) {
   EXPECT_NEAR(found.u_delay_s, std::sqrt(square / 38 / ff * (1 + alike) / (1 - alike)), 1e-9);
 }
 
-// Eleven targets in both directions are too few. A target that is lost in one direction does not
-// count. Without passes there is no speed.
+// Eleven targets in both directions are too few. A target with a reading in one direction only is
+// ignored. Without passes there is no speed.
 TEST(ReadingLag, NeedsTwelveTargetsInBothDirections) {
   std::mt19937_64 engine(2);
   std::vector<PassBins> passes = late_passes(engine, 1e-9, 0);
@@ -117,8 +118,8 @@ TEST(ReadingLag, NeedsTwelveTargetsInBothDirections) {
   EXPECT_EQ(none.steepest_1, 0);
 }
 
-// Readings that rise linearly determine no delay, because the delay looks like the axis' own
-// difference between the directions.
+// If the readings rise linearly, the delay cannot be determined: its effect equals a difference of
+// the axis between the directions.
 TEST(ReadingLag, IsUnknownForAConstantSlope) {
   std::mt19937_64 engine(2);
   std::vector<PassBins> passes = late_passes(engine, 1e-9, 0);
@@ -127,7 +128,7 @@ TEST(ReadingLag, IsUnknownForAConstantSlope) {
   EXPECT_TRUE(std::isnan(reading_lags(passes, 1).at(0).delay_s));
 }
 
-// The mean of the visits of each target is used, each direction with its mean speed.
+// For each target and direction the mean of the readings and the mean speed are used.
 TEST(ReadingLag, UsesTheMeanOfSeveralPasses) {
   std::mt19937_64 engine(2);
   std::vector<PassBins> passes = late_passes(engine, 0, 0);
@@ -135,7 +136,8 @@ TEST(ReadingLag, UsesTheMeanOfSeveralPasses) {
   passes.push_back(passes[0]);
   for (std::size_t i = 0; i <= 40; ++i) {
     BinPoint &fast = passes[2].bins[i], &slow = passes[3].bins[i];
-    // Faster by 20 mm/s and slower by 10 mm/s: each reading is shifted in proportion.
+    // One pass is faster by 20 mm/s, another slower by 10 mm/s. The readings are shifted in
+    // proportion.
     fast.speed_m_s = 0.04;
     fast.point.probe_m[0] -= kLate_s * 0.02 * fast.slope[0];
     slow.speed_m_s = 0.01;
@@ -146,7 +148,7 @@ TEST(ReadingLag, UsesTheMeanOfSeveralPasses) {
   EXPECT_NEAR(lag.speed_m_s, (0.02 + 0.02 + 0.04 + 0.01) / 4, 1e-15);
 }
 
-// Equal readings in both directions have the delay 0 with the uncertainty 0.
+// If the readings are equal in both directions, the delay is 0 with the uncertainty 0.
 TEST(ReadingLag, IsZeroWithoutDifference) {
   std::mt19937_64 engine(1);
   auto passes = late_passes(engine, 0, 0);

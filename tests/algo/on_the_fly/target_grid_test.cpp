@@ -1,4 +1,4 @@
-// Limits of the accepted options for the targets of a run in motion.
+// Tests the limits of the options for the targets of a run in motion.
 #include "algo/on_the_fly/target_grid.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,8 @@ TEST(TargetGridLimits, BinLengthIsTheIntervalUpToOneMillimetre) {
   EXPECT_NEAR(TargetGrid(grid(0), {0, 3e-3, 3.25e-3}).bin_m(), 0.25e-3, 1e-15);
 }
 
-// The whole bin must lie within the range: from -3.5 to 2.5 mm, the targets are -3 to 2 mm.
+// The whole bin of a target must be within the range. From -3.5 to 2.5 mm, the targets are -3 to 2
+// mm.
 TEST(TargetGridLimits, WholeBinsMustLieWithinTheRange) {
   const TargetGrid whole(grid(1), {});
   const auto found = whole.between(-3.5e-3, 2.5e-3, 100);
@@ -71,7 +72,7 @@ TEST(TargetGridLimits, WholeBinsMustLieWithinTheRange) {
   EXPECT_TRUE(whole.known().empty());
 }
 
-// The largest accepted range has 10,000 targets; the last is at 9,999 mm.
+// The largest accepted range has 10,000 targets. The last target is at 9,999 mm.
 TEST(TargetGridLimits, AllTargetsOfARangeAreKnown) {
   const auto known = TargetGrid(grid(1, 0, 0, 9999), {}).known();
   ASSERT_EQ(known.size(), 10000U);
@@ -80,7 +81,7 @@ TEST(TargetGridLimits, AllTargetsOfARangeAreKnown) {
   EXPECT_TRUE(TargetGrid(grid(1, 0, 0), {}).known().empty());
 }
 
-// JSON of the options, which a run stores.
+// JSON text of the options, which is stored with a run.
 TEST(TargetGridOptions, JsonContainsTheGivenRange) {
   EXPECT_EQ(OnTheFlyOptions().json(), R"({"interval_mm":1,"bin_mm":0})");
   EXPECT_EQ(grid(2.5, 0.5, -3).json(), R"({"interval_mm":2.5,"bin_mm":0.5,"from_mm":-3})");

@@ -1,4 +1,5 @@
-// Channels with a known delay behind their time stamps, shown by an axis in motion.
+// Channels whose readings are delayed by a known time relative to their time stamps. The axis
+// moves, so the delay has an effect.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,13 +12,14 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kSpeed_m_s = 0.02,
-                 kSlope = 1e-3;  // slope of the probe readings over the encoder position
+                 kSlope = 1e-3;  // slope of the probe readings over the position
 
 double place_m(double t_s) {
   return kSpeed_m_s * t_s;
 }
 
-// Scans of an axis at constant speed: encoder, probe A read `late_s` late, probe B without delay.
+// Scans of an axis at constant speed. The readings of probe A are delayed by `late_s`, those of the
+// encoder and probe B are not.
 SampleBlock scans(std::int64_t from_ms, std::int64_t to_ms, double late_s) {
   SampleBlock b;
   b.device = "daq";
@@ -46,7 +48,7 @@ FrameBlock frames(const AlignOptions& options, double late_s) {
   return out;
 }
 
-// Largest deviation of probe `k` from 0.1 s on, m; 1 if a deviation is NaN.
+// Largest deviation of probe `k` from 0.1 s on, m. The result is 1 if a deviation is NaN.
 double worst_m(const FrameBlock& out, std::size_t k) {
   double worst = 0;
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -57,7 +59,7 @@ double worst_m(const FrameBlock& out, std::size_t k) {
   return worst;
 }
 
-// 6.5 ms at 20 mm/s and 1 µm/mm is 0.13 µm.
+// A delay of 6.5 ms at 20 mm/s and 1 µm/mm has an effect of 0.13 µm.
 TEST(AlignDelay, IsRemovedFromItsChannel) {
   for (const double late_s : {0.0065, -0.0042, 0.25}) {
     const double error_m = kSlope * kSpeed_m_s * std::abs(late_s);
@@ -70,9 +72,9 @@ TEST(AlignDelay, IsRemovedFromItsChannel) {
   }
 }
 
-// A device reads A, B and the counter of the encoder one after the other, 0.5 ms apart, and stamps
-// the scan with the first instant. An earlier reading is older: the delay of an input is the time
-// until the last input is read (drivers/README.md).
+// A device reads A, B and the encoder counter one after the other in intervals of 0.5 ms. The time
+// stamp of the scan is the time of the first reading. The declared delay of an input is the time
+// from its reading to the last reading of the scan (drivers/README.md).
 TEST(AlignDelay, SequentialInputsHaveTheTimeToTheLast) {
   constexpr double kTurn_s = 0.5e-3;
   const auto read_aligned_frames = [&](const AlignOptions& options) {
@@ -100,8 +102,8 @@ TEST(AlignDelay, SequentialInputsHaveTheTimeToTheLast) {
   EXPECT_NEAR(worst_m(wrong, 0), 4 * error_m, 1e-15);
 }
 
-// The time stamps of the encoder are unchanged, to the nanosecond, and each frame has its delayed
-// reading.
+// The time stamps of the encoder must be unchanged, to the nanosecond. Each frame must have the
+// delayed reading that belongs to its time.
 TEST(AlignDelay, FramesKeepTheEncoderTime) {
   const FrameBlock out = frames({.delay_s = {{"A", 0.25}, {"B", 0}}}, 0.25);
   ASSERT_EQ(out.size(), 1750u);
@@ -111,7 +113,7 @@ TEST(AlignDelay, FramesKeepTheEncoderTime) {
   EXPECT_TRUE(out.probe_quality[1].empty());
 }
 
-// Delays of less than a scan interval.
+// The delay is shorter than a scan interval.
 TEST(AlignDelay, InterpolatesBetweenScans) {
   EXPECT_LT(worst_m(frames({.delay_s = {{"A", 0.0003}}}, 0.0003), 0), 1e-15);
   EXPECT_EQ(frames({.delay_s = {{"A", 0.0003}}}, 0.0003).size(), 1999u);
@@ -126,12 +128,13 @@ TEST(AlignDelay, WaitsForALongDelayButNotForASilentProbe) {
   SampleBlock b = scans(0, 1000, 0.25);
   ASSERT_TRUE(aligner.push(b, some));
   EXPECT_EQ(aligner.waiting_for(), "gone");
-  ASSERT_EQ(some.size(), 649u);  // to 0.35 s before the newest
+  ASSERT_EQ(some.size(), 649u);  // until 0.35 s before the newest scan
   EXPECT_EQ(some.quality_at(2, 100), Quality::missing);
   EXPECT_EQ(some.quality_at(0, 100), Quality::good);
 }
 
-// An axis that moves by 1 mm and stops for 0.5 s, and a probe with a moving mean over 161 ms.
+// The axis moves by 1 mm and then stops for 0.5 s, repeatedly. The probe has a moving mean over 161
+// ms.
 SampleBlock averaged_stops() {
   constexpr int kMean = 161;
   SampleBlock b;
@@ -139,7 +142,7 @@ SampleBlock averaged_stops() {
   b.channels = {{kEncoderChannel, Unit::metre}, {"A", Unit::metre}};
   b.value.resize(2);
   for (int t = 0; t < 5200; ++t) {
-    const int stop = t / 520, on = std::max(0, t % 520 - 500);  // 20 ms of travel
+    const int stop = t / 520, on = std::max(0, t % 520 - 500);  // motion of 20 ms
     b.time_ns.push_back(std::int64_t{1'000'000} * t);
     b.value[0].push_back(1e-3 * stop + 50e-6 * on);
   }
@@ -152,7 +155,7 @@ SampleBlock averaged_stops() {
   return b;
 }
 
-// Largest deviation of the probe over the stops, m.
+// Largest deviation of the probe at the stops, m.
 double worst_stop_m(const AlignOptions& align, const DwellOptions& dwell) {
   Aligner aligner(align, {"A"});
   DwellDetector detector(dwell, {"A"}, {200e-6});
@@ -170,8 +173,8 @@ double worst_stop_m(const AlignOptions& align, const DwellOptions& dwell) {
   return worst;
 }
 
-// With the delay of 80 ms, half of the mean lies before the instant and half after it. The settling
-// time and leave_s exclude both.
+// With the delay of 80 ms, one half of the moving mean is before the time of the reading, the other
+// half after it. The settling time and leave_s exclude both.
 TEST(AlignDelay, ExcludesFilteredMotionFromAStop) {
   const AlignOptions known{.delay_s = {{"A", 0.08}}};
   EXPECT_LT(worst_stop_m(known, {.leave_s = 0.08}), 1e-14);

@@ -32,8 +32,8 @@ TEST(Aligner, CopiesOneDeviceExactlyInTheOrderOfTheRig) {
   EXPECT_EQ(out.probe_m[0], (std::vector<double>{0, 0.1, 0.2}));
 }
 
-// New frames are appended until the caller clears the time column; the other columns may then hold
-// anything.
+// The aligner appends new frames until the caller clears the time column. The other columns may
+// have any contents when it is cleared.
 TEST(Aligner, AppendsBlocksOfOneDevice) {
   Aligner aligner({}, {"A"});
   FrameBlock out;
@@ -53,7 +53,7 @@ TEST(Aligner, AppendsBlocksOfOneDevice) {
   EXPECT_EQ(out.encoder_m, std::vector<double>{10});
 }
 
-// The marks of cleared frames do not remain for the next frames.
+// After the frames are cleared, their marks must not apply to the next frames.
 TEST(Aligner, ClearedFramesLeaveNoMarks) {
   Aligner aligner({}, {"A"});
   FrameBlock out;
@@ -67,7 +67,8 @@ TEST(Aligner, ClearedFramesLeaveNoMarks) {
   EXPECT_TRUE(out.probe_quality[0].empty());
 }
 
-// The aligner needs no later probe sample if one has the same time as the encoder.
+// If a probe sample has the same time as the encoder sample, the aligner needs no later probe
+// sample.
 TEST(Aligner, NeedsNoLaterSampleAtTheSameInstant) {
   Aligner aligner({}, {"A"});
   FrameBlock out;
@@ -143,7 +144,8 @@ TEST(Aligner, FlushReturnsPendingFrames) {
   EXPECT_EQ(out.quality_at(0, 1), Quality::missing);
 }
 
-// With one device or two: if the encoder is suspect or missing, no probe reading is good.
+// With one device and with two: if the encoder sample is suspect or missing, no probe reading of
+// the frame is good.
 TEST(Aligner, ReadingIsNoBetterThanItsPosition) {
   const std::vector<Quality> of_encoder = {Quality::good, Quality::suspect, Quality::missing};
   Aligner one({}, {"A"}), two({}, {"A"});
@@ -172,9 +174,9 @@ TEST(Aligner, ReadingIsNoBetterThanItsPosition) {
   }
 }
 
-// Two probes at 1 kHz send for ten minutes without the encoder, then the encoder returns. The
-// pending samples are limited to about twice the lag bound, and the frames after the return are
-// correct.
+// Two probes send at 1 kHz for ten minutes without the encoder; then the encoder returns. The
+// number of pending samples must be limited to about twice the lag bound. The frames after the
+// return must be correct.
 TEST(Aligner, SilentEncoderDoesNotFillTheMemory) {
   Aligner aligner({.lag_bound_s = 3}, {"A", "B"});
   FrameBlock out;
@@ -192,7 +194,7 @@ TEST(Aligner, SilentEncoderDoesNotFillTheMemory) {
   EXPECT_EQ(out.size(), 0u);
   EXPECT_EQ(aligner.waiting_for(), kEncoderChannel);
   EXPECT_LE(most, 2u * (7000 + 200));  // 7 s of two probes
-  // The encoder sends the samples of the last 2.5 s, then continues.
+  // The encoder sends the samples of the last 2.5 s late, and then new samples.
   SampleBlock late = block("e", {"encoder"}, {597'500, 598'000, 599'999}, 1.0);
   ASSERT_TRUE(aligner.push(late, out));
   ASSERT_EQ(out.size(), 3u);
@@ -202,8 +204,9 @@ TEST(Aligner, SilentEncoderDoesNotFillTheMemory) {
   }
 }
 
-// A probe at 10 Hz and an encoder at 1 kHz for 30 s; the probe reads 2 t. One sample is lost at 12
-// s: an interval of two periods is no gap. Three lost samples at 20 s are a gap.
+// The probe sends at 10 Hz, the encoder at 1 kHz, for 30 s; the probe reads 2 t. At 12 s one sample
+// is missing: an interval of two periods is no gap. At 20 s three samples are missing, which is a
+// gap.
 struct Slow {
   FrameBlock out;
   std::map<std::string, Notice> too_slow;
@@ -234,7 +237,7 @@ struct Slow {
 TEST(Aligner, InterpolatesASlowProbeByItsInterval) {
   const Slow known({.interval_s = {{"A", 0.1}}});
   EXPECT_GE(known.out.size(), 29'900u);
-  EXPECT_NEAR(static_cast<double>(known.missing), 399, 2);  // 19.9 to 20.3 s
+  EXPECT_NEAR(static_cast<double>(known.missing), 399, 2);  // from 19.9 to 20.3 s
   EXPECT_LT(known.worst, 1e-6);
   EXPECT_TRUE(known.too_slow.empty());
 }
@@ -247,9 +250,9 @@ TEST(Aligner, ReportsAnUndeclaredSlowProbe) {
   EXPECT_NEAR(test::number(unknown.too_slow.at("A"), "needed_gap_s"), 0.25, 1e-9);
 }
 
-// A probe every 2 ms and an encoder every 1 ms. A row between two readings uses the later reading
-// first, so it is fresh; the row at that reading repeats it. A probe as fast as the encoder has no
-// marks.
+// A probe sends every 2 ms, the encoder every 1 ms. The row between two readings is the first that
+// uses the later reading, so it is fresh. The row at the later reading repeats it. A probe that is
+// as fast as the encoder has no marks.
 TEST(Aligner, MarksRepeatedReadingsOfASlowerProbe) {
   Aligner aligner({}, {"slow", "fast"});
   FrameBlock out;
@@ -263,8 +266,8 @@ TEST(Aligner, MarksRepeatedReadingsOfASlowerProbe) {
   EXPECT_TRUE(out.probe_is_new[1].empty());
 }
 
-// The aligner waits for an encoder that sent samples and is then silent for longer than the lag
-// bound.
+// The encoder sent samples and then sends nothing for longer than the lag bound. The aligner must
+// wait for it.
 TEST(Aligner, WaitsForAnEncoderThatFellSilent) {
   Aligner aligner({.lag_bound_s = 0.1}, {"A"});
   FrameBlock out;

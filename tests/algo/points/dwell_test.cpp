@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// An axis that moves at `speed` and stops at each position; its probe reads 1 µm per mm.
+// An axis that moves at `speed_m_s` and stops at each position. Its probe reads 1 µm per mm.
 struct Stepper {
   double rate_hz = 1000, dwell_s = 0.5, speed_m_s = 0.02, noise_m = 10e-9;
   FrameBlock frames;
@@ -43,13 +43,13 @@ struct Stepper {
   void dwell() {
     for (int i = 0; i < dwell_s * rate_hz; ++i) scan();
   }
-  // The axis moves during a recording gap.
+  // The axis moves to `target` during a gap in the recording.
   void jump_unseen(double target, double after_s) {
     breaks.push_back(t_ns - static_cast<std::int64_t>(1e9 / rate_hz));
     t_ns += static_cast<std::int64_t>(after_s * 1e9);
     x = target;
   }
-  // Over the targets and back, with an overrun beyond both ends.
+  // Moves over the targets and back, n times, with an overrun beyond both ends.
   void passes(const std::vector<double>& targets, int n) {
     for (int k = 0; k < n; ++k) {
       for (const double t : targets) move_to(t), dwell();
@@ -79,7 +79,7 @@ std::vector<Point> detect(const FrameBlock& frames, std::size_t block, DwellOpti
                     {cut(frames.probe_quality[0])},
                     {}};
     if (!frames.probe_is_new.empty()) part.probe_is_new = {cut(frames.probe_is_new[0])};
-    // Alignment gives no column if no row repeats a reading.
+    // The aligner omits the column if no row repeats a reading.
     for (auto& column : part.probe_is_new)
       if (std::find(column.begin(), column.end(), 0) == column.end()) column.clear();
     detector.push(part, points);
@@ -94,7 +94,7 @@ TEST(Dwell, FindsEveryStopAndInventsNone) {
   for (const double rate : {10.0, 20.0, 200.0, 1000.0, 4000.0}) {
     Stepper axis;
     axis.rate_hz = rate;
-    if (rate < 80) axis.dwell_s = 2, axis.speed_m_s = 4e-3;  // four scans or more beyond an end
+    if (rate < 80) axis.dwell_s = 2, axis.speed_m_s = 4e-3;  // at least four scans beyond an end
     axis.passes(kTargets, 2);
     const auto points = detect(axis.frames, 1000);
     ASSERT_EQ(points.size(), 20u) << rate;
@@ -124,8 +124,8 @@ TEST(Dwell, GivesTheSameBitsForAnyBlockSize) {
   }
 }
 
-// A replay has larger blocks than the live run, so a late repeated reading adds a column of marks
-// to rows that had none.
+// A replay has larger blocks than the live run. In a larger block, a later repeated reading adds
+// the column of marks also for earlier rows, which had none.
 TEST(Dwell, LearnsTheSameResolutionForAnyBlockSize) {
   constexpr double step_m = 100e-9;  // five rows of the motion
   Stepper axis;
@@ -164,7 +164,7 @@ TEST(Dwell, ShortStopIsNoDwell) {
 TEST(Dwell, CreepingAxisIsNoDwell) {
   Stepper axis;
   axis.noise_m = 0;
-  axis.speed_m_s = 35e-6;  // 1.75 µm in the window: within the tolerance at any moment
+  axis.speed_m_s = 35e-6;  // 1.75 µm in the window, always within the tolerance
   axis.move_to(-0.9e-3);
   EXPECT_TRUE(detect(axis.frames, 1000).empty());
 }
@@ -221,8 +221,8 @@ TEST(Dwell, EncoderGlitchIsNoApproach) {
   EXPECT_EQ(s.points[2].point.direction, 1);
 }
 
-// A knock that is seen in two slots (quarters of the window) is ignored; in three slots it is a
-// motion, so the axis approached from above.
+// The axis moves and returns within two or three slots (quarters of the window). In two slots the
+// motion is ignored. In three slots it is a motion, so the axis approaches the target from above.
 TEST(Dwell, KnockOfTwoSlotsIsNoApproach) {
   for (const int length_ms : {14, 26}) {
     Stepper axis;
@@ -239,7 +239,7 @@ TEST(Dwell, KnockOfTwoSlotsIsNoApproach) {
   }
 }
 
-// A probe needs half of the scans of a stop.
+// A probe is flagged as lost if it has readings in less than half of the scans of a stop.
 TEST(Dwell, ProbeIsLostIfMostScansAreMissing) {
   for (const int good_per_ten : {4, 6}) {
     Stepper axis;
@@ -287,7 +287,7 @@ TEST(Sequence, MissedStopDoesNotShiftTheRuns) {
   Stepper axis;
   axis.passes(kTargets, 3);
   auto points = detect(axis.frames, 1000);
-  points.erase(points.begin() + 12);  // run 2, forward, target 3
+  points.erase(points.begin() + 12);  // target 3 of run 2, forward
   const Sequence s = recognise_sequence(points, {});
   EXPECT_EQ(s.points.back().run, 3);
   EXPECT_EQ(
@@ -329,7 +329,7 @@ TEST(Sequence, FirstStopTakesTheApproachOfTheNextMotion) {
   EXPECT_EQ(s.runs, 1);
 }
 
-// The axis moves forward to 4 mm. Unseen, it moves to 8 mm and back to a stop at 6 mm.
+// The axis moves forward to 4 mm. During a gap it moves to 8 mm and back to a stop at 6 mm.
 TEST(Sequence, UnseenMotionIsNoApproach) {
   Stepper axis;
   for (const double t : {0.0, 2e-3, 4e-3}) axis.move_to(t), axis.dwell();
@@ -341,7 +341,7 @@ TEST(Sequence, UnseenMotionIsNoApproach) {
   EXPECT_TRUE(reported.points[2].point.flags.empty());
   EXPECT_EQ(reported.points[3].point.direction, -1);
   EXPECT_EQ(to_string(reported.points[3].point.flags), "approach_assumed");
-  // The gap in the time stamps has the same effect.
+  // The gap in the time stamps has the same effect as an announced break.
   const Sequence untold = recognise_sequence(detect(axis.frames, 1000), {});
   ASSERT_EQ(untold.points.size(), 6u);
   EXPECT_EQ(untold.points[3].point.direction, -1);
@@ -360,7 +360,7 @@ TEST(Sequence, StopWithARecordingGapCountsOnce) {
     const Sequence s = recognise_sequence(detect(axis.frames, block, {}, axis.breaks), {});
     ASSERT_EQ(s.points.size(), 4u);
     EXPECT_EQ(s.points[2].point.direction, 1);
-    EXPECT_GT(s.points[2].point.samples, 700u);  // samples of the longer part
+    EXPECT_GT(s.points[2].point.samples, 700u);  // the samples of the longer part
     EXPECT_LT(s.points[2].point.samples, 1000u);
     EXPECT_EQ(to_string(s.points[2].point.flags), "approach_assumed interrupted");
     EXPECT_EQ(s.points[3].point.direction, -1);
@@ -371,7 +371,7 @@ TEST(Sequence, InterruptedStopCountsOnce) {
   Stepper axis;
   axis.move_to(0);
   axis.dwell();
-  axis.move_to(40e-6);  // a knock
+  axis.move_to(40e-6);  // a short disturbance
   for (int i = 0; i < 20; ++i) axis.scan();
   axis.move_to(0);
   axis.dwell();
@@ -382,7 +382,7 @@ TEST(Sequence, InterruptedStopCountsOnce) {
   EXPECT_EQ(to_string(s.points[0].point.flags), "interrupted");
 }
 
-// A slow probe has a fresh reading every fourth row; the rows between are interpolated.
+// A slow probe has a new reading every fourth row. The readings between them are interpolated.
 TEST(Dwell, AveragesOnlyFreshReadings) {
   Stepper axis;
   axis.passes(kTargets, 1);

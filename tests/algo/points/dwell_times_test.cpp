@@ -1,4 +1,4 @@
-// Begin and end of a stop, and the counts of a log, for logs with known values.
+// Begin and end of a stop, and the counts of a log, for simulated logs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kSlot_s = 0.0125;  // resolution of the detection: a quarter of the window
+constexpr double kSlot_s = 0.0125;  // resolution of the detection, a quarter of the window
 
 struct Found {
   std::vector<Point> points;
@@ -37,8 +37,8 @@ SteppingAxis fast_axis() {
   return axis;
 }
 
-// The begin of a stop is found within one slot, the end of the averaged scans within two slots
-// before the end.
+// The begin of a stop must be found within one slot. The averaged scans must end at most two slots
+// before the end of the stop.
 TEST(DwellTimes, MatchTheStop) {
   SteppingAxis axis = fast_axis();
   std::vector<double> begin_s, end_s;
@@ -88,7 +88,8 @@ TEST(DwellTimes, FindsLongEnoughStopsAndReportsShorterOnes) {
   }
 }
 
-// A filter calculates its readings of the last 60 ms of a stop also from the next motion.
+// A filter calculates the readings of the last 60 ms of a stop also from readings of the next
+// motion.
 TEST(DwellTimes, LeavesOutTheEndOfAStop) {
   SteppingAxis axis = fast_axis();
   for (const double wait_s : {0.5, 0.25, 0.32, 0.5}) {
@@ -98,7 +99,7 @@ TEST(DwellTimes, LeavesOutTheEndOfAStop) {
   axis.move_to(20e-3);
   const Found whole = found_in(axis.frames), cut = found_in(axis.frames, 7, {.leave_s = 0.06});
   ASSERT_EQ(whole.points.size(), 4u);
-  ASSERT_EQ(cut.points.size(), 3u);  // 0.25 s is too short for 0.1 + 0.1 + 0.06
+  ASSERT_EQ(cut.points.size(), 3u);  // 0.1 + 0.1 + 0.06 s are required; 0.25 s is too short
   ASSERT_EQ(cut.summary.passed_over.size(), 1u);
   EXPECT_TRUE(cut.summary.passed_over[0].too_short);
   for (const auto& [was, is] : {std::pair(0, 0), std::pair(2, 1), std::pair(3, 2)}) {
@@ -109,8 +110,8 @@ TEST(DwellTimes, LeavesOutTheEndOfAStop) {
   }
 }
 
-// 100 µm/s is 5 µm in a window of 50 ms, more than 2 µm; 20 µm/s is 1 µm. Both directions are
-// tested.
+// In a window of 50 ms, 100 µm/s is 5 µm, which is above the tolerance of 2 µm; 20 µm/s is 1 µm.
+// Both directions are tested.
 TEST(DwellTimes, SlowTravelIsNoStop) {
   for (const double speed_m_s : {100e-6, -100e-6, 20e-6, -20e-6}) {
     SteppingAxis axis = fast_axis();
@@ -121,10 +122,11 @@ TEST(DwellTimes, SlowTravelIsNoStop) {
   }
 }
 
-// The axis creeps at 0.2 mm/s between fast motions: up to 200 um it is a creeping stop. The stretch
-// is seen from the slot in which it begins to three slots before its end.
+// The axis creeps at 0.2 mm/s between fast motions. Up to 200 um this is a creeping stop. The
+// detected stretch begins with the slot in which the creeping begins, and ends three slots before
+// its end.
 TEST(DwellTimes, CreepOverMoreThan200umIsTravel) {
-  for (const int scans : {1000, 1100}) {  // 200 um and 220 um, seen as 190 um and 210 um
+  for (const int scans : {1000, 1100}) {  // 200 um and 220 um, detected as 190 um and 210 um
     SteppingAxis axis = fast_axis();
     axis.move_to(5e-3);
     for (int i = 0; i < scans; ++i) axis.x_m += 0.2e-6, axis.scan();
@@ -159,8 +161,8 @@ TEST(DwellTimes, SummaryOfAnEmptyLogIsZero) {
   EXPECT_TRUE(none.passed_over.empty());
 }
 
-// The tolerance is six times the encoder's noise, here 1 um. Its floor is known to an eighth of an
-// octave.
+// The tolerance is six times the noise of the encoder, 1 um. The noise is determined with a
+// resolution of an eighth of an octave.
 TEST(DwellTimes, ToleranceIsSixTimesTheNoise) {
   SteppingAxis axis = fast_axis();
   axis.noise_m = 1e-6;
@@ -171,14 +173,15 @@ TEST(DwellTimes, ToleranceIsSixTimesTheNoise) {
   EXPECT_EQ(found_in(axis.frames, 100, given).summary.tolerance_m, 3e-6);
 }
 
-// Two lost scans are an interval of three periods; three lost scans are a gap.
+// Two missing scans make an interval of three periods, which is no gap. Three missing scans make a
+// gap.
 TEST(DwellTimes, GapIsLongerThanThreePeriods) {
   for (const std::size_t lost : {1u, 2u, 3u}) {
     SteppingAxis axis = fast_axis();
     axis.stop(2e-3);
     axis.move_to(5e-3);
     FrameBlock frames = axis.frames;
-    const std::size_t row = 300;  // in the stop
+    const std::size_t row = 300;  // within a stop
     for (auto* column : {&frames.encoder_m, frames.probe_m.data()})
       column->erase(column->begin() + row, column->begin() + row + static_cast<int>(lost));
     frames.time_ns.erase(frames.time_ns.begin() + row,
@@ -190,7 +193,8 @@ TEST(DwellTimes, GapIsLongerThanThreePeriods) {
   }
 }
 
-// The period is the median of the first 32 intervals, for any later intervals and any block size.
+// The period is the median of the first 32 intervals. Later intervals and the block size have no
+// effect.
 TEST(DwellTimes, PeriodIsTheMedianOfTheFirstIntervals) {
   SteppingAxis axis;
   for (int i = 0; i < 500; ++i) axis.scan();
@@ -199,7 +203,7 @@ TEST(DwellTimes, PeriodIsTheMedianOfTheFirstIntervals) {
     axis.frames.time_ns[i] = t_ns;
     t_ns += i == 16 ? 1'100'000 : i < 32 && i % 2 == 0 ? 1'000'000 : i < 32 ? 1'200'000 : 1'500'000;
   }
-  // 15 intervals of 1 ms, 16 of 1.2 ms, one of 1.1 ms: the 17th of 32, the median, is 1.2 ms.
+  // 15 intervals of 1 ms, 16 of 1.2 ms and one of 1.1 ms. The median, the 17th of 32, is 1.2 ms.
   for (const std::size_t block : {1u, 33u, 40u, 1000u})
     EXPECT_DOUBLE_EQ(found_in(axis.frames, block).summary.period_s, 1.2e-3) << block;
   t_ns = 0;
@@ -211,7 +215,7 @@ TEST(DwellTimes, PeriodIsTheMedianOfTheFirstIntervals) {
     EXPECT_DOUBLE_EQ(found_in(axis.frames, block).summary.period_s, 1.1e-3) << block;
 }
 
-// Each row is counted once even if the clock does not advance.
+// Each row is counted once, also if all time stamps are equal.
 TEST(DwellTimes, RowsAtOneInstantAreCountedOnce) {
   SteppingAxis axis;
   for (int i = 0; i < 70; ++i) axis.scan();
@@ -232,8 +236,8 @@ TEST(DwellTimes, FindsAStopBeforeThePeriodIsKnown) {
   }
 }
 
-// An axis at 10 mm/s with 1.5 s missing: the event has the last position before the hole and the
-// distance moved during it.
+// The axis moves at 10 mm/s, and 1.5 s are missing. The event states the last position before the
+// hole and the distance moved during the hole.
 TEST(DwellTimes, HoleHasTheLastScanBeforeIt) {
   FrameBlock frames = empty_frames(1);
   for (std::int64_t ms = 0; ms < 4000; ++ms) {
@@ -254,7 +258,7 @@ TEST(DwellTimes, HoleHasTheLastScanBeforeIt) {
   EXPECT_EQ(found.summary.scans, frames.size());
 }
 
-// NaN readings in a log without qualities: the other readings are averaged.
+// Readings are NaN in a log without qualities. The other readings are averaged.
 TEST(DwellTimes, LeavesOutNaNReadings) {
   SteppingAxis axis = fast_axis();
   for (int i = 0; i < 4; ++i) axis.stop(1e-3 * i);
@@ -269,7 +273,7 @@ TEST(DwellTimes, LeavesOutNaNReadings) {
     EXPECT_NEAR(found.points[i].probe_m[0], whole.points[i].probe_m[0], 2e-9) << i;
 }
 
-// A break that is announced early takes effect at its time, like a break that is announced in time.
+// A break that is announced too early takes effect at its time.
 TEST(DwellTimes, BreakTakesEffectAtItsTime) {
   SteppingAxis axis = fast_axis();
   for (int i = 0; i < 3; ++i) axis.stop(1e-3 * i);

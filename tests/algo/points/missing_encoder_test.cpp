@@ -1,5 +1,5 @@
-// Frames without an encoder position (NaN): a few, many, from the first frame on, and all. The
-// expected positions are those of the stops in the log.
+// Frames without an encoder position (NaN): a few, many, from the first frame on, or all. The
+// expected positions are the stops of the log.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,8 @@ SteppingLog one_run() {
 
 const std::size_t kBlocks[] = {1, 13, 100'000};
 
-// Three of five scans of one stop are missing. The others are averaged, and the point has a flag.
+// Three of five scans of one stop have no position. The point is the mean of the other scans and
+// has a flag.
 TEST(MissingEncoder, HandlesMoreThanHalfOfAStop) {
   const SteppingLog log = one_run();
   const FrameBlock whole = log.frames();
@@ -69,7 +70,8 @@ TEST(MissingEncoder, FirstFramesMayHaveNoPosition) {
   }
 }
 
-// A second without positions, while the axis moves from the third to the fifth stop, is a hole.
+// The positions are missing for a second, while the axis moves from stop 3 to stop 5. This is a
+// hole.
 TEST(MissingEncoder, ManyInARowAreAHole) {
   const SteppingLog log = one_run();
   FrameBlock frames = log.frames();
@@ -110,8 +112,8 @@ TEST(UnreachablePlace, ShortOverflowLosesOnlyItsScans) {
   }
 }
 
-// The count is wrong from the seventh stop on. All later scans have no valid position, and a notice
-// reports this. A jump of 1 mm has the same effect if the greatest speed of the axis is known.
+// From stop 7 on the count is wrong. No later scan has a valid position, and a notice reports this.
+// A jump of 1 mm has the same effect if the maximum speed of the axis is declared.
 TEST(UnreachablePlace, LeavesOutPositionsAfterAJump) {
   const SteppingLog log = one_run();
   const FrameBlock whole = log.frames();
@@ -143,8 +145,8 @@ TEST(UnreachablePlace, LeavesOutPositionsAfterAJump) {
   }
 }
 
-// A disturbance: far positions that return by a distance that the axis could travel, or after
-// missing positions.
+// A disturbance: the positions are far away. They return by a distance that the axis could travel,
+// or after missing positions.
 TEST(UnreachablePlace, DisturbanceLosesOnlyItsScans) {
   const SteppingLog log = one_run();
   const FrameBlock whole = log.frames();
@@ -166,7 +168,7 @@ TEST(UnreachablePlace, DisturbanceLosesOnlyItsScans) {
 }
 
 TEST(UnreachablePlace, AxisAtItsGreatestSpeedLosesNothing) {
-  const SteppingLog log = one_run();  // its moves reach 1.875 · 5 mm / 0.25 s = 37.5 mm/s
+  const SteppingLog log = one_run();  // its speed is up to 1.875 · 5 mm / 0.25 s = 37.5 mm/s
   const FrameBlock frames = log.frames();
   EXPECT_EQ(detect(log, frames, 1000, {.max_speed_m_s = 0.0375}).summary.unplaced, 0u);
   EXPECT_GT(detect(log, frames, 1000, {.max_speed_m_s = 0.005}).summary.unplaced, 0u);
@@ -182,7 +184,7 @@ TEST(MissingEncoder, CountsALogWithoutPositions) {
   EXPECT_EQ(found.summary.unplaced, frames.size());
 }
 
-// NaN readings without a quality mark are lost, like marked readings.
+// A NaN reading without a quality is missing, like a reading with the quality "missing".
 TEST(MissingEncoder, ProbeWithUnmarkedNaNIsLost) {
   const SteppingLog log = one_run();
   FrameBlock frames = log.frames();
@@ -200,7 +202,7 @@ TEST(MissingEncoder, RobustMeanOfNaNTerminates) {
   for (const std::size_t bad : {1u, 50u, 51u, 99u, 100u}) {
     std::vector<double> readings(100, 1.0);
     std::fill_n(readings.begin(), bad, kNaN);
-    robust_mean(readings, 0.1, scratch);  // the result does not matter
+    robust_mean(readings, 0.1, scratch);  // must only terminate
   }
 }
 

@@ -1,5 +1,6 @@
-// A probe at the end of its range: the remaining readings are biased. The bias follows from tables
-// of the normal distribution and from a vibration with a known mean.
+// The readings of a probe at the end of its range are missing, so the mean of the other readings is
+// biased. The expected bias comes from tables of the normal distribution, and from a vibration with
+// a known mean.
 #include "algo/points/over_range.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double kEnd_m = 100e-6;
 
-// Three stops with about 150 averaged scans each, in which the probe vibrates about `middle_m`.
+// Three stops with about 150 averaged scans each. The probe vibrates about `middle_m`.
 FrameBlock vibrating(double middle_m, double amplitude_m) {
   SteppingAxis axis;
   for (const double target_m : {0.0, 2e-3, 4e-3}) axis.stop(target_m);
@@ -46,7 +47,8 @@ OverRange one_over(double at_m) {
   return over;
 }
 
-// The bias of the mean is phi(a)/Phi(a) with Phi(-a) = p, from a table of the normal distribution.
+// The bias of the mean is phi(a)/Phi(a) with Phi(-a) = p. The values are from a table of the normal
+// distribution.
 TEST(OverRange, UCoversTheBiasOfATrace) {
   struct {
     std::size_t of;
@@ -63,7 +65,8 @@ TEST(OverRange, UCoversTheBiasOfATrace) {
   }
   EXPECT_NEAR(with_over_range(3e-9, 0, 1e-6, one_over(2e-6), 1000), 5e-9, 1e-15);
   EXPECT_EQ(with_over_range(3e-9, 0, 1e-6, {}, 1000), 3e-9);
-  EXPECT_EQ(with_over_range(3e-9, 0, 1e-6, one_over(-50e-6), 1000), 3e-9);  // a glitch
+  // A reading far away is a glitch.
+  EXPECT_EQ(with_over_range(3e-9, 0, 1e-6, one_over(-50e-6), 1000), 3e-9);
 }
 
 bool is_too_much(std::size_t count, std::size_t readings, double at_m = 1e-6) {
@@ -81,14 +84,16 @@ TEST(OverRange, SaturatedAboveOneReadingAndOnePercent) {
   EXPECT_FALSE(is_too_much(3, 300));
 }
 
-// A reading far from all others, on either side, is caused by a broken cable.
+// If an over-range reading is far from all other readings on either side, its cause is a broken
+// cable.
 TEST(OverRange, GlitchDoesNotSaturate) {
   for (const double at_m : {100e-6, -100e-6}) EXPECT_FALSE(is_too_much(20, 100, at_m));
   EXPECT_TRUE(is_too_much(20, 100, -2.9e-6));
   EXPECT_TRUE(is_too_much(20, 100, std::nan("")));
 }
 
-// A vibration of 0.7 um rms about 99.9 um: the mean of the readings below 100 um is 99.3 um.
+// The vibration has an rms of 0.7 um about 99.9 um. The mean of the readings below 100 um is 99.3
+// um.
 TEST(OverRange, VibrationAcrossTheEndLosesTheProbe) {
   const auto points = points_of(vibrating(99.9e-6, 0.7e-6 * std::numbers::sqrt2));
   ASSERT_EQ(points.size(), 3u);

@@ -1,5 +1,5 @@
-// The robust mean against a plain calculation by sorting. Mutation tests (tests/mutate) found these
-// cases.
+// The robust mean is compared with a simple calculation by sorting. Mutation tests (tests/mutate)
+// found these cases.
 #include "algo/points/robust_mean.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,8 @@ struct Plain {
   std::size_t used = 0;
 };
 
-// Mean of up to 512 readings within eight standard deviations. The standard deviation is estimated
-// from the median absolute deviation, halfway to the next larger deviation.
+// Mean of the readings (up to 512) within eight standard deviations. The standard deviation is
+// 1.4826 times the mean of the median absolute deviation and the next larger deviation.
 Plain plain_mean(const std::vector<double>& x) {
   const double centre = middle_of(x);
   std::vector<double> off;
@@ -47,7 +47,8 @@ Plain plain_mean(const std::vector<double>& x) {
   return plain;
 }
 
-// In a Cauchy distribution several percent are outliers, and some readings are near the limit.
+// In a Cauchy distribution several percent of the readings are outliers, and some readings are near
+// the limit.
 TEST(RobustMeanPlainly, RejectsManyOutliers) {
   std::mt19937_64 engine(5);
   std::cauchy_distribution<> wide(3, 1);
@@ -67,8 +68,8 @@ TEST(RobustMeanPlainly, RejectsManyOutliers) {
   EXPECT_GT(rejected, 10'000u);
 }
 
-// Every third of 1200 readings determines the median and the limit, so only one of three levels is
-// near them.
+// The median and the limit are calculated from every third of 1200 readings, so only readings near
+// one of the three levels are used.
 TEST(RobustMeanPlainly, UsesEveryThirdOfManyReadings) {
   std::vector<double> x, scratch;
   for (int i = 0; i < 1200; ++i) x.push_back(1000.0 * (i % 3) + i % 7);
@@ -80,8 +81,9 @@ TEST(RobustMeanPlainly, UsesEveryThirdOfManyReadings) {
   }
 }
 
-// Most readings are equal. A single reading further than `coarse` is rejected; several at one
-// distance are a step of the reading, and readings within three and a half steps are used.
+// Most readings are equal. A single reading is rejected if it deviates by more than `coarse`. If
+// several readings deviate by the same amount, this amount is taken as the step of the reading, and
+// readings within 3.5 steps are used.
 TEST(RobustMeanPlainly, AcceptsStepsOfTheReading) {
   std::vector<double> x(100, 5.0), scratch;
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 100u);
@@ -91,7 +93,7 @@ TEST(RobustMeanPlainly, AcceptsStepsOfTheReading) {
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 100u);
   x[7] = 5.6;
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 99u);
-  x[30] = 4.4;  // two steps of 0.6, one to each side
+  x[30] = 4.4;  // two steps of 0.6 with opposite signs
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 100u);
   x[31] = 5 + 3.4 * 0.6;
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 100u);

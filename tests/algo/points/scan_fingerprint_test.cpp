@@ -1,5 +1,5 @@
-// The fingerprint recognises repeated scans for any begin of the dwell, and differs for other scans
-// of the same place.
+// The fingerprint is the same for repeated scans, for any begin of the stop. It differs for other
+// scans at the same position.
 #include "algo/points/scan_fingerprint.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-// Readings of an axis at rest, in steps of `step_m` with noise of one step.
+// Readings of an axis at rest with noise of one step; they are rounded to steps of `step_m`.
 FrameBlock standing(std::uint64_t seed, double step_m, std::size_t rows = 120) {
   std::mt19937_64 rng(seed);
   std::normal_distribution<> unit;
@@ -30,7 +30,7 @@ TEST(ScanFingerprint, IsEqualForAnyBeginOfTheDwell) {
     const FrameBlock frames = standing(seed, 1e-9);
     same += scan_fingerprint(frames, 0, 116) == scan_fingerprint(frames, 4, 120);
   }
-  EXPECT_GE(same, 80);  // 105 of 113 groups are in both
+  EXPECT_GE(same, 80);  // 105 of the 113 groups of scans are in both
 }
 
 TEST(ScanFingerprint, DiffersForCoarseReadingsOfOnePlace) {

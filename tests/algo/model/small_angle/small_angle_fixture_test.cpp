@@ -1,5 +1,5 @@
-// The fixtures that the simplified and the exact model accept. tests/mutate showed that these tests
-// were missing.
+// Tests which fixtures the simplified and the exact model accept. Mutation tests (tests/mutate)
+// found these cases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ Fixture five_probe_fixture() {
   return make_fixture(test::rig_x()).value();
 }
 
-// Reason why the fixture is refused; empty: it is accepted.
+// Reason why the fixture is refused; empty if it is accepted.
 std::string refused(const Fixture& fixture) {
   const auto made = make_small_angle_fixture(fixture);
   return made ? "" : made.error().message;
@@ -45,8 +45,8 @@ TEST(SmallAngleFixture, HasThreeTopProbesAndTwoSideProbes) {
   EXPECT_TRUE(says(refused(fixture), "has 2 probes along ±z and 2 along ±y"));
 }
 
-// D and E are 1 mm apart along the motion: `exact` was wrong by 76 µm at 30 mrad with 20 mm along
-// z.
+// D and E are 1 mm apart along the motion. At 30 mrad, with 20 mm along z, the exact model had an
+// error of 76 µm.
 TEST(SmallAngleFixture, RefusesSideProbesTooCloseAlongTheMotion) {
   Fixture fixture = five_probe_fixture();
   fixture.probes[4].p_MP.x() = fixture.probes[3].p_MP.x() + 1e-3;
@@ -74,7 +74,7 @@ TEST(SmallAngleFixture, MeasuresAlongTheAxes) {
   }
 }
 
-// A probe may be at most a nanometre away from its plane.
+// The distance of a probe from its plane may be at most 1 nm.
 TEST(SmallAngleFixture, UsesOneTopPlaneAndOneSidePlane) {
   for (const double off_m : {0.9e-9, 1.1e-9, -1.1e-9}) {
     const bool taken = off_m < 1e-9 && off_m > 0;
@@ -91,8 +91,8 @@ TEST(SmallAngleFixture, UsesOneTopPlaneAndOneSidePlane) {
   }
 }
 
-// The triangle of the top probes has at least half of 1e-9 m2, and the side probes are at least 10
-// um apart, in either order.
+// The area of the triangle of the top probes must be at least half of 1e-9 m2. The distance of the
+// side probes must be at least 10 um, in either order.
 TEST(SmallAngleFixture, IsWideEnough) {
   for (const double height_m : {0.9e-6, 1.1e-6}) {
     Fixture flat = five_probe_fixture();
@@ -108,8 +108,8 @@ TEST(SmallAngleFixture, IsWideEnough) {
   }
 }
 
-// Each probe alone is reversed. The readings are from the rigid model; for such small errors the
-// other models differ by about 10 nrad and 10 nm.
+// Each probe in turn measures in the opposite direction. The readings come from the rigid model;
+// for such small errors the other models differ by about 10 nrad and 10 nm.
 TEST(SmallAngleFixture, EachProbeHasItsOwnSign) {
   const Errors5 e{3e-6, -2e-6, 1e-4, 2e-4, -3e-4};
   for (std::size_t turned = 0; turned < 5; ++turned) {
@@ -126,8 +126,8 @@ TEST(SmallAngleFixture, EachProbeHasItsOwnSign) {
   }
 }
 
-// Two steps with the initial slope reach 1e-11 rad up to 50 mrad, also if D and E are at different
-// heights.
+// Two iterations with the initial slope are accurate to 1e-11 rad up to 50 mrad, also if D and E
+// are at different heights.
 TEST(SmallAngleFixture, IsSolvedToRoundingUpToFiftyMilliradians) {
   for (const double height_m : {20e-3, 32e-3, 6e-3}) {
     Rig rig = test::rig_x();

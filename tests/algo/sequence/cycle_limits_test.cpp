@@ -1,5 +1,5 @@
-// Cycles on both sides of the limits of their rules, with rows of visits made by hand. Mutation
-// tests (tests/mutate) found these cases.
+// Cycles on both sides of the limits of their rules. The series of visits are defined by hand.
+// Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,7 +12,7 @@ namespace {
 
 using Row = std::vector<int>;
 
-// Each number is a target with the sign of the direction.
+// The absolute value of a number is the target, its sign is the direction.
 std::vector<Visit> signed_visits(const Row& row) {
   std::vector<Visit> visits;
   for (const int v : row) visits.push_back({std::abs(v), v > 0 ? 1 : -1});
@@ -23,15 +23,15 @@ CycleFound cycle_of(const Row& row, int targets) {
   return recognise_cycle(signed_visits(row), targets);
 }
 
-// Each target once from below and once from above.
+// Each target is visited once from below and once from above.
 CycleFound there_and_back(const Row& targets, int count) {
   Row row;
   for (const int t : targets) row.insert(row.end(), {t, -t});
   return cycle_of(row, count);
 }
 
-// There may be one more block of visits than targets, or a quarter of the targets more: the axis
-// went back once.
+// There may be more blocks of visits than targets, because the axis returned once: one block more,
+// or a quarter of the number of targets more.
 TEST(PilgrimLimit, AllowsAQuarterMoreBlocksThanTargets) {
   EXPECT_EQ(there_and_back({1, 2, 3, 4, 3, 5, 6, 7}, 7).cycle, Cycle::pilgrim);
   EXPECT_NE(there_and_back({1, 2, 3, 4, 3, 4, 5, 6, 7}, 7).cycle, Cycle::pilgrim);
@@ -39,7 +39,8 @@ TEST(PilgrimLimit, AllowsAQuarterMoreBlocksThanTargets) {
   EXPECT_NE(there_and_back({1, 2, 3, 4, 5, 3, 4, 5, 6, 7, 8, 9}, 9).cycle, Cycle::pilgrim);
 }
 
-// Six targets with nine visits, three of them twice in a row; then with eight visits.
+// First, three of six targets are visited twice in a row, with nine visits in all. Then there are
+// eight visits.
 TEST(PilgrimLimit, HalfOfTheTargetsAreVisitedTwiceInARow) {
   const CycleFound found = cycle_of({1, -1, 2, 3, -3, 4, 5, -5, 6}, 6);
   EXPECT_EQ(found.cycle, Cycle::pilgrim);
@@ -48,13 +49,13 @@ TEST(PilgrimLimit, HalfOfTheTargetsAreVisitedTwiceInARow) {
   EXPECT_NE(cycle_of({1, -1, 2, 3, -3, 4, 5, 6}, 6).cycle, Cycle::pilgrim);
 }
 
-// Two passes over eight targets with eight visits in all, then with seven.
+// Two passes over eight targets, first with eight visits in all, then with seven.
 TEST(PassLimit, PassHasHalfOfTheTargetsOnAverage) {
   EXPECT_TRUE(cycle_of({1, 3, 6, 8, -7, -5, -4, -2}, 8).by_passes);
   EXPECT_FALSE(cycle_of({1, 3, 6, 8, -7, -5, -2}, 8).by_passes);
 }
 
-// Seven targets: a pass turns when the axis has gone back by three.
+// With seven targets, a pass ends when the axis has returned by three targets.
 TEST(PassLimit, TurnsAfterHalfOfTheTargets) {
   const auto last_run = [](const Row& row) {
     Passes passes(7);
@@ -68,8 +69,8 @@ TEST(PassLimit, TurnsAfterHalfOfTheTargets) {
   EXPECT_EQ(last_run({-7, -6, -5, -4, -3, -2, -1, 2, 3, 4, -3}), 2);
 }
 
-// The turns at the ends decide: a pendulum visits the end target once per turn, a standard cycle in
-// both directions. The majority of the turns decides.
+// The turns at the ends distinguish the cycles. A pendulum visits the end target once per turn, a
+// standard cycle visits it in both directions. The majority of the turns decides.
 TEST(Turns, TurnsAtTheEndsDecide) {
   const Row down = {-7, -6, -5, -4, -3, -2, -1};
   const auto joined = [](std::initializer_list<Row> parts) {
@@ -77,18 +78,18 @@ TEST(Turns, TurnsAtTheEndsDecide) {
     for (const Row& part : parts) row.insert(row.end(), part.begin(), part.end());
     return row;
   };
-  // -1, 3 twice, where target 2 is missing; 7, -7 once.
+  // The turn -1, 3 occurs twice, with target 2 missing. The turn 7, -7 occurs once.
   EXPECT_EQ(cycle_of(joined({down, {3, 4, 5, 6, 7}, down, {3, 4, 5, 6, 7}}), 7).cycle,
             Cycle::pendulum);
-  // 7, -6 once, and -2, 1 once, where the axis turned beyond 1.
+  // The turn 7, -6 occurs once. The turn -2, 1 occurs once; there the axis turned beyond target 1.
   EXPECT_EQ(cycle_of({1, 2, 3, 4, 5, 6, 7, -6, -5, -4, -3, -2, 1, 2, 3, 4, 5, 6, 7}, 7).cycle,
             Cycle::standard);
-  // 3, -2, 3 is no turn at an end; 7, -7 is a turn.
+  // 3, -2, 3 is no turn at an end, 7, -7 is one.
   EXPECT_EQ(cycle_of({1, 2, 3, -2, 3, 4, 5, 6, 7, -7, -6, -5, -4, -3, -2, -1}, 7).cycle,
             Cycle::standard);
 }
 
-// Each group of targets is visited twice upwards and twice in the same order from above.
+// Each group of targets is visited twice from below, and twice from above in the same order.
 Cycle group_cycle(const std::vector<Row>& groups, int targets) {
   Row row;
   for (const Row& group : groups) {
@@ -98,24 +99,24 @@ Cycle group_cycle(const std::vector<Row>& groups, int targets) {
   return cycle_of(row, targets).cycle;
 }
 
-// Most targets are visited while the axis stays within half of the targets.
+// For most targets, the axis must stay within half of the targets between the visits of a target.
 TEST(QuasiPilgrimLimit, StaysWithinHalfOfTheTargets) {
   EXPECT_EQ(group_cycle({{1, 2, 3, 4}, {5, 6, 7, 8}}, 8), Cycle::quasi_pilgrim);
-  // Five of nine targets within 5, four within 4: the median is 5.
+  // The axis stays within 5 targets for five of nine targets, within 4 for four. The median is 5.
   EXPECT_EQ(group_cycle({{1, 2, 3, 4}, {5, 6, 7, 8, 9}}, 9), Cycle::none);
   EXPECT_EQ(group_cycle({{1, 2, 3, 4, 5}, {6, 7, 8, 9}}, 9), Cycle::none);
-  // Five within 3, four within 9: the median is 3.
+  // The axis stays within 3 targets for five targets, within 9 for four. The median is 3.
   EXPECT_EQ(group_cycle({{2, 4}, {9, 1, 3, 5}, {6, 7, 8}}, 9), Cycle::quasi_pilgrim);
 }
 
-// Between the first and the last visit of each target, the axis was four targets away.
+// Between the first and the last visit of each target, the axis is four targets away.
 TEST(QuasiPilgrimLimit, EveryVisitUpToTheLastCounts) {
   EXPECT_EQ(cycle_of({1, 5, -1, -5, 2, 6, -2, -6, 3, 7, -3, -7, 4, 8, -4, -8}, 8).cycle,
             Cycle::none);
 }
 
-// Repeatedly over all six targets; in each pass every second target is visited twice in a row: 24
-// blocks of 36 visits, two thirds. Then 35 visits.
+// The passes go over all six targets. In each pass every second target is visited twice in a row:
+// 24 blocks of 36 visits, two thirds. Then there are 35 visits.
 TEST(QuasiPilgrimLimit, ThirdOfTheVisitsTurnsAtATarget) {
   Row row = {1,  -1, 2,  3,  -3, 4,  5,  -5, 6,   //
              1,  2,  -2, 3,  4,  -4, 5,  6,  -6,  //

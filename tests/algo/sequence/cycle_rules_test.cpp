@@ -1,5 +1,5 @@
-// The cycle and the runs of a row of visits, on both sides of the limits, with rows made by hand.
-// Mutation tests (tests/mutate) found these cases.
+// Tests the cycle and the runs of a series of visits, on both sides of the limits. The series are
+// defined by hand. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,15 +12,15 @@ namespace {
 
 using Runs = std::vector<int>;
 
-// Each number is a target with the sign of the direction.
+// The absolute value of a number is the target, its sign is the direction.
 std::vector<Visit> visits_of(const std::vector<int>& row) {
   std::vector<Visit> visits;
   for (const int v : row) visits.push_back({std::abs(v), v > 0 ? 1 : -1});
   return visits;
 }
 
-// Forward and back over seven targets; the first `repeated` visits of the first pass are made
-// twice.
+// `runs` runs in both directions over seven targets. In the first pass the first `repeated` targets
+// are visited twice.
 std::vector<int> forward_and_reverse(int runs, int repeated) {
   std::vector<int> row;
   for (int run = 0; run < runs; ++run) {
@@ -35,26 +35,27 @@ bool by_passes(const std::vector<int>& row) {
 }
 
 TEST(CycleRule, AllowsThreeRepeatedVisitsInAShortRun) {
-  EXPECT_TRUE(by_passes(forward_and_reverse(1, 3)));   // 3 of 17
-  EXPECT_FALSE(by_passes(forward_and_reverse(1, 4)));  // 4 of 18
+  EXPECT_TRUE(by_passes(forward_and_reverse(1, 3)));   // 3 of 17 visits
+  EXPECT_FALSE(by_passes(forward_and_reverse(1, 4)));  // 4 of 18 visits
 }
 
 TEST(CycleRule, AllowsThreeOfTwentyInALongRun) {
-  EXPECT_TRUE(by_passes(forward_and_reverse(3, 7)));  // 7 of 49
-  // Three visits are out of order: the repeated visits of 4, 5 and 6.
+  EXPECT_TRUE(by_passes(forward_and_reverse(3, 7)));  // 7 of 49 visits
+  // Three visits are out of order: the repeated visits of targets 4, 5 and 6.
   EXPECT_TRUE(by_passes({1, 2, 3, 4, 4, 5, 5, 6, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
   auto more = forward_and_reverse(3, 7);
   more.insert(more.begin(), 1);
-  EXPECT_FALSE(by_passes(more));  // 8 of 50
+  EXPECT_FALSE(by_passes(more));  // 8 of 50 visits
 }
 
-// 4 and 6 follow a visit in the other direction; 5 and 7 in that direction are not beyond 3.
+// In the first series two visits, 4 and 6, follow a visit in the other direction. In the second
+// series only 4 does.
 TEST(CycleRule, InterruptedPassIsOutOfOrder) {
   EXPECT_FALSE(by_passes({1, 2, -3, 4, -5, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
   EXPECT_TRUE(by_passes({1, 2, -3, 4, 5, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
 }
 
-// A short motion before the first turn is a separate pass, in both directions.
+// A short pass before the first turn is a separate run, in both directions.
 TEST(CycleRule, ShortFirstPassIsARun) {
   for (const int up : {1, -1}) {
     const auto at = [&](int target) { return up * (up > 0 ? target : 8 - target); };
@@ -70,8 +71,8 @@ TEST(CycleRule, ShortFirstPassIsARun) {
   }
 }
 
-// Each target is visited twice; between targets the axis moves in one direction, with at most one
-// exception in seven motions.
+// Each target is visited twice in a row. From target to target the axis moves in one direction; one
+// of seven motions may be an exception.
 TEST(CycleRule, PilgrimMovesInOneDirection) {
   const auto cycle = [](const std::vector<int>& targets, int count) {
     std::vector<int> row;
@@ -87,7 +88,8 @@ TEST(CycleRule, PilgrimMovesInOneDirection) {
   EXPECT_NE(cycle({1, 2, 3, 5, 4, 6, 7}, 7), Cycle::pilgrim);
 }
 
-// With up to three targets, one target makes a pass; with more targets, half of them.
+// With up to three targets, a pass has at least one target. With more targets, it has at least half
+// of them.
 TEST(CycleRule, PassTurnsAtHalfOfTheTargets) {
   const auto runs = [](int targets, const std::vector<int>& row) {
     Passes passes(targets);
@@ -100,8 +102,8 @@ TEST(CycleRule, PassTurnsAtHalfOfTheTargets) {
   EXPECT_EQ(runs(4, {1, 2, 3, -2, -1, 2, 3, 4}), (Runs{1, 1, 1, 1, 1, 2, 2, 2}));
 }
 
-// Each target is visited repeatedly in both directions, equally often or one target far more often
-// than the others.
+// Each target is visited several times in both directions. The numbers of visits are equal, or one
+// target has far more visits than the others.
 TEST(CycleRule, QuasiPilgrimVisitsAllEquallyOften) {
   const auto cycle = [](const std::vector<int>& times) {
     std::vector<int> row;
@@ -113,7 +115,7 @@ TEST(CycleRule, QuasiPilgrimVisitsAllEquallyOften) {
   };
   EXPECT_EQ(cycle({3, 3, 3, 3, 3}), Cycle::quasi_pilgrim);
   EXPECT_EQ(cycle({9, 1, 1, 1, 1}), Cycle::none);
-  EXPECT_EQ(cycle({4, 4, 4, 4, 2}), Cycle::quasi_pilgrim);  // 8 of 72 are missing: 4 of 36 visits
+  EXPECT_EQ(cycle({4, 4, 4, 4, 2}), Cycle::quasi_pilgrim);  // 8 of 72: 4 of 36 visits are missing
   EXPECT_EQ(cycle({4, 4, 4, 3, 2}), Cycle::none);           // 12 of 68
 }
 

@@ -1,5 +1,5 @@
-// Notices about stops that are left out: their number, and the first five positions of each reason.
-// Mutation tests (tests/mutate) found these cases.
+// Notices about stops that are left out. They state the number of stops and the first five
+// positions of each reason. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// The log begins at 10.02 mm with an unseen approach, and the axis returns from 9 mm. The targets
+// The log begins at 10.02 mm with an unknown approach, and the axis returns from 9 mm. The targets
 // are at 10, 20 and 30 mm.
 Sequence sequence_of(const std::vector<double>& stops_mm) {
   std::vector<Point> points;
@@ -31,7 +31,7 @@ Sequence sequence_of(const std::vector<double>& stops_mm) {
   return recognise_sequence(points, options);
 }
 
-// The window is 0.25 mm: 20.24 and 29.76 mm are at targets, 20.26 and 29.74 mm are not.
+// The window of a target is 0.25 mm: 20.24 and 29.76 mm are at targets, 20.26 and 29.74 mm are not.
 TEST(LeftOutNotice, ListsTheFirstFivePositionsOfEachReason) {
   const Sequence s =
       sequence_of({10.02, 10.01, 13.1, 14.2346, 20.24, 20.26, 23.3, 29.74, 29.76, 33.7});
@@ -40,7 +40,7 @@ TEST(LeftOutNotice, ListsTheFirstFivePositionsOfEachReason) {
             "...\nstop_parked_at_start stops=1 positions_mm=10.0200\n");
   ASSERT_EQ(s.left_out.size(), 7u);
   EXPECT_NEAR(s.left_out[1].position_m, 14.2346e-3, 1e-12);
-  EXPECT_EQ(s.left_out[1].begin_ns, 24);  // the fourth stop
+  EXPECT_EQ(s.left_out[1].begin_ns, 24);  // fourth stop
   EXPECT_EQ(s.left_out[1].reason, "stop_near_no_target");
   EXPECT_EQ(s.points.size(), 3u);
 }

@@ -1,5 +1,5 @@
-// Stops without a point, and targets that are all visited again at a distance, with stops made by
-// hand. Mutation tests (tests/mutate) found these cases.
+// Tests stops without a point, and targets that are all visited again at a constant distance. The
+// stops are defined by hand. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -13,7 +13,7 @@ namespace {
 
 using PassedOver = DwellDetector::Summary::PassedOver;
 
-// Visits in order, a second apart; `order` has the target number of each visit.
+// Visits in intervals of a second. `order` contains the target number of each visit.
 Sequence visited(const std::vector<double>& targets_m, const std::vector<int>& order) {
   Sequence sequence;
   sequence.targets_m = targets_m;
@@ -37,14 +37,15 @@ std::size_t lost(const Sequence& sequence, double position_m, std::int64_t begin
 
 TEST(LostStops, HaveNoAdjacentPointOfTheirTarget) {
   const Sequence s = visited({0, 10e-3, 20e-3, 30e-3}, {1, 2, 4});
-  EXPECT_EQ(lost(s, 20e-3, 1'500'000'000), 1u);  // between targets 2 and 4: target 3 has no point
-  EXPECT_EQ(lost(s, 10e-3, 1'500'000'000), 0u);  // target 2 again, directly after its point
-  EXPECT_EQ(lost(s, 30e-3, 1'500'000'000), 0u);  // target 4, directly before its point
-  EXPECT_EQ(lost(s, 0, 1'500'000'000), 1u);      // target 1, but its point is not adjacent
+  // Between the points of targets 2 and 4; target 3 has no point.
+  EXPECT_EQ(lost(s, 20e-3, 1'500'000'000), 1u);
+  EXPECT_EQ(lost(s, 10e-3, 1'500'000'000), 0u);  // again at target 2, directly after its point
+  EXPECT_EQ(lost(s, 30e-3, 1'500'000'000), 0u);  // at target 4, directly before its point
+  EXPECT_EQ(lost(s, 0, 1'500'000'000), 1u);      // at target 1, not beside its point
   EXPECT_EQ(lost(s, 25e-3, 1'500'000'000), 0u);  // at no target
-  EXPECT_EQ(lost(s, 0, -1), 0u);                 // before all points, at the first point's target
+  EXPECT_EQ(lost(s, 0, -1), 0u);                 // before all points, at the target of the first
   EXPECT_EQ(lost(s, 30e-3, -1), 1u);
-  EXPECT_EQ(lost(s, 30e-3, 9'000'000'000), 0u);  // after all points, at the last point's target
+  EXPECT_EQ(lost(s, 30e-3, 9'000'000'000), 0u);  // after all points, at the target of the last
   EXPECT_EQ(lost(s, 10e-3, 9'000'000'000), 1u);
   EXPECT_EQ(lost(visited({}, {}), 0, 0), 0u);
 }
@@ -62,7 +63,7 @@ TEST(ShiftedTargets, AreFoundWithTimeAndShift) {
   EXPECT_NEAR(back->shift_m, -d, 1e-12);
 }
 
-// One side has one more target: the shift holds for the common targets.
+// One direction has one more target. The shift is calculated from the common targets.
 TEST(ShiftedTargets, MayHaveOneMoreTargetOnOneSide) {
   const double d = 2e-3;
   EXPECT_NEAR(find_shifted_targets(
@@ -86,12 +87,13 @@ TEST(ShiftedTargets, AreNotFoundIfTheShiftsDiffer) {
                 off_m < 50e-6);
     }
   }
-  // Two targets before and two after are too few; with a target on both sides there is no shift.
+  // Two targets in each direction are too few. If a target has visits in both directions, there is
+  // no shift.
   EXPECT_FALSE(find_shifted_targets(visited({0, d, 10e-3, 10e-3 + d}, {1, 3, 4, 2})));
   EXPECT_FALSE(find_shifted_targets(
       visited({0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d}, {1, 3, 5, 6, 4, 2, 1, 3, 5})));
   EXPECT_FALSE(find_shifted_targets(visited({0, 10e-3, 20e-3}, {1, 2, 3, 3, 2, 1})));
-  // A shift of half of the range or more is another part of the axis.
+  // If the shift is at least half of the range, the visits are taken as another part of the axis.
   for (const double far_m : {9.9e-3, 10.1e-3})
     EXPECT_EQ(find_shifted_targets(
                   visited({0, 3e-3, far_m, 3e-3 + far_m, 20e-3, 20e-3 + far_m}, {1, 2, 5, 6, 4, 3}))

@@ -1,5 +1,5 @@
-// Which places are no targets, by their visits and their distance, on both sides of each limit.
-// Mutation tests (tests/mutate) found these cases.
+// Tests which positions are not targets, depending on their visits and distances, on both sides of
+// each limit. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-// A place and the number of its visits from below and from above.
+// A position and the numbers of its visits from below and from above.
 struct Visited {
   double position_mm;
   int forward, reverse;
@@ -20,10 +20,11 @@ struct Visited {
 
 struct Told {
   std::vector<double> kept_mm;
-  std::vector<std::string> reasons;  // reason of each stop that is left out
+  std::vector<std::string> reasons;  // reason for each stop that is left out
 };
 
-// The log visits all places, and again those with more visits, so it ends at one of these.
+// Simulates a log. It visits all positions, then again those with more visits, so it ends at one of
+// these.
 Told left_out_stops(const std::vector<Visited>& places, bool parked_first = false) {
   std::vector<double> targets_m;
   for (const Visited& place : places) targets_m.push_back(1e-3 * place.position_mm);
@@ -48,7 +49,7 @@ Told left_out_stops(const std::vector<Visited>& places, bool parked_first = fals
   return reported;
 }
 
-// Targets at 0, 10 ... 60 mm, and one more place.
+// The targets are at 0, 10 ... 60 mm; one more position is added.
 Told stops_with_place(const Visited& odd, int forward, int reverse) {
   std::vector<Visited> places;
   for (int i = 0; i < 7; ++i) places.push_back({10.0 * i, forward, reverse});
@@ -72,10 +73,11 @@ TEST(OddStops, TargetNeedsSixTenthsOfTheVisits) {
   EXPECT_TRUE(is_target({3, 3, 0}, 5, 0));
   EXPECT_FALSE(is_target({3, 2, 0}, 5, 0));
   EXPECT_TRUE(is_target({3, 0, 3}, 0, 5));
-  EXPECT_FALSE(is_target({3, 3, 0}, 0, 5));  // from another side than the other targets
+  EXPECT_FALSE(is_target({3, 3, 0}, 0, 5));  // visited from the other side than the targets
 }
 
-// A place between two targets is a target if both are at least 0.6 of the interval away.
+// A position between two targets is a target if its distances from both are at least 0.6 of the
+// interval.
 TEST(OddStops, PlaceBetweenDistantTargetsIsATarget) {
   const auto with_gap = [](double gap_mm, double at_mm) {
     std::vector<Visited> places;
@@ -91,7 +93,7 @@ TEST(OddStops, PlaceBetweenDistantTargetsIsATarget) {
   EXPECT_EQ(with_gap(20, 14.1).size(), 2u);
 }
 
-// Beyond the end targets, a place is a target up to 1.6 of the interval.
+// Beyond the end targets, a position is a target if its distance is up to 1.6 of the interval.
 TEST(OddStops, PlaceBeyondTheEndMustBeNear) {
   for (const bool below : {false, true}) {
     const auto at = [&](double off_mm) { return below ? -off_mm : 60 + off_mm; };
@@ -102,8 +104,8 @@ TEST(OddStops, PlaceBeyondTheEndMustBeNear) {
   }
 }
 
-// Beyond the end, a place with one visit is no target if the other targets have three visits; with
-// two visits it may be a target.
+// A position beyond the end with one visit is no target if the targets have three visits. With two
+// visits it may be a target.
 TEST(OddStops, OneVisitBeyondTheEndIsNoTargetOfThree) {
   for (const double at_mm : {-10.0, 70.0}) {
     EXPECT_TRUE(is_target({at_mm, 1, 0}, 2, 0));
@@ -112,7 +114,7 @@ TEST(OddStops, OneVisitBeyondTheEndIsNoTargetOfThree) {
   }
 }
 
-// Places with more visits are evaluated first: with a target at 72 mm, 67 mm is no target.
+// Positions with more visits are evaluated first. If 72 mm is a target, 67 mm is no target.
 TEST(OddStops, PlacesWithMoreVisitsAreFirst) {
   const auto beyond = [](int near, int far) {
     std::vector<Visited> places;
@@ -123,10 +125,10 @@ TEST(OddStops, PlacesWithMoreVisitsAreFirst) {
   };
   EXPECT_NEAR(beyond(2, 3), 72, 1e-9);
   EXPECT_NEAR(beyond(3, 2), 67, 1e-9);
-  EXPECT_NEAR(beyond(2, 2), 67, 1e-9);  // with equal visits the nearer place is first
+  EXPECT_NEAR(beyond(2, 2), 67, 1e-9);  // with equal visits the nearer position is evaluated first
 }
 
-// Several places with few visits continue the row of targets, place by place.
+// Several positions with few visits continue the row of targets, one after the other.
 TEST(OddStops, RowOfFewVisitsContinues) {
   std::vector<Visited> places;
   for (int i = 0; i < 10; ++i) places.push_back({10.0 * i, i < 7 ? 3 : 1, i < 7 ? 3 : 1});
@@ -146,7 +148,8 @@ TEST(OddStops, ReasonDescribesThePlace) {
             std::vector<std::string>{"stop_beyond_targets"});
 }
 
-// All places have one visit. A start off the grid is recognised with four places or more.
+// Each position has one visit. A parked start beside the targets is recognised if there are at
+// least four positions.
 TEST(OddStops, LeavesOutAParkedStartOfASinglePass) {
   const auto kept = [](double parked_mm, int targets) {
     std::vector<Visited> places = {{parked_mm, 1, 0}};
@@ -159,12 +162,12 @@ TEST(OddStops, LeavesOutAParkedStartOfASinglePass) {
   EXPECT_TRUE(kept(-5.9, 4));
   EXPECT_FALSE(kept(-6.1, 4));
   EXPECT_FALSE(kept(-6.1, 3));
-  EXPECT_TRUE(kept(-6.1, 2));  // three places are too few
+  EXPECT_TRUE(kept(-6.1, 2));  // three positions are too few
 }
 
-// ---- typical values of the other places ----
+// ---- typical values of the other positions ----
 
-// Places for which the order of the visits has no effect.
+// Positions for which the order of the visits has no effect.
 std::vector<double> kept_positions_mm(const std::vector<Visited>& places) {
   return left_out_stops(places).kept_mm;
 }
@@ -176,9 +179,9 @@ void expect_kept(const std::vector<Visited>& places, const std::vector<double>& 
 }
 
 // The typical number of visits is the number that three quarters of the stops do not exceed. In the
-// first case, 12 of 16 stops are at places with at most two visits, so 3 mm is no target. In the
-// second case, fewer than three quarters are at places with one visit, so two visits are typical,
-// and there is only one place with two visits.
+// first case, 12 of 16 stops are at positions with at most two visits, so 3 mm is no target. In the
+// second case, fewer than three quarters of the stops are at positions with one visit, so two
+// visits are typical. Only one position has two visits.
 TEST(OddStopsTypical, CoversThreeQuartersOfTheStops) {
   expect_kept({{0, 2, 0},
                {3, 1, 0},
@@ -194,18 +197,18 @@ TEST(OddStopsTypical, CoversThreeQuartersOfTheStops) {
                   .reasons.empty());
 }
 
-// Whether targets are visited from both sides is decided by the majority of the places that have
-// three quarters of the typical visits.
+// Targets are visited from both sides if the majority of positions is. Only positions with at least
+// three quarters of the typical visits count for this majority.
 TEST(OddStopsTypical, MajorityDecidesBothSidesOrOne) {
   expect_kept({{0, 3, 3}, {3, 6, 0}, {10, 3, 3}, {13, 6, 0}}, {0, 10});
-  // Two places against three; the place with one visit from each side does not count.
+  // Two positions against three. The position with one visit from each side does not count.
   expect_kept({{0, 3, 3}, {3, 6, 0}, {10, 3, 3}, {13, 6, 0}, {23, 6, 0}, {33, 1, 1}},
               {3, 13, 23, 33});
-  // The place with three visits of four counts.
+  // A position with three visits counts if four visits are typical.
   expect_kept({{0, 2, 2}, {3, 4, 0}, {10, 2, 2}, {13, 4, 0}, {23, 3, 0}}, {3, 13, 23});
 }
 
-// There are 11 visits from below and 12 from above.
+// 11 visits are from below, 12 from above.
 TEST(OddStopsTypical, UsesTheSideWithMoreVisits) {
   expect_kept({{0, 0, 4}, {3, 4, 0}, {10, 0, 4}, {13, 4, 0}, {20, 0, 4}, {23, 3, 0}}, {0, 10, 20});
 }
@@ -214,14 +217,14 @@ TEST(OddStopsTypical, FromAboveOnlyIsNotFromBothSides) {
   EXPECT_FALSE(is_target({3, 0, 6}, 5, 5));
 }
 
-// The middle intervals are 5 and 20 mm; with 20 mm, 37 mm is too near to a target.
+// The middle intervals are 5 and 20 mm. The larger is used, so 37 mm is too near to a target.
 TEST(OddStopsTypical, UsesTheLargerMiddleInterval) {
   expect_kept({{0, 3, 3}, {5, 3, 3}, {10, 3, 3}, {30, 3, 3}, {37, 1, 1}, {50, 3, 3}},
               {0, 5, 10, 30, 50});
 }
 
-// A place with one visit, 6.5 mm beyond the last target with three visits, is no target. A place
-// 8.5 mm further may be the first of a row of new targets.
+// A position with one visit is 6.5 mm beyond the last target with three visits, so it is no target.
+// A position 8.5 mm further may be the first of a new row of targets.
 TEST(OddStopsTypical, OneVisitNearATargetIsNoTarget) {
   for (const bool below : {false, true}) {
     std::vector<Visited> places;
@@ -235,7 +238,7 @@ TEST(OddStopsTypical, OneVisitNearATargetIsNoTarget) {
   }
 }
 
-// ---- logs of a given order ----
+// ---- logs with a given order of stops ----
 
 struct Stop {
   double position_mm;
@@ -269,13 +272,13 @@ TEST(OddStopsOfALog, LastStopHasTheReasonEndOfLog) {
     for (int i = 0; i < 7; ++i) stops.push_back({10.0 * i, 1});
   stops.push_back({63, 1});
   EXPECT_EQ(left_out_reasons(stops), std::vector<std::string>{"stop_at_end_of_log"});
-  stops.push_back({60, 1});  // no longer the last stop
+  stops.push_back({60, 1});  // 63 mm is no longer the last stop
   EXPECT_EQ(left_out_reasons(stops), std::vector<std::string>{"stop_beyond_targets"});
-  stops.push_back({63, 1});  // again, as the last stop
+  stops.push_back({63, 1});  // 63 mm is the last stop again
   EXPECT_EQ(left_out_reasons(stops), std::vector<std::string>(2, "stop_beyond_targets"));
 }
 
-// The axis is parked above the targets, then makes a single pass down.
+// The axis is parked above the targets and then makes a single pass downwards.
 TEST(OddStopsOfALog, LeavesOutAParkedStartAboveTheTargets) {
   const auto kept = [](double parked_mm, bool parked) {
     std::vector<Stop> stops = {{parked_mm, -1}};
@@ -289,7 +292,7 @@ TEST(OddStopsOfALog, LeavesOutAParkedStartAboveTheTargets) {
   EXPECT_TRUE(kept(56.1, false));
 }
 
-// With one visit each, no side has more visits.
+// Each position has one visit, so neither side has more visits.
 TEST(OddStopsOfALog, KeepsAllPlacesWithOneVisitEach) {
   EXPECT_TRUE(left_out_reasons({{0, 1}, {10, 1}, {30, 1}, {20, -1}}).empty());
 }

@@ -1,5 +1,5 @@
-// The drifts of runs, compared with a least-squares fit of all runs and visits at once, without
-// elimination.
+// The drifts of runs are compared with a least-squares fit of all runs and visits at once, which
+// eliminates no unknowns.
 #include "algo/sequence/run_drifts.h"
 
 #include <gtest/gtest.h>
@@ -28,9 +28,9 @@ struct Case {
   }
 };
 
-// Least-squares solution of least norm; the columns are the runs, then the visits. The mean of each
-// group of runs that visits link is subtracted. The groups are found by spreading the lowest
-// number.
+// Least-squares solution with the smallest norm. The columns of the matrix are the runs, then the
+// visits. Visits link runs to groups; the mean of each group is subtracted. The groups are found by
+// copying the lowest number of a group to linked runs.
 std::vector<Errors5> fit_all_runs(const Case& of) {
   std::map<int, std::size_t> runs;
   std::map<std::pair<int, int>, std::size_t> visits;
@@ -82,7 +82,8 @@ void expect_the_same(const Case& of) {
     for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(drifts[run][k], expected[run][k], 1e-10);
 }
 
-// Few runs with many visits and many runs with few visits; a third of the visits is missing.
+// The cases have few runs with many visits, or many runs with few visits. A third of the visits is
+// missing.
 TEST(RunDrifts, MatchAFitOfAllRunsAndVisits) {
   std::mt19937 engine(7);
   for (int round = 0; round < 60; ++round) {
@@ -93,14 +94,14 @@ TEST(RunDrifts, MatchAFitOfAllRunsAndVisits) {
         for (const int direction : {1, -1})
           if (engine() % 3 > 0) of.add(10 - 2 * run, target, direction, engine);
     if (of.points.empty()) continue;
-    of.add(10, 1, -1, engine);  // a run may have a target twice
+    of.add(10, 1, -1, engine);  // a run may visit a target twice
     SCOPED_TRACE(round);
     expect_the_same(of);
   }
 }
 
-// No visit links runs 1, 5 and 9 with runs 2, 4 and 8: each group has its own mean. Once there are
-// more visits than runs, once fewer.
+// No visit links the runs 1, 5 and 9 with the runs 2, 4 and 8, so each group has its own mean. One
+// case has more visits than runs, the other fewer.
 TEST(RunDrifts, UnlinkedRunsAreSeparate) {
   for (const int targets : {4, 1}) {
     std::mt19937 engine(3);
@@ -112,7 +113,7 @@ TEST(RunDrifts, UnlinkedRunsAreSeparate) {
       }
     expect_the_same(of);
     const RunDrifts found(of.points);
-    const auto drifts = found.of(of.errors);  // drifts of runs 1, 2, 4, 5, 8, 9
+    const auto drifts = found.of(of.errors);  // drifts of the runs 1, 2, 4, 5, 8, 9
     for (std::size_t k = 0; k < 5; ++k) {
       EXPECT_NEAR(drifts[0][k] + drifts[3][k] + drifts[5][k], 0, 1e-12);
       EXPECT_NEAR(drifts[1][k] + drifts[2][k] + drifts[4][k], 0, 1e-12);
@@ -123,7 +124,7 @@ TEST(RunDrifts, UnlinkedRunsAreSeparate) {
   }
 }
 
-// A chain of visits links each run to the next one only.
+// Visits link each run only to the next one.
 TEST(RunDrifts, AreCorrectForRunsLinkedByAChain) {
   std::mt19937 engine(5);
   Case of;

@@ -1,5 +1,5 @@
-// Each step of recognise_sequence() separately, with stops made by hand on both sides of its
-// limits. Mutation tests (tests/mutate) found these cases.
+// Tests each part of recognise_sequence() separately. The stops are defined by hand, on both sides
+// of the limits. Mutation tests (tests/mutate) found these cases.
 #include "algo/sequence/sequence_stops.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::vector<Point> stops_at(const Places& positions_m) {
   return points;
 }
 
-// A stop at a target, with the way that led to it.
+// A stop at a target, with the range of the motion before it.
 MeasuredPoint stop_of(int target, double position_m, int direction, double travel_min_m,
                       double travel_max_m, std::size_t samples = 100) {
   MeasuredPoint p;
@@ -43,28 +43,28 @@ TEST(TargetsOfStops, AreEmptyWithoutStops) {
   EXPECT_EQ(stop_targets(stops_at({3e-3})), Places{3e-3});
 }
 
-// Stops of a target scatter by at most 50 um.
+// The stops of a target may scatter by at most 50 um.
 TEST(TargetsOfStops, ScatterByAtMostFiftyMicrometres) {
   EXPECT_EQ(stop_targets(stops_at({0, 50e-6, 10e-3})), (Places{0, 10e-3}));
   EXPECT_EQ(stop_targets(stops_at({0, 51e-6, 10e-3})), (Places{0, 51e-6, 10e-3}));
 }
 
-// The distance to the next target is at least ten times the scatter of the stops. Multiples of
-// 2^-18 m are exact.
+// The distance to the next target is at least ten times the scatter of the stops. The test uses
+// multiples of 2^-18 m, which have no rounding errors.
 TEST(TargetsOfStops, AreTenTimesAsFarApartAsTheirStops) {
   const double part_m = 0x1p-18;  // 3.8 um
   EXPECT_EQ(stop_targets(stops_at({0, part_m, 11 * part_m})), (Places{0, 11 * part_m}));
   EXPECT_EQ(stop_targets(stops_at({0, part_m, 10.9 * part_m})).size(), 3u);
 }
 
-// The first gap is 20 times the smallest scatter of 2 um, the next one 11 times the first gap: the
-// first ratio is larger.
+// Ratios of successive gaps: the first gap is 20 times the smallest scatter (2 um), the second gap
+// is 11 times the first. The first ratio is larger and is used.
 TEST(TargetsOfStops, FirstGapDecidesIfItsRatioIsLarger) {
   EXPECT_EQ(stop_targets(stops_at({0, 1e-7, 40.1e-6, 480.1e-6})), (Places{0, 40.1e-6, 480.1e-6}));
 }
 
-// The larger ratio decides: 10 and 149 for steps of 4, 40 and 5956 um. A step of 60 um is too large
-// for scatter, so the ratio after it does not count.
+// The larger ratio is used: steps of 4, 40 and 5956 um have the ratios 10 and 149. A step of 60 um
+// is too large for scatter, so the ratio after it is not used.
 TEST(TargetsOfStops, LargestGapRatioDecides) {
   EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 64e-6, 6e-3})).size(), 3u);
   EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 44e-6, 6e-3})), (Places{0, 6e-3}));
@@ -76,7 +76,7 @@ TEST(TargetsOfStops, StopsWithinTwoMicrometresAreOne) {
   EXPECT_EQ(stop_targets(stops_at({0, 2.1e-6})).size(), 2u);
 }
 
-// The first stop is used, not the lowest and not the last.
+// The position of a target is its first stop, not the lowest and not the last.
 TEST(TargetsOfStops, AreAtTheFirstStop) {
   EXPECT_EQ(stop_targets(stops_at({5.001e-3, 1e-6, 5e-3, 0, 5.002e-3})), (Places{1e-6, 5.001e-3}));
 }
@@ -85,7 +85,7 @@ TEST(NearestTarget, IsTheNearerNeighbour) {
   const Places targets_m = {0, 1, 3};
   EXPECT_EQ(nearest_target(targets_m, -5), 0u);
   EXPECT_EQ(nearest_target(targets_m, 0.4), 0u);
-  EXPECT_EQ(nearest_target(targets_m, 0.5), 0u);  // the lower of two targets at the same distance
+  EXPECT_EQ(nearest_target(targets_m, 0.5), 0u);  // two targets are equally far: the lower one
   EXPECT_EQ(nearest_target(targets_m, 0.6), 1u);
   EXPECT_EQ(nearest_target(targets_m, 1), 1u);
   EXPECT_EQ(nearest_target(targets_m, 1.9), 1u);
@@ -93,10 +93,10 @@ TEST(NearestTarget, IsTheNearerNeighbour) {
   EXPECT_EQ(nearest_target(targets_m, 7), 2u);
 }
 
-// The axis stops at 0 after it was `beyond_m` beyond 0; it comes from a distance of `from_m`.
+// The axis comes from the distance `from_m`, moves `beyond_m` beyond 0, and returns to 0.
 bool is_overshot(int direction, double beyond_m, double from_m) {
   Point p;
-  p.direction = direction;  // direction of the last motion, the correction
+  p.direction = direction;  // direction of the correction, the last motion
   p.travel_min_m = direction < 0 ? -from_m : -beyond_m;
   p.travel_max_m = direction < 0 ? beyond_m : from_m;
   const bool overshot = correct_overshot(p);
@@ -112,7 +112,7 @@ TEST(Overshot, IsFrom40To250Micrometres) {
     EXPECT_TRUE(is_overshot(direction, 0.25e-3, 5e-3));
     EXPECT_FALSE(is_overshot(direction, 0.251e-3, 5e-3));
     EXPECT_TRUE(is_overshot(direction, 0.1e-3, 0.21e-3));
-    EXPECT_FALSE(is_overshot(direction, 0.1e-3, 0.2e-3));  // at least twice as far
+    EXPECT_FALSE(is_overshot(direction, 0.1e-3, 0.2e-3));  // `from_m` must exceed twice `beyond_m`
     EXPECT_FALSE(is_overshot(direction, kNaN, kNaN));
   }
   EXPECT_FALSE(is_overshot(0, 0.1e-3, 5e-3));
@@ -143,7 +143,8 @@ TEST(AssumedApproach, IsThatOfTheNextMotion) {
   EXPECT_EQ(assumed({at(3, 0), at(2, -1)}), (std::vector{-1, -1}));
   EXPECT_EQ(assumed({at(3, 0), at(3, -1)}), (std::vector{1, -1}));
   EXPECT_EQ(assumed({at(3, 0)}), std::vector{1});
-  EXPECT_EQ(assumed({at(3, -1), at(3, 0), at(5, 1)}), (std::vector{-1, -1, 1}));  // the axis stayed
+  // The axis did not move.
+  EXPECT_EQ(assumed({at(3, -1), at(3, 0), at(5, 1)}), (std::vector{-1, -1, 1}));
   EXPECT_EQ(assumed({at(2, 1), at(3, 0), at(1, -1)}), (std::vector{1, -1, -1}));
   std::vector<MeasuredPoint> points = {at(3, 0), at(4, 1)};
   assume_approaches(points);
@@ -151,7 +152,8 @@ TEST(AssumedApproach, IsThatOfTheNextMotion) {
   EXPECT_FALSE(has_flag(points[1].point, Flag::approach_assumed));
 }
 
-// The longer part is kept; of two equally long parts the first. The way is that of the first part.
+// The longer part of an interrupted stop is used, or the first if both are equally long. Its
+// approach is the approach of the first part.
 TEST(Interrupted, KeepsTheLongerPart) {
   for (const std::size_t samples : {99u, 100u, 101u}) {
     std::vector<MeasuredPoint> points = {stop_of(2, 5e-3, 1, 0, 5e-3),
@@ -196,7 +198,7 @@ TEST(ParkedStart, IsLeftOutIfTheAxisReturns) {
   EXPECT_EQ(left_out(false, stop_of(1, 0, 1, -1e-3, 0)), 0u);
   EXPECT_EQ(left_out(true, stop_of(1, 0, -1, -1e-3, 0)), 0u);
   EXPECT_EQ(left_out(true, stop_of(2, 0, 1, -1e-3, 0)), 0u);
-  EXPECT_EQ(left_out(true, stop_of(1, 0, 1, -10e-6, 0)), 0u);  // the axis stayed
+  EXPECT_EQ(left_out(true, stop_of(1, 0, 1, -10e-6, 0)), 0u);  // the axis did not move
   std::vector<MeasuredPoint> none, one = {stop_of(1, 0, 1, -1e-3, 0)};
   EXPECT_TRUE(leave_out_parked_start(none).empty());
   EXPECT_TRUE(leave_out_parked_start(one).empty());

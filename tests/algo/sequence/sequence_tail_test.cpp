@@ -1,5 +1,5 @@
-// A sequence that grows stop by stop equals the sequence of the whole log. The test records target,
-// run and direction of each stop.
+// A sequence to which stops are appended one by one must equal the sequence of the whole log. The
+// test records target, run and direction of each stop.
 #include "algo/sequence/sequence_tail.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ struct Placed {
   int target, run, direction;
 };
 
-// Forward and back over the targets, beyond both ends, `runs` times; each stop has the way that led
-// to it.
+// The axis moves over the targets and back, beyond both ends, `runs` times. Each stop has the range
+// of the motion before it.
 struct Walk {
   std::vector<Point> stops;
   std::vector<Placed> truth;
@@ -86,22 +86,24 @@ TEST(SequenceTail, FindsTargetRunAndDirectionOfEachStop) {
   }
 }
 
-// A stop without target, an interrupted stop, an overshot stop, and stops with unseen approach.
+// A stop without target, an interrupted stop, an overshot stop, and stops whose approach is
+// unknown.
 TEST(SequenceTail, OddStopsEqualThoseOfTheWholeLog) {
   SequenceOptions given;
   for (int i = 0; i < 11; ++i) given.targets_m.push_back(i * 5e-3);
   Walk walk;
   walk.standard(11, 5e-3, 12);
   auto& stops = walk.stops;
-  stops[150].position_m += 1e-3;  // no target
+  stops[150].position_m += 1e-3;  // a stop without target
   Point part = stops[170];
   part.begin_ns += 400'000'000, part.end_ns += 400'000'000, part.samples = 500;
   part.travel_min_m = part.travel_max_m = part.position_m;
-  stops.insert(stops.begin() + 171, part);  // the same stop, interrupted; this is its longer part
+  // The longer part of the same stop, which was interrupted.
+  stops.insert(stops.begin() + 171, part);
   stops[180].travel_max_m = stops[180].position_m + 100e-6;
   stops[180].travel_min_m = stops[180].position_m - 5e-3;
-  stops[180].direction = -1;                       // returned from 0.1 mm beyond
-  for (const std::size_t unseen : {200u, 215u}) {  // forward and reverse
+  stops[180].direction = -1;                       // returns from 0.1 mm beyond the target
+  for (const std::size_t unseen : {200u, 215u}) {  // unknown approach: forward and reverse
     stops[unseen].direction = 0;
     stops[unseen].travel_min_m = stops[unseen].travel_max_m = kNaN;
   }
@@ -109,14 +111,15 @@ TEST(SequenceTail, OddStopsEqualThoseOfTheWholeLog) {
     expect_equal_sequences(grown(stops, whole, given), recognise_sequence(stops, given));
 }
 
-// Five targets 5 mm apart; the first `whole` stops are recognised, the others are appended.
+// Five targets 5 mm apart. The first `whole` stops are recognised together; the other stops are
+// appended.
 Sequence appended(const std::vector<Point>& stops, std::size_t whole) {
   SequenceOptions given;
   for (int i = 0; i < 5; ++i) given.targets_m.push_back(i * 5e-3);
   return grown(stops, whole, given);
 }
 
-// The axis left its last target and returned, unseen: the stop keeps the approach of the stop
+// During a gap the axis left its last target and returned. The stop has the approach of the stop
 // before.
 TEST(SequenceTail, StopAtTheLastTargetKeepsItsApproach) {
   Walk walk;
@@ -135,8 +138,8 @@ TEST(SequenceTail, StopAtTheLastTargetKeepsItsApproach) {
   }
 }
 
-// The axis is again at target 5 after target 4: the next motion determines the approach, not an
-// earlier stop.
+// After target 4 the axis is at target 5 again. The approach of this stop follows from the next
+// motion and not from an earlier stop.
 TEST(SequenceTail, StopElsewhereWaitsForTheNextMotion) {
   Walk walk;
   for (int i = 0; i < 5; ++i) walk.stop(i * 5e-3, i + 1, 1);
@@ -145,7 +148,7 @@ TEST(SequenceTail, StopElsewhereWaitsForTheNextMotion) {
   walk.stops.back().direction = 0;
   walk.stops.back().travel_min_m = walk.stops.back().travel_max_m = kNaN;
   const Sequence last = appended(walk.stops, 6);
-  EXPECT_EQ(last.points.back().point.direction, 1);  // until more is known
+  EXPECT_EQ(last.points.back().point.direction, 1);  // until the next motion is known
   EXPECT_TRUE(has_flag(last.points.back().point, Flag::approach_assumed));
   walk.stop(10e-3, 3, 1);
   for (const std::size_t whole : {6u, 7u}) {
@@ -155,7 +158,7 @@ TEST(SequenceTail, StopElsewhereWaitsForTheNextMotion) {
   }
 }
 
-// Each stop is at a new position: new targets are appended at the end.
+// Each stop is at a new position beyond the other targets, so its target is appended at the end.
 TEST(SequenceTail, AppendsNewTargetsAtTheEnd) {
   Walk walk;
   for (int i = 0; i < 600; ++i) walk.stop(i * 1e-3, i + 1, 1);
@@ -168,8 +171,8 @@ TEST(SequenceTail, AppendsNewTargetsAtTheEnd) {
   }
 }
 
-// A new position between the last two targets, and one before the first: the targets beyond are
-// renumbered.
+// One new position is between the last two targets, one is before the first target. The numbers of
+// the targets at larger positions increase by 1.
 TEST(SequenceTail, NewTargetRenumbersTheTargetsBeyond) {
   Walk walk;
   for (int i = 0; i < 5; ++i) walk.stop(i * 5e-3, i + 1, 1);

@@ -1,4 +1,4 @@
-// The measuring cycles of axes, as the encoder records them.
+// Tests the recognition of measuring cycles from the stops of an axis.
 #include "algo/sequence/sequence.h"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST(Cycle, QuasiPilgrimAtEachTargetRepeatedly) {
   EXPECT_EQ(check(m).cycle, Cycle::quasi_pilgrim);
 }
 
-// Three times forward and back over two targets, then over the next two.
+// Two targets are visited three times in both directions, then the next two targets, and so on.
 TEST(Cycle, QuasiPilgrimOverGroups) {
   Machine m;
   m.targets = {0, 5e-3, 10e-3, 15e-3, 20e-3, 25e-3, 30e-3, 35e-3};
@@ -152,12 +152,12 @@ TEST(Cycle, OvershootOfEveryStopIsNoTurn) {
     const Sequence s = check(m);
     EXPECT_EQ(s.runs, 3);
     EXPECT_EQ(s.cycle, Cycle::standard);
-    // An overshoot that does not look like an approach from the other side needs no notice.
+    // An overshoot is reported only if it looks like an approach from the other side.
     EXPECT_EQ(test::has(s.notices, NoticeCode::stop_overshot), by_m > 60e-6) << by_m;
   }
 }
 
-// The axis moves beyond each target, so that it approaches all of them from above.
+// The axis moves beyond each target, so it approaches all targets from above.
 TEST(Cycle, ApproachFromTheOtherSideCounts) {
   Machine m;
   for (int run = 1; run <= 2; ++run) {
@@ -320,7 +320,7 @@ TEST(Cycle, GivenTargetsLeaveOutOtherStops) {
   EXPECT_EQ(s.left_out.size(), 1u);
   EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_parked_at_start)) << test::shown(s.notices);
   EXPECT_FALSE(test::has(s.notices, NoticeCode::stop_near_no_target));
-  // A later stop off the targets that is not parked at the start belongs to no target.
+  // A later stop beside the targets, which is no parked start, belongs to no target.
   m.move_to(-20e-3);
   m.wait(1);
   s = check(m, options);
@@ -328,7 +328,8 @@ TEST(Cycle, GivenTargetsLeaveOutOtherStops) {
   EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_near_no_target)) << test::shown(s.notices);
 }
 
-// Live, points are displayed and stored at once; the points of a regular cycle keep their labels.
+// In a live run, points are displayed and stored at once. The labels of points in a regular cycle
+// must not change later.
 TEST(Cycle, LabelsStayWhenPointsAreAdded) {
   Machine m;
   m.standard(3);

@@ -1,5 +1,5 @@
-// If a log is cut or has targets with one approach, backlash and drift change neither slope nor
-// squareness.
+// If a log is cut, or if some targets have only one approach, backlash and drift must not change
+// slope or squareness.
 #include "algo/sequence/uneven_visits.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kBacklash_m = 1e-6, kDrift_m = 0.3e-6, kSlope = 20e-6, kStep_m = 5e-3;
 
-// Growth of the reversal from target to target.
+// Increase of the reversal from target to target.
 constexpr double kGrown_m = 0.2e-6;
 
 struct Visit {
@@ -31,8 +31,8 @@ struct Visit {
 };
 using Kept = std::function<bool(const Visit&)>;
 
-// Thirteen targets forward and back. EYX is a slope, half the backlash in each direction, a drift
-// from run to run, and a bow of 4 um.
+// A run with thirteen targets in both directions. EYX is the sum of a slope, half of the backlash
+// with the sign of the direction, a drift from run to run, and a bow of 4 um.
 Run cut_run(int runs, const Kept& kept, Axis axis = Axis::x, double drift_m = kDrift_m) {
   Run run;
   run.header.axis = axis;
@@ -123,7 +123,8 @@ TEST(UnevenVisits, DriftOfAnIncompleteRunDoesNotTiltTheMean) {
     const Squareness s = squareness(cut_run(3, lacking[i]), y, {}).value();
     EXPECT_NEAR(s.slope_a_rad, kSlope, 1e-14) << i;
     EXPECT_NEAR(s.error_rad, whole.error_rad, 1e-14) << i;
-    // The drift shifts whole runs: its uncertainty remains, and the form does not contribute.
+    // The drift shifts whole runs, which is included in the uncertainty. The form must not increase
+    // it.
     EXPECT_NEAR(s.u_slope_a_rad / whole.u_slope_a_rad, 1, 0.5) << i;
   }
 }
@@ -137,13 +138,13 @@ TEST(UnevenVisits, DriftsOfTheRunsSumToZero) {
                 drift_um[run.points[i].run - 1], 1e-9);
 }
 
-// Targets that only one run visited also have the uncertainty of the run's level.
+// The u of targets that only one run visited also includes the uncertainty of the level of the run.
 TEST(UnevenVisits, UncertaintyOfEveryTargetContainsTheDrift) {
   const mdof::Run run = cut_run(2, [](const Visit& v) { return v.run < 2 || v.target < 10; });
   for (const auto approach : {Approach::forward, Approach::reverse, Approach::both})
     for (const TargetMean& mean : target_means({Axis::x, {}}, run.points, approach))
       EXPECT_NEAR(mean.u[0], 1.5 * kDrift_m, 1e-12)
-          << to_string(approach);  // mean of 1 and 4: s/√2
+          << to_string(approach);  // the mean of the levels 1 and 4 has u = s/√2
 }
 
 TEST(UnevenVisits, TableOfRunsWithOtherTargetsHasNoStep) {
@@ -156,7 +157,7 @@ TEST(UnevenVisits, TableOfRunsWithOtherTargetsHasNoStep) {
   for (std::size_t i = 0; i < 13; ++i) {
     EXPECT_NEAR(table.forward[0][i] - table.forward[0][0],
                 whole.forward[0][i] - whole.forward[0][0], 1e-15);
-    // The level cancels; the noise of 1 nm remains.
+    // The levels of the runs cancel. The noise of 1 nm remains.
     EXPECT_LE(table.u_forward[0][i], 2e-9);
     EXPECT_GT(table.u_forward[0][i], 0.3e-9);
   }
@@ -173,8 +174,9 @@ TEST(UnevenVisits, ReportsIfNoTargetHasBothApproaches) {
   EXPECT_EQ(test::shown(uneven_visits(run.points)), "approaches_mixed\n");
 }
 
-// The least-squares solution by alternating between the means of the runs and of the visits,
-// without equations. `group` of a run: runs of different groups share no visit.
+// The least-squares solution without equations: the means of the runs and of the visits are
+// calculated in turn until they converge. `group`: group of a run; runs of different groups share
+// no visit.
 std::map<int, double> alternating_drifts(const std::vector<MeasuredPoint>& points,
                                          const std::function<int(int)>& group) {
   std::map<int, double> of_run;
@@ -205,8 +207,8 @@ std::map<int, double> alternating_drifts(const std::vector<MeasuredPoint>& point
   return of_run;
 }
 
-// Few runs with many targets and many runs with few targets are solved in different ways. Two
-// groups of runs share no visit.
+// Few runs with many targets and many runs with few targets are solved by different methods. The
+// runs form two groups that share no visit.
 TEST(UnevenVisits, DriftsMatchLeastSquares) {
   const auto group = [](int run) { return run % 2; };
   std::mt19937_64 engine(11);
@@ -228,7 +230,7 @@ TEST(UnevenVisits, DriftsMatchLeastSquares) {
   }
 }
 
-// Runs without a common visit cannot be compared.
+// Runs without a common visit cannot be compared, so no drift is subtracted.
 TEST(UnevenVisits, RunsWithoutACommonVisitAreUnchanged) {
   const mdof::Run run = cut_run(2, [](const Visit& v) { return (v.run == 1) == (v.target < 7); });
   const auto same = subtract_run_drifts(run.points).points;
@@ -236,7 +238,7 @@ TEST(UnevenVisits, RunsWithoutACommonVisitAreUnchanged) {
     EXPECT_NEAR(same[i].errors.local[0], run.points[i].errors.local[0], 1e-18);
 }
 
-// A line through three neighbouring targets would follow their noise.
+// Three neighbouring targets are too few for a slope, because the slope would follow their noise.
 TEST(UnevenVisits, RunOfThreeTargetsKeepsTheSlopeUncertainty) {
   std::mt19937_64 engine(4);
   std::normal_distribution<> unit;
@@ -267,10 +269,10 @@ TEST(UnevenVisits, TableRemovesTheSlopeOfTheWholeAxis) {
   }
 }
 
-// Targets 8 to 13 have one approach, and the reversal is kGrown_m times the target number.
-// Calculated by hand: the mean reversal of the others is that of target 4, so target i deviates by
-// (i - 4)/2 of kGrown_m; the slope over the 13 targets deviates by sum((i - 7)(i - 4)) / 2 / 182 =
-// 77/182 of kGrown_m per step.
+// Targets 8 to 13 have one approach. The reversal of a target is kGrown_m times its number.
+// Calculated by hand: the mean reversal of the other targets is the reversal of target 4, so the
+// mean of target i is wrong by (i - 4)/2 kGrown_m. The slope over the 13 targets is wrong by sum((i
+// - 7)(i - 4)) / 2 / 182 = 77/182 of kGrown_m per target.
 TEST(UnevenVisits, UncertaintyCoversAGrowingReversal) {
   for (const int only : {1, -1}) {
     mdof::Run x = cut_run(1, [&](const Visit& v) { return v.direction == only || v.target < 8; });
@@ -294,9 +296,10 @@ TEST(UnevenVisits, UncertaintyCoversAGrowingReversal) {
   }
 }
 
-// Stated u over true u of the slope if half of the targets lack an approach and the reversal
-// differs between targets. In one trial of ten the scatter looks like a trend, which then
-// contributes to u, so the mean square is too large. Without these trials it is correct.
+// Half of the targets lack an approach, and the reversal differs from target to target. Compared:
+// the stated u of the slope and the rms of its error. In one of ten trials, the scatter of the
+// reversal looks like a trend; the trend is then added to u, and the mean square of u is too large.
+// The other trials must be correct.
 TEST(UnevenVisits, UncertaintyCoversAScatteringReversal) {
   std::mt19937_64 engine(3);
   std::normal_distribution<> unit;

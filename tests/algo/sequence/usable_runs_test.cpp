@@ -66,7 +66,8 @@ TEST(UsableRuns, NeverUsesAnAbortedOrFailedRun) {
   EXPECT_TRUE(inherited_notices(all_of({run_of(7, RunState::complete, "a")})).empty());
 }
 
-// A saturated end of the travel changed a squareness by 96 urad, and only the run had a notice.
+// At the end of the travel a probe was saturated, which changed a squareness by 96 urad. Only the
+// run had a notice.
 TEST(UsableRuns, InheritsTheNoticesOfTheRuns) {
   mdof::Run a = run_of(7, RunState::complete, "a"), b = run_of(8, RunState::complete, "b");
   b.header.notices = {notice(NoticeCode::cycle_unknown), notice(NoticeCode::probe_dead, "A")};
@@ -82,7 +83,7 @@ TEST(UsableRuns, RejectsSimulatedWithMeasuredRuns) {
   EXPECT_EQ(refusal({a, b}), "");
 }
 
-// The same readings, counted twice, would make u smaller by a factor of √2.
+// If the same readings were counted twice, u would be too small by a factor of √2.
 TEST(UsableRuns, RejectsTheSameRecordingTwice) {
   const auto run = [](std::int64_t id, const char* recording) {
     return run_of(id, RunState::complete, recording);
@@ -91,7 +92,7 @@ TEST(UsableRuns, RejectsTheSameRecordingTwice) {
   EXPECT_TRUE(contains(why, "run 1 and run 5 come from the same recording")) << why;
   EXPECT_TRUE(contains(why, "leave one run out") && contains(why, "/data/log.mdofrec")) << why;
   EXPECT_EQ(refusal({run(1, "a"), run(2, "b")}), "");
-  EXPECT_EQ(refusal({run(1, ""), run(2, "")}), "");  // not known to be the same
+  EXPECT_EQ(refusal({run(1, ""), run(2, "")}), "");  // the recordings are unknown and may differ
   EXPECT_TRUE(contains(refusal({run(1, ""), run(1, "")}), "run 1 is given twice"));
 }
 
@@ -103,7 +104,8 @@ TEST(UsableRuns, RejectsARunWithItsContinuation) {
     EXPECT_TRUE(contains(refusal(runs), "run 6 continues run 4")) << refusal(runs);
 }
 
-// A log and its compressed copy, or a run and a continuation of its continuation.
+// Runs with common readings: a log and its compressed copy; a run and a continuation of its
+// continuation.
 TEST(UsableRuns, RejectsRunsWithCommonReadings) {
   mdof::Run log = run_of(1, RunState::complete, "a"), copy = run_of(2, RunState::complete, "b");
   for (std::size_t i = 0; i < log.points.size(); ++i)

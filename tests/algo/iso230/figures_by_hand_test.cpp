@@ -1,5 +1,5 @@
-// Lines, angles, tables and squareness of a few points, calculated by hand. tests/mutate showed
-// that these tests were missing.
+// Lines, angles, tables and squareness of a few points, calculated by hand. Mutation tests
+// (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 
 using Column = std::vector<double>;
 
-// Run j has first_error_at(j, target) as its first named error and EBX/EBY = b_of(target), in both
-// directions.
+// In run j the first named error is first_error_at(j, target) and EBX or EBY is b_of(target), in
+// both directions.
 template <class Y, class B>
 mdof::Run run_by_hand(Axis axis, const Column& x_m, int runs, Y first_error_at, B b_of) {
   mdof::Run run;
@@ -42,7 +42,7 @@ mdof::Run run_by_hand(Axis axis, const Column& x_m, int runs, Y first_error_at, 
   return run;
 }
 
-// Through (1, 5) and (4, -1): slope -2, 7 at 0.
+// The line through (1, 5) and (4, -1) has the slope -2 and the value 7 at 0.
 TEST(LineByHand, ThroughTheEnds) {
   const Line line = end_point_line(Column{1, 2, 4}, Column{5, 99, -1});
   EXPECT_EQ(line.slope, -2);
@@ -50,7 +50,7 @@ TEST(LineByHand, ThroughTheEnds) {
   EXPECT_EQ(line.at(2), 3);
 }
 
-// Two readings leave no residual from which to estimate an uncertainty.
+// Two readings have no residual, so the uncertainty is unknown.
 TEST(LineByHand, TwoReadingsHaveNoUncertainty) {
   const Line line = least_squares_line(Column{1, 3}, Column{5, 1});
   EXPECT_NEAR(line.slope, -2, 1e-15);
@@ -60,18 +60,19 @@ TEST(LineByHand, TwoReadingsHaveNoUncertainty) {
   EXPECT_EQ(line.residual_sd, 0);
 }
 
-// x 0, 1, 5 and y 1, 0, 5: means 2 and 2, Sxx = 14, Sxy = 2 + 2 + 9 = 13.
+// x = 0, 1, 5 and y = 1, 0, 5 have the means 2 and 2, Sxx = 14 and Sxy = 2 + 2 + 9 = 13.
 TEST(LineByHand, LeastSquaresWithUncertainty) {
   const Line line = least_squares_line(Column{0, 1, 5}, Column{1, 0, 5});
   EXPECT_NEAR(line.slope, 13 / 14.0, 1e-15);
   EXPECT_NEAR(line.intercept, 2 - 26 / 14.0, 1e-15);
-  // Sum of squared residuals: Syy - Sxy²/Sxx = 14 - 169/14 = 27/14, with one degree of freedom.
+  // The sum of the squared residuals is Syy - Sxy²/Sxx = 14 - 169/14 = 27/14. It has one degree of
+  // freedom.
   EXPECT_NEAR(line.residual_sd, std::sqrt(27 / 14.0), 1e-14);
   EXPECT_NEAR(line.u_slope, std::sqrt(27.0) / 14, 1e-14);
   EXPECT_NEAR(line.u_intercept, std::sqrt(27 / 14.0 * (1 / 3.0 + 4 / 14.0)), 1e-14);
 }
 
-// About the line y = 2: deviations -3, 4, 4, -5, 0.
+// The deviations from the line y = 2 are -3, 4, 4, -5, 0.
 TEST(LineByHand, Deviations) {
   Line level;
   level.intercept = 2;
@@ -84,7 +85,7 @@ TEST(LineByHand, Deviations) {
 const Column kUneven_m = {0, 1e-3, 5e-3, 7e-3, 20e-3};
 const Column kAngle_rad = {7e-6, 4e-6, 9e-6, 12e-6, 6e-6};
 
-// The angle begins at 7 urad: relative to its start it goes from -3 to 5 urad.
+// The angle is 7 urad at the start. Relative to its start it is from -3 to 5 urad.
 TEST(AnglesByHand, AreReferredToANonZeroStart) {
   const mdof::Run run = run_by_hand(
       Axis::x, kUneven_m, 1, [](int, std::size_t) { return 0.0; },
@@ -108,7 +109,7 @@ TEST(AnglesByHand, NeedTwoTargets) {
     return angles(run.header.moving(), run.points).size();
   };
   EXPECT_EQ(count_target_figures(1), 0u);
-  // EAX, EBX and ECX; mean, forward and reverse.
+  // Three angles (EAX, EBX, ECX) for mean, forward and reverse.
   EXPECT_EQ(count_target_figures(2), 9u);
 }
 
@@ -144,7 +145,7 @@ TEST(TableByHand, OnePositionAppliesEverywhere) {
   }
 }
 
-// Without values at 1 and 3: linear from 0 to 2, constant beyond 2.
+// The values at 1 and 3 are missing. The table is linear from 0 to 2 and constant beyond 2.
 TEST(TableByHand, IsLinearAcrossAMissingValue) {
   const CompensationTable table = table_of({0, 1, 2, 3}, {4, kNaN, 10, kNaN});
   const auto at = [&](double x) { return table_at(table, x, TableSide::forward); };
@@ -160,7 +161,8 @@ TEST(TableByHand, IsLinearAcrossAMissingValue) {
   EXPECT_EQ(table_at(table_of({0, 1, 2}, {kNaN, 6, 8}), 0.5, TableSide::forward).error[0], 6);
 }
 
-// Targets of two runs are the same within 2 % of the smallest step, 1 mm.
+// Two targets of two runs are the same target if they differ by at most 2 % of the smallest step of
+// 1 mm.
 TEST(TableByHand, MergesTargetsWithinTwoPercent) {
   const auto nought = [](auto...) { return 0.0; };
   for (const double off_m : {19.9e-6, -19.9e-6, 20.1e-6, -20.1e-6}) {
@@ -172,8 +174,8 @@ TEST(TableByHand, MergesTargetsWithinTwoPercent) {
   }
 }
 
-// Three runs have slopes of 10, 20 and 60 urad about the middle of unevenly spaced targets: s =
-// √700 urad of the slopes, u = s/√3. The scatter at the targets would give a smaller u.
+// The slopes of three runs are 10, 20 and 60 urad about the middle of unevenly spaced targets. s of
+// the slopes is √700 urad, u = s/√3. The scatter at the targets alone would give a smaller u.
 TEST(SquarenessByHand, IncludesTheScatterOfTheSlopes) {
   const double middle_m = 33e-3 / 5;
   const Column slopes = {10e-6, 20e-6, 60e-6};
@@ -192,7 +194,8 @@ TEST(SquarenessByHand, IncludesTheScatterOfTheSlopes) {
   EXPECT_NEAR(s.u_error_rad, s.u_slope_a_rad, 1e-15);
 }
 
-// Two runs with slopes of 10 and 30 urad: s = 20/√2, u = s/√2. The runs keep their numbers.
+// The slopes of two runs are 10 and 30 urad: s = 20/√2 urad, u = s/√2. The numbers of the runs are
+// unchanged.
 TEST(SquarenessByHand, UsesTwoRunsOfOneAxis) {
   const auto none = [](std::size_t) { return 0.0; };
   const mdof::Run x = run_by_hand(
@@ -210,7 +213,7 @@ TEST(SquarenessByHand, UsesTwoRunsOfOneAxis) {
   EXPECT_NE(s.run_a, s.run_b);
 }
 
-// The angle of the square is declared by one rig, or equally by both.
+// The angle of the square is declared by one rig, or with the same value by both.
 TEST(ArtefactByHand, OneRigMayDeclareIt) {
   const Rig x_without = test::rig_x(),
             y_without = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_Y.toml").value();
@@ -229,7 +232,7 @@ TEST(ArtefactByHand, OneRigMayDeclareIt) {
   EXPECT_EQ(combined_artefact(x_without, y_without, {})->angle_error_rad, 0);
 }
 
-// 0, 3, -2, 2, 1 µm have a mean of 0.8 µm and a slope of 10 µrad.
+// The values 0, 3, -2, 2, 1 µm have a mean of 0.8 µm and a slope of 10 µrad.
 TEST(StraightnessByHand, StatesPeakValleyAndUOfTheSlope) {
   const Column x = {0, 10e-3, 20e-3, 30e-3, 40e-3}, y = {0, 3e-6, -2e-6, 2e-6, 1e-6};
   const mdof::Run run = run_by_hand(
@@ -241,7 +244,8 @@ TEST(StraightnessByHand, StatesPeakValleyAndUOfTheSlope) {
   EXPECT_EQ(figures[0].peak_position_m, 10e-3);
   EXPECT_EQ(figures[0].valley_position_m, 20e-3);
   EXPECT_NEAR(figures[0].straightness_least_squares_m, 5.1e-6, 1e-18);
-  // Residuals -0.6, 2.3, -2.8, 1.1, 0: 14.7 µm² with 3 degrees of freedom; Σ(x - x̄)² = 1000 mm².
+  // The residuals are -0.6, 2.3, -2.8, 1.1, 0. The sum of their squares is 14.7 µm² with 3 degrees
+  // of freedom; Σ(x - x̄)² = 1000 mm².
   EXPECT_NEAR(figures[0].form_rad, 1e-6 * std::sqrt(14.7 / 3 / 1e-3), 1e-12);
   const Squareness s = squareness(run,
                                   run_by_hand(
@@ -252,8 +256,8 @@ TEST(StraightnessByHand, StatesPeakValleyAndUOfTheSlope) {
   EXPECT_NEAR(s.form_rad, std::sqrt(5.0) * figures[0].form_rad, 1e-12);
 }
 
-// The third run has the lower half of the targets only. Relative to the mean of the available runs
-// at each target, the slopes of the three runs do not sum to 0.
+// Run 3 has only the lower half of the targets. At each target, the slopes are relative to the mean
+// of the runs with this target, so the slopes of the three runs do not sum to 0.
 TEST(SquarenessByHand, SlopesScatterAboutTheirOwnMean) {
   const Column x = {-30e-3, -20e-3, -10e-3, 0, 10e-3, 20e-3, 30e-3};
   const Column slopes = {10e-6, 20e-6, 60e-6};
@@ -264,8 +268,8 @@ TEST(SquarenessByHand, SlopesScatterAboutTheirOwnMean) {
   std::erase_if(run.points, [](const MeasuredPoint& p) { return p.run == 3 && p.target > 4; });
   const mdof::Run y = run_by_hand(
       Axis::y, x, 1, [](int, std::size_t) { return 0.0; }, [](std::size_t) { return 0.0; });
-  // The levels of the runs, by least squares over their common visits: the level of run 3 makes its
-  // four visits equal to those of the other runs on average.
+  // The levels of the runs follow from least squares over their common visits. The level of run 3
+  // is such that its four visits equal the visits of the other runs on average.
   std::array<double, 3> level{};
   for (int turn = 0; turn < 1000; ++turn) {
     std::array<double, 7> place{};

@@ -1,5 +1,5 @@
-// Published results: the squareness example in the manual of a laser interferometer, and NIST StRD
-// Norris.
+// Published results: the squareness example in the manual of a laser interferometer, and the data
+// set Norris of NIST StRD.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,10 +34,10 @@ TEST(LineFit, MatchesTheLinesOfTheManual) {
   const Line two = least_squares_line(kAxis2_m, kAxis2_um);
   EXPECT_NEAR(two.slope, -17.418182, 1e-6);
   EXPECT_NEAR(deviations_from(two, kAxis2_m, kAxis2_um).peak_to_valley, 1.083636, 1e-6);
-  EXPECT_NEAR(two.slope - one.slope, -25.0727, 1e-4);  // the manual's squareness, µrad
+  EXPECT_NEAR(two.slope - one.slope, -25.0727, 1e-4);  // squareness in the manual, µrad
 }
 
-// Of several equal deviations, the first is named.
+// If several deviations are equal, the result is the first.
 TEST(LineFit, DeviationsNameTheFirstOfEqualOnes) {
   const std::vector<double> x = {0, 1, 2, 3, 4}, y = {0, 2, -1, 2, -1};
   const Deviations d = deviations_from(Line{}, x, y);
@@ -63,7 +63,7 @@ TEST(LineFit, AgreesWithNistNorris) {
   EXPECT_NEAR(line.residual_sd, 0.884796396144373, 1e-12);
 }
 
-// A run whose first named error is the given series, equal in both directions.
+// A run whose first named error has the given values in both directions.
 mdof::Run run_of(Axis axis, const std::vector<double>& x_m, const std::vector<double>& y_um) {
   mdof::Run run;
   run.header.axis = axis;
@@ -92,7 +92,7 @@ TEST(Squareness, CombinesBothSlopesAndTheArtefact) {
     const Squareness s = squareness(x, y, {2e-6, 0.5e-6, corner}).value();
     EXPECT_NEAR(s.error_rad * 1e6, 17.418182 - 7.654545 + 2 * corner, 1e-5);
     EXPECT_NEAR(s.slope_b_rad * 1e6, -17.418182, 1e-6);
-    // These points have no noise, and each run visits a target once: u contains the artefact only.
+    // The points have no noise, and each run visits a target once, so u contains only the artefact.
     EXPECT_DOUBLE_EQ(s.u_error_rad, 0.5e-6);
     const double slope_uncertainty_x = 1e-6 * least_squares_line(kAxis1_m, kAxis1_um).u_slope;
     const double slope_uncertainty_y = 1e-6 * least_squares_line(kAxis2_m, kAxis2_um).u_slope;
@@ -100,7 +100,8 @@ TEST(Squareness, CombinesBothSlopesAndTheArtefact) {
   }
 }
 
-// A run whose horizontal straightness has this slope, with noise of u_m at each point.
+// A run whose horizontal straightness has the given slope; the noise at each point has the standard
+// deviation u_m.
 mdof::Run noisy_run(Axis axis, double slope, double u_m, int repeat, std::mt19937_64& random) {
   std::normal_distribution<double> noise(0, u_m);
   mdof::Run run;
@@ -150,7 +151,8 @@ TEST(Squareness, NamesTheRunOfTheWrongAxis) {
   EXPECT_NE(refused.error().message.find("run 1 measures axis X"), std::string::npos);
 }
 
-// Side faces at y = face_x of the X rig and at x = face_y of the Y rig, mm.
+// Two rigs: the side face of the X rig is at y = face_x, the side face of the Y rig at x = face_y,
+// in mm.
 std::pair<Rig, Rig> rigs_at(double face_x, double face_y, const std::string& of_x = "",
                             const std::string& of_y = "") {
   const auto text = [](const char* axis, const std::string& extra, const std::string& side) {
@@ -201,7 +203,7 @@ TEST(Artefact, RefusesDifferentRigsOrAnUnknownCorner) {
   EXPECT_FALSE(combined_artefact(not_known, not_declared, {})->u_rad);
   const auto [zero, of_zero] = rigs_at(15, -15, "u_artefact_angle_urad = 0");
   EXPECT_EQ(combined_artefact(zero, of_zero, {})->u_rad, 0);
-  EXPECT_FALSE(combined_artefact(zero, same_y, {}));  // 0 and 0.5
+  EXPECT_FALSE(combined_artefact(zero, same_y, {}));  // u of 0 and 0.5 µrad
   const auto [at_0, other] = rigs_at(0, -15, three);
   for (const double no_square : {1e302, -0.011, std::nan("")})
     EXPECT_FALSE(combined_artefact(same_x, same_y, {.angle_error_rad = no_square, .u_rad = {}}));
@@ -219,7 +221,7 @@ TEST(Artefact, RefusesDifferentRigsOrAnUnknownCorner) {
 TEST(Straightness, ReportsBothReferenceLinesForEachApproach) {
   const mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
   const auto figures = straightness(run.header.moving(), run.points);
-  ASSERT_EQ(figures.size(), 6u);  // two errors, three approaches
+  ASSERT_EQ(figures.size(), 6u);  // two errors with three approaches each
   EXPECT_EQ(figures[0].error_key, "EYX_um");
   EXPECT_NEAR(figures[0].straightness_least_squares_m * 1e6, 0.703636, 1e-6);
   EXPECT_NEAR(figures[0].straightness_end_point_m * 1e6, 0.866667, 1e-6);
@@ -248,7 +250,7 @@ TEST(Squareness, EachLineCombinesBothSlopesAndTheArtefact) {
   EXPECT_EQ(lines.least_squares.error_rad, s.error_rad);
   EXPECT_NEAR(lines.end_point.error_rad * 1e6, 18.444444 - 8.333333 - 2, 1e-5);
   EXPECT_NEAR(lines.minimum_zone.error_rad * 1e6, 16.666667 - 7.833333 - 2, 1e-5);
-  // The manual states θ2 - θ1, with its own sign: -5.2" and -5.5".
+  // The manual states θ2 - θ1, which has the opposite sign: -5.2" and -5.5".
   const double arcsec = 180 * 3600 / (4 * std::atan(1.0));
   const auto manual = [&](const SquarenessLine& line) {
     return (line.slope_b_rad - line.slope_a_rad) * arcsec;
@@ -257,7 +259,7 @@ TEST(Squareness, EachLineCombinesBothSlopesAndTheArtefact) {
   EXPECT_NEAR(manual(lines.end_point), -5.52331, 1e-5);
 }
 
-// Yaw acts with a lever between the fixture and the origin of the carriage.
+// Between the fixture and the origin of the carriage, yaw has a lever.
 TEST(Squareness, EachLineIsStatedAtTheFixture) {
   mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um);
   const mdof::Run y = run_of(Axis::y, kAxis2_m, kAxis2_um);
@@ -341,7 +343,8 @@ TEST(RobustMean, SlowNoiseHasTheLargerUncertainty) {
   EXPECT_GT(s.u, 5 * f.u);
 }
 
-// Two points, and the line through the end points, leave no residual for an uncertainty.
+// A least-squares line of two points and a line through the end points are determined by two points
+// only, so their uncertainty is unknown.
 TEST(LineFit, TwoPointsOrEndPointsHaveNoUncertainty) {
   const std::vector<double> x = {1, 3}, y = {5, 1};
   for (const Line& line : {least_squares_line(x, y), end_point_line(x, y)}) {

@@ -1,4 +1,5 @@
-// Parallelism of two motions and the readings of a run for ISO 230-2, for four targets, by hand.
+// Parallelism of two motions, and the readings of a run for ISO 230-2. All values are calculated by
+// hand for four targets.
 #include "algo/iso230/parallelism.h"
 
 #include <gtest/gtest.h>
@@ -11,13 +12,13 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kReversal = 0.5e-6;  // half of it: forward above the mean, reverse below
+constexpr double kReversal = 0.5e-6;  // half of it is added forward and subtracted in reverse
 
 struct MotionByHand {
   std::int64_t id = 1;
   Axis axis = Axis::x;
-  std::vector<double> x_m;            // of the encoder
-  std::vector<double> first, second;  // straightness errors, micrometres
+  std::vector<double> x_m;            // position of the encoder
+  std::vector<double> first, second;  // straightness errors, µm
   Sides sides = {};
 };
 
@@ -43,15 +44,16 @@ mdof::Run make_motion_run(const MotionByHand& motion) {
   return run;
 }
 
-// Slopes of 0, 0, 3, 1 at equal steps: end points 1/3, least squares (0.5 * 3 + 1.5 * 1)/5 = 0.6;
-// the minimum zone is along (1, 0) - (3, 1), 0.5 per step.
+// Slopes of the deviations 0, 0, 3, 1 per step: end points 1/3; least squares (0.5 * 3 + 1.5 * 1)/5
+// = 0.6; minimum zone 0.5, along the line from (1, 0) to (3, 1).
 const std::vector<double> kPositionsA_m = {0, 0.01, 0.02, 0.03},
                           kPositionsB_m = {0.01, 0.02, 0.03, 0.04};
 MotionByHand motion_a() {
   return {11, Axis::x, kPositionsA_m, {0, 0, 3, 1}, {0, 0, -6, -2}};
 }
-// 0, 2, 0, 0: end points 0, least squares -0.2, minimum zone 0. 0, 0, 0, 4: end points 4/3, least
-// squares 1.2, minimum zone 4/3.
+// Slopes per step of the deviations 0, 2, 0, 0: end points 0, least squares -0.2, minimum zone 0.
+// Slopes per step of the deviations 0, 0, 0, 4: end points 4/3, least squares 1.2, minimum zone
+// 4/3.
 MotionByHand motion_b() {
   return {12, Axis::x, kPositionsB_m, {0, 2, 0, 0}, {0, 0, 0, 4}};
 }
@@ -82,8 +84,7 @@ TEST(ParallelismByHand, IsTheSlopeOfBMinusTheSlopeOfA) {
   expect_line(found->planes[1].minimum_zone, -100, 400 / 3.0);
 }
 
-// The body moves against the encoder, in the opposite direction along M: all slopes change their
-// sign.
+// The body moves against the encoder, in the negative direction of M. All slopes change their sign.
 TEST(ParallelismByHand, IsOverTheTravelOfTheMovingBody) {
   MotionByHand a = motion_a(), b = motion_b();
   a.axis = b.axis = Axis::y;
@@ -100,8 +101,8 @@ TEST(ParallelismByHand, IsOverTheTravelOfTheMovingBody) {
   expect_line(found->planes[1].least_squares, 120, -120);
 }
 
-// Parallelism refers to the errors at the fixture: a yaw of 10 urad at the carriage acts with its
-// lever.
+// Parallelism is stated at the fixture. If the errors are stated at the carriage, a yaw of 10 urad
+// contributes with its lever.
 TEST(ParallelismByHand, IsStatedAtTheFixture) {
   mdof::Run a = make_motion_run(motion_a());
   for (MeasuredPoint& p : a.points) p.errors.local[kEz] = 10e-6;
@@ -109,11 +110,12 @@ TEST(ParallelismByHand, IsStatedAtTheFixture) {
   a.header.provenance.model = "simplified";
   const auto found = parallelism(a, make_motion_run(motion_b()));
   ASSERT_TRUE(found) << found.error().message;
-  // At the origin of M, -d from the origin of C, the target is lower by the yaw times the travel.
+  // The origin of M is at -d in C. There the target is lower by the yaw times the travel.
   expect_line(found->planes[0].least_squares, 50, -20);
 }
 
-// Steps of 1/128 m have no rounding errors: exactly half of the longer travel is enough.
+// Positions in steps of 1/128 m have no rounding errors. The common travel must be at least half of
+// the longer travel, and exactly half is enough.
 TEST(ParallelismByHand, NeedsHalfOfTheTravelInCommon) {
   const auto over = [](std::int64_t id, int first) {
     MotionByHand motion;
@@ -134,7 +136,7 @@ TEST(ParallelismByHand, NeedsHalfOfTheTravelInCommon) {
       << less.error().message;
   EXPECT_FALSE(parallelism(over(1, 3), over(2, 0)));
   EXPECT_FALSE(parallelism(over(1, 0), over(2, 60)));
-  // A short travel within a long one: it must cover half of the long one.
+  // A short travel within a long one must be at least half as long.
   MotionByHand few{3, Axis::x, {1 / 128.0, 2 / 128.0, 3 / 128.0}, {0, 1, 0}, {0, 1, 0}};
   EXPECT_TRUE(parallelism(over(1, 0), make_motion_run(few)));
   few.x_m = {1 / 128.0, 1.5 / 128, 2 / 128.0};
@@ -165,7 +167,8 @@ TEST(ParallelismByHand, RefusesIncompatibleMotions) {
   EXPECT_FALSE(parallelism(a, b));
 }
 
-// Forward 1, 2, 6 and reverse 3, 4, 8: the line through the means 2, 3, 7 is 1.5, 4, 6.5.
+// The visits are 1, 2, 6 forward and 3, 4, 8 in reverse. The line through their means 2, 3, 7 is
+// 1.5, 4, 6.5.
 mdof::Run run_with_readings() {
   mdof::Run run;
   run.header.axis = Axis::x;
@@ -210,7 +213,7 @@ TEST(RunReadingsByHand, RemainUnchangedWithoutALine) {
     EXPECT_NEAR(kept.readings[j].deviation, value[j], 1e-12);
     EXPECT_NEAR(angle.readings[j].deviation, 20 * value[j], 1e-12);
   }
-  // A single position has no line.
+  // A single position determines no line.
   for (MeasuredPoint& p : run.points) p.point.position_m = 0.01;
   EXPECT_NEAR(readings_of_run(run, 0, false).readings[2].deviation, 6, 1e-12);
 }
@@ -224,7 +227,7 @@ TEST(RunReadingsByHand, PointsWithoutErrorsOrApproachAreLeftOut) {
   EXPECT_EQ(found.left_out, 3u);
   ASSERT_EQ(found.readings.size(), 3u);
   EXPECT_NEAR(found.readings[2].deviation, 8, 1e-12);
-  // If the fixture moves, its errors are the errors of the target with the opposite sign.
+  // If the fixture moves, its errors have the opposite sign of the errors of the target.
   run.header.sides.fixture_moves = true;
   EXPECT_NEAR(readings_of_run(run, 0, true).readings[2].deviation, -8, 1e-12);
 }

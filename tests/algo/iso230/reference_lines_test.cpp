@@ -1,5 +1,5 @@
-// The three reference lines: the example in the manual of a laser interferometer, and the minimum
-// zone compared with brute force.
+// The three reference lines are compared with the example in the manual of a laser interferometer;
+// the minimum zone is also compared with an exhaustive search.
 #include "algo/iso230/reference_lines.h"
 
 #include <gtest/gtest.h>
@@ -65,16 +65,16 @@ TEST(ReferenceLines, MinimumZoneIsCentredOnItsLine) {
   EXPECT_NEAR(low, -line.zone_m / 2, 1e-18);
 }
 
-// Deviations 0, 3, 0, 3 at 0, 1, 2, 3: least squares gives 0.6 x + 0.6 with the residuals -0.6,
-// 1.8, -1.8, 0.6.
+// The deviations at 0, 1, 2, 3 are 0, 3, 0, 3. The least-squares line is 0.6 x + 0.6; the residuals
+// are -0.6, 1.8, -1.8, 0.6.
 TEST(ReferenceLines, ResidualIsTheRootMeanSquare) {
   const ReferenceLine line = reference_lines(Values{0, 1, 2, 3}, Values{0, 3, 0, 3})->least_squares;
   EXPECT_DOUBLE_EQ(line.slope_rad, 0.6);
   EXPECT_NEAR(line.residual_m, std::sqrt((0.36 + 3.24 + 3.24 + 0.36) / 4), 1e-15);
 }
 
-// The narrowest zone touches two readings on one side, so this function tries the slopes of all
-// pairs.
+// Width of the minimum zone. The narrowest zone touches two readings on one side, so the slopes of
+// all pairs of readings are tried.
 double zone_by_brute_force(const Values& x, const Values& y) {
   const auto zone = [&](double slope) {
     double high = -1e9, low = 1e9;
@@ -98,14 +98,14 @@ TEST(MinimumZone, MatchesBruteForceForTenThousandSeries) {
     Values x(static_cast<std::size_t>(3 + trial % 18)), y = x;
     for (double& v : x) v = any(random);
     for (double& v : y) v = any(random);
-    const bool grid = trial % 3 == 0;  // equal positions, readings in a row, ties
+    const bool grid = trial % 3 == 0;  // with equal positions, collinear readings and equal widths
     if (grid)
       for (std::size_t i = 0; i < x.size(); ++i) {
         x[i] = std::round(3 * x[i]);
         y[i] = std::round(3 * y[i]);
       }
     const auto lines = reference_lines(x, y);
-    if (!lines) continue;  // fewer than three positions
+    if (!lines) continue;  // fewer than three different positions
     ++compared;
     const double expected = zone_by_brute_force(x, y);
     ASSERT_NEAR(lines->minimum_zone.zone_m, expected, 1e-12 * expected + (grid ? 2e-15 : 0))
@@ -115,7 +115,8 @@ TEST(MinimumZone, MatchesBruteForceForTenThousandSeries) {
   }
 }
 
-// With 0 and 1 at the start any slope within ±0.5 has the zone 1; the line takes the middle slope.
+// With the readings 0 and 1 at the start, each slope within ±0.5 has a zone of the width 1. The
+// line has the middle slope.
 TEST(MinimumZone, TakesTheMiddleOfEquivalentSlopes) {
   const Line line = minimum_zone_line(Values{0, 0, 1, 1}, Values{0, 1, 0.5, 0.5});
   EXPECT_DOUBLE_EQ(line.slope, 0);
@@ -137,7 +138,7 @@ TEST(ReferenceLines, DoNotDependOnTheOrderOfTheReadings) {
     EXPECT_EQ(after.minimum_zone.slope_rad, before.minimum_zone.slope_rad);
   }
   EXPECT_EQ(before.positions, 5u);
-  // End points: (0, 1.5), the mean of two readings, and (4, 9).
+  // The end points are (0, 1.5), where 1.5 is the mean of two readings, and (4, 9).
   EXPECT_DOUBLE_EQ(before.end_point.slope_rad, 7.5 / 4);
   EXPECT_DOUBLE_EQ(before.end_point.intercept_m, 1.5);
 }
@@ -170,8 +171,8 @@ TEST(ReferenceLines, StraightReadingsHaveNoZone) {
   }
 }
 
-// The limit is 20 ms (tools/bench/bench_iso230 measures it); this test only checks that the time
-// does not grow with n².
+// The time limit is 20 ms, which tools/bench/bench_iso230 measures. This test only checks that the
+// time does not grow with n².
 TEST(ReferenceLines, HundredThousandReadingsAreFast) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> any(0, 1);

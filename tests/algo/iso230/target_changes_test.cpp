@@ -1,5 +1,5 @@
-// The linear map of the means compared with the means themselves, for runs that lack visits,
-// targets that were approached from one side only, and points without errors.
+// The linear map of the means is compared with the means themselves. The runs lack visits, some
+// targets were approached from one side only, and some points have no errors.
 #include "algo/iso230/target_changes.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ constexpr int kTargets = 7;
 
 struct Visits {
   int runs;
-  double missing, one_sided;  // fractions
+  double missing, one_sided;  // fraction of missing visits; fraction of targets with one approach
 };
 
 std::vector<MeasuredPoint> random_points(const Visits& visits, std::mt19937& random) {
@@ -63,7 +63,7 @@ TEST(TargetChanges, MatchTheChangesOfTheMeans) {
   std::mt19937 random(7);
   const Visits cases[] = {
       {3, 0, 0},     {3, 0, 0.4},    {1, 0, 1},    {4, 0.3, 0},
-      {4, 0.3, 0.4}, {30, 0.2, 0.2}, {2, 0.8, 0.5}};  // 30: more runs than visits
+      {4, 0.3, 0.4}, {30, 0.2, 0.2}, {2, 0.8, 0.5}};  // 30 runs: more runs than visits of a run
   for (const Visits& visits : cases)
     for (int repeat = 0; repeat < 20; ++repeat)
       for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {

@@ -1,4 +1,5 @@
-// The uncertainty of the mean at a target compared with the scatter of many repeated measurements.
+// The uncertainty of the mean at a target is compared with the scatter of many simulated
+// measurements.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,10 +11,11 @@ namespace mdof::algo {
 namespace {
 
 struct Scatter {
-  double noise, of_run, direction_sd;  // of a point, of a run, of one direction of a run; nm
+  double noise, of_run, direction_sd;  // of a point; of a run; of one direction of a run, nm
 };
 
-// Root mean square of the stated u divided by that of the true error of the mean (the truth is 0).
+// Root mean square of the stated u divided by the root mean square of the error of the mean. The
+// true value is 0.
 double stated_over_true(const Scatter& sd, int runs, Approach approach) {
   std::mt19937_64 engine(7);
   std::normal_distribution<> unit;

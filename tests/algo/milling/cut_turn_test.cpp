@@ -1,5 +1,5 @@
-// One turn of a bent tool with three teeth: convergence to its equilibrium, its window and its
-// power.
+// One turn of a bent tool with three teeth: convergence to the equilibrium, the cutting window, and
+// the power.
 #include "algo/milling/cut_turn.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +28,8 @@ MillingPlan deflected_cut(ChipModel chip, DeflectionModel deflection, bool up) {
   return plan;
 }
 
-// Newton's method squares the distance from the root in each step: from some µm to 1e-13 m in four
-// steps. With a wrong derivative it would need tens of steps.
+// In each step Newton's method squares the distance from the root, so four steps reduce some µm to
+// 1e-13 m. With a wrong derivative, tens of steps would be necessary.
 TEST(CutTurn, EquilibriumIsFoundInFourSteps) {
   for (const ChipModel chip : kChips)
     for (const DeflectionModel deflection : kFlexibleModels)
@@ -42,7 +42,7 @@ TEST(CutTurn, EquilibriumIsFoundInFourSteps) {
       }
 }
 
-// With the edge force Eq. 8 has separate derivatives where the chip is thick.
+// If the plan has an edge force, Eq. 8 has separate derivatives for thick chips.
 TEST(CutTurn, EquilibriumWithEdgeForceNeedsFourSteps) {
   for (const bool up : {true, false}) {
     MillingPlan plan = deflected_cut(ChipModel::eq8, DeflectionModel::paper, up);
@@ -52,7 +52,7 @@ TEST(CutTurn, EquilibriumWithEdgeForceNeedsFourSteps) {
   }
 }
 
-// At the free edge the tip, with its deflection there, leaves or meets the uncut side.
+// At the free edge, the tip of the bent tool leaves or enters the uncut side of the work.
 TEST(CutTurn, WindowEndsAtTheFreeEdgeOfTheBentTool) {
   for (const DeflectionModel deflection : kFlexibleModels)
     for (const bool up : {true, false}) {
@@ -68,8 +68,8 @@ TEST(CutTurn, WindowEndsAtTheFreeEdgeOfTheBentTool) {
     }
 }
 
-// The power of the tangential force of the only tooth in the work: the force on the tool along the
-// path of the tooth.
+// Expected power: tangential force of the only tooth in the work times its speed. The tangential
+// force is the component of the force on the tool along the path of the tooth.
 TEST(CutTurn, PowerIsTangentialForceTimesSpeed) {
   for (const ChipModel chip : kChips)
     for (const bool up : {true, false}) {

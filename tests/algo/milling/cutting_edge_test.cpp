@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kThird_rad = kWholeTurn_rad / 3;
 
-// Three teeth, helix, run-out with tilt: no quantity is 0 and no two are equal.
+// A tool with three teeth, helix, and run-out with tilt. No quantity is 0, and no two are equal.
 MillingPlan three_teeth(ChipModel chip, DeflectionModel deflection) {
   MillingPlan plan = parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
   plan.teeth = 3;
@@ -27,9 +27,9 @@ MillingPlan three_teeth(ChipModel chip, DeflectionModel deflection) {
   return plan;
 }
 
-// The axis of the tool is offset from the axis of the spindle by one vector, which is the same for
-// all teeth at a height and rotates with the tool. A tooth is behind tooth 0 by its pitch and the
-// helix.
+// One vector describes the offset between the axes of tool and spindle. The vector is the same for
+// all teeth at one height and rotates with the tool. The angle between a tooth and tooth 0 is its
+// pitch plus the angle of the helix.
 TEST(CuttingEdge, ToothFollowsTheRunout) {
   const MillingPlan plan = three_teeth(ChipModel::sine, DeflectionModel::rigid);
   const double r = plan.diameter_m / 2, z = 0.2e-3;
@@ -53,8 +53,8 @@ TEST(CuttingEdge, ToothFollowsTheRunout) {
   EXPECT_NEAR(wrapped_angle(3 * kWholeTurn_rad + 0.25), 0.25, 1e-14);
 }
 
-// Eq. 8 equals the trochoid chip to the second order of the feed: half the feed gives an eighth of
-// the difference.
+// Eq. 8 equals the trochoid chip to the second order of the feed. If the feed is halved, the
+// difference is an eighth.
 TEST(CuttingEdge, Eq8MatchesTheTrochoidToSecondOrder) {
   for (const double angle : {0.4, 0.9, 1.3, 1.8, 2.4}) {
     const auto difference = [&](double feed_m) {
@@ -71,8 +71,8 @@ TEST(CuttingEdge, Eq8MatchesTheTrochoidToSecondOrder) {
   }
 }
 
-// The run-out makes a chip thicker by the distance that this tooth reaches beyond the tooth before
-// it.
+// The run-out increases the thickness of a chip by the distance by which its tooth reaches further
+// than the tooth before.
 TEST(CuttingEdge, SineChipContainsTheRunoutStep) {
   const MillingPlan plan = three_teeth(ChipModel::sine, DeflectionModel::rigid);
   const double z = 0.1e-3, off = 1e-6 + 2e-3 * z, lag = z * std::tan(0.5) / plan.radius_m();
@@ -85,9 +85,9 @@ TEST(CuttingEdge, SineChipContainsTheRunoutStep) {
   }
 }
 
-// A tool that is bent against the feed cuts less at 90 degrees, a tool that is bent into the wall
-// cuts more at 0 degrees. The tooth before leaves the material that its deflection kept it from
-// cutting.
+// If the tool is bent against the feed, the chip is thinner at 90 degrees. If it is bent into the
+// wall, the chip is thicker at 0 degrees. Material that the tooth before did not cut because of its
+// deflection is added to the chip.
 TEST(CuttingEdge, SteadyChipUsesBothDeflections) {
   for (const ChipModel model : {ChipModel::sine, ChipModel::eq8, ChipModel::trochoid}) {
     const MillingPlan plan = three_teeth(model, DeflectionModel::steady);
@@ -103,7 +103,7 @@ TEST(CuttingEdge, SteadyChipUsesBothDeflections) {
   }
 }
 
-// Eq. 9: the deflection reduces the feed.
+// By Eq. 9, the deflection reduces the feed.
 TEST(CuttingEdge, PaperChipUsesTheFeedLessTheDeflection) {
   for (const ChipModel model : {ChipModel::sine, ChipModel::eq8}) {
     const MillingPlan plan = three_teeth(model, DeflectionModel::paper);
@@ -139,7 +139,8 @@ TEST(CuttingEdge, ChipDerivativesMatchDifferences) {
     }
 }
 
-// At the free edge the tooth, with run-out and deflection, is on the line of the side of the work.
+// At the free edge the tooth, with its run-out and deflection, is on the straight line of the side
+// of the work.
 TEST(CuttingEdge, TrochoidLeavesTheWorkAtItsSide) {
   for (const bool up : {true, false})
     for (const int tooth : {0, 1, 2}) {
@@ -157,7 +158,7 @@ TEST(CuttingEdge, TrochoidLeavesTheWorkAtItsSide) {
   EXPECT_EQ(CuttingEdge(slot, 0, 0).wall_edge(), 0);
 }
 
-// The test sums the moments of both forces over the bending stiffness.
+// Expected: the sum of the products of both moments over the bending stiffness.
 TEST(Beam, SteppedToolMatchesASum) {
   const std::vector<ToolSection> tool = {{3e-3, 3e-3}, {1e-3, 1.5e-3}, {2e-3, 0.4e-3}};
   const double E = 600e9;
@@ -183,17 +184,17 @@ TEST(Beam, SteppedToolMatchesASum) {
                   1, 1e-6);
 }
 
-// Cowper: κ = 6 (1 + ν) / (7 + 6 ν) for a circle, 0.879808 at ν = 0.22. Bending of l over shear: κ
-// A l² / (3 · 2 (1 + ν) I) with A / I = 16 / d².
+// Shear by Cowper: κ = 6 (1 + ν) / (7 + 6 ν) for a circle, which is 0.879808 at ν = 0.22. The ratio
+// of bending to shear for the length l is κ A l² / (3 · 2 (1 + ν) I) with A / I = 16 / d².
 TEST(Beam, ShearMatchesCowper) {
   const double l = 2e-3, d = 0.4e-3;
   EXPECT_NEAR(shear_share({{l, d}}), 3 * 2.44 * d * d / (0.879808 * 16 * l * l), 1e-7);
-  // Two halves of a cylinder equal the whole cylinder.
+  // Two halves of a cylinder have the same share of shear as the whole cylinder.
   EXPECT_NEAR(shear_share({{l / 2, d}, {l / 2, d}}), shear_share({{l, d}}), 1e-15);
 }
 
-// The force on each element follows from its chip, with the deflection by these forces now and one
-// tooth pitch before.
+// The expected force on each element follows from its chip. The chip depends on the deflection by
+// these forces, now and one tooth pitch before.
 TEST(CutTurn, SteadyForcesMatchTheirDeflection) {
   MillingPlan plan = three_teeth(ChipModel::sine, DeflectionModel::steady);
   plan.Kte = 2e3;
@@ -236,7 +237,8 @@ TEST(CutTurn, SteadyForcesMatchTheirDeflection) {
   EXPECT_GT(compared, 600);
 }
 
-// The outermost position of all teeth over some turns at each x, by bisection on their exact paths.
+// Expected: the outermost position of all teeth over some turns at each x, found by bisection on
+// their exact paths.
 TEST(Wall, IsTheEnvelopeOfAllTeeth) {
   for (const bool up : {true, false}) {
     MillingPlan plan = three_teeth(ChipModel::trochoid, DeflectionModel::rigid);
@@ -276,8 +278,8 @@ TEST(Wall, IsTheEnvelopeOfAllTeeth) {
   }
 }
 
-// A tool that is bent away from the side of the work by more than the depth leaves or meets the
-// work at the wall only.
+// If the tool is bent away from the side of the work by more than the depth, it leaves or enters
+// the work only at the wall.
 TEST(CuttingEdge, BentAwayBeyondTheDepthCutsNothing) {
   MillingPlan plan = three_teeth(ChipModel::sine, DeflectionModel::rigid);
   plan.radial_depth_m = 1e-6;

@@ -15,7 +15,7 @@ MillingPlan preset() {
   return parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
 }
 
-// One element without helix and run-out: closed forms apply.
+// A tool with one element, without helix and run-out, for which closed forms apply.
 MillingPlan plain(ChipModel chip, DeflectionModel deflection) {
   MillingPlan plan = preset();
   plan.elements = 1;
@@ -35,11 +35,13 @@ TEST(Beam, MatchesTextbooks) {
   const double E = 600e9, d = 0.4e-3, l = 2e-3, I = kPi * std::pow(d, 4) / 64;
   const auto C = beam_compliance({{l, d}}, E, {0, 0.5e-3}, {0, 0.5e-3});
   EXPECT_NEAR(C(0, 0) / (l * l * l / (3 * E * I)), 1, 1e-12);
-  // Eq. 2 of the paper with corrected symbols: v² (3 l - v) / 6EI, from both sides.
+  // Eq. 2 of the paper with corrected symbols: the compliance is v² (3 l - v) / 6EI. It is the same
+  // if force and point are exchanged.
   const double v = 1.5e-3;
   EXPECT_NEAR(C(0, 1) / (v * v * (3 * l - v) / (6 * E * I)), 1, 1e-12);
   EXPECT_EQ(C(0, 1), C(1, 0));
-  // Two cylinders of one diameter equal one cylinder; a thick shank adds little.
+  // Two cylinders of the same diameter equal one cylinder. A thick shank increases the compliance
+  // only slightly.
   const auto halves = beam_compliance({{0.7e-3, d}, {1.3e-3, d}}, E, {0}, {0});
   EXPECT_NEAR(halves(0, 0) / C(0, 0), 1, 1e-12);
   const double L = 3e-3, D = 3e-3, shank = kPi * std::pow(D, 4) / 64;
@@ -61,15 +63,16 @@ TEST(CuttingEdge, RigidWindowMatchesTheCircle) {
   MillingPlan down = plan;
   down.is_up = false;
   EXPECT_NEAR(CuttingEdge(down, 0, 0).free_edge({}), kPi - exit, 1e-15);
-  // If the tool is bent into the wall by 3 µm, an up cut leaves later and a down cut enters later.
+  // If the tool is bent into the wall by 3 µm, an up cut leaves the work later and a down cut
+  // enters the work later.
   EXPECT_NEAR(CuttingEdge(plan, 0, 0).free_edge({0, 3e-6}), std::acos((-50e-6 - 3e-6) / 250e-6),
               1e-15);
   EXPECT_NEAR(CuttingEdge(down, 0, 0).free_edge({0, 3e-6}), std::acos((50e-6 - 3e-6) / 250e-6),
               1e-15);
 }
 
-// Eq. 8 compared with the exact trochoid: the error of Bao and Tansel is below 0.02 µm without
-// run-out.
+// Eq. 8 is compared with the exact trochoid. Without run-out, the error by Bao and Tansel is below
+// 0.02 µm.
 TEST(CuttingEdge, Eq8IsCloseToTheTrochoid) {
   for (const int teeth : {2, 4}) {
     MillingPlan eq8 = plain(ChipModel::eq8, DeflectionModel::rigid);
@@ -80,7 +83,7 @@ TEST(CuttingEdge, Eq8IsCloseToTheTrochoid) {
       EXPECT_NEAR(CuttingEdge(eq8, 1, 0).rigid_chip(angle).thickness,
                   CuttingEdge(exact, 1, 0).rigid_chip(angle).thickness, 0.02e-6 * teeth / 2)
           << teeth << " " << angle;
-    // A very small run-out changes both equally, with the sign of each tooth.
+    // A very small run-out changes both chips equally; the sign depends on the tooth.
     for (const int tooth : {0, 1}) {
       const auto moved = [&](MillingPlan plan) {
         const double before = CuttingEdge(plan, tooth, 0).rigid_chip(1.2).thickness;
@@ -94,7 +97,7 @@ TEST(CuttingEdge, Eq8IsCloseToTheTrochoid) {
   }
 }
 
-// With a run-out larger than the feed a tooth does not reach the work: the chip of the next tooth
+// If the run-out exceeds the feed, one tooth does not reach the work. The chip of the next tooth
 // begins at the surface of the last tooth that did cut.
 TEST(CuttingEdge, TrochoidChecksAllEarlierTeeth) {
   MillingPlan plan = plain(ChipModel::trochoid, DeflectionModel::rigid);
@@ -119,7 +122,8 @@ TEST(Milling, OneElementHasTheKnownForces) {
   EXPECT_NEAR(steady.y_max_N, 1.068, 1e-3);
 }
 
-// F = Kt h db at the speed r ω: the mean power is exactly Kt times the removed volume per time.
+// The force is F = Kt h db and the speed r ω. So the mean power is exactly Kt times the removed
+// volume per time.
 TEST(Milling, PowerMatchesTheRemovedVolume) {
   for (const bool up : {true, false}) {
     MillingPlan plan = plain(ChipModel::sine, DeflectionModel::rigid);
@@ -146,23 +150,23 @@ TEST(Wall, CuspMatchesTheTrochoid) {
     const auto result = *milling(plan);
     EXPECT_NEAR(result.wall.waviness_tip_m, up ? 0.10835e-6 : 0.11695e-6, 0.15e-9);
     EXPECT_NEAR(result.wall.form_m, 0, 1e-15);
-    // The mean of a parabola with this height is a third of the height below its top.
+    // The mean of a parabola is one third of its height below its top.
     EXPECT_NEAR(result.wall.offset_tip_m, -result.wall.waviness_tip_m / 3, 0.3e-9);
   }
 }
 
-// Run-out without deflection: the tooth that reaches further makes the wall, outward by the
-// component of the run-out.
+// The tool has run-out and no deflection. The tooth that reaches further outward cuts the wall,
+// which is shifted outward by the component of the run-out.
 TEST(Wall, RunoutCutsOutward) {
   MillingPlan plan = plain(ChipModel::trochoid, DeflectionModel::rigid);
-  plan.runout_m = 20e-6;  // tooth 1 does not cut: cusps of two feeds
+  plan.runout_m = 20e-6;  // tooth 1 does not cut, so the cusps are two feeds long
   plan.runout_angle_rad = 0;
   const auto result = *milling(plan);
   EXPECT_NEAR(result.wall.waviness_tip_m, 4 * 0.10835e-6 * 250 / 270, 0.02e-6);
   EXPECT_NEAR(result.wall.offset_tip_m, 20e-6 - result.wall.waviness_tip_m / 3, 0.01e-6);
 }
 
-// In equilibrium the beam has its deflection under the force of the chip with this deflection.
+// In equilibrium, the force of the chip with a deflection causes this deflection of the beam.
 TEST(Milling, FindsEquilibriumWhereIterationDiverges) {
   for (const bool up : {true, false})
     for (const DeflectionModel model : {DeflectionModel::paper, DeflectionModel::steady}) {
@@ -179,7 +183,7 @@ TEST(Milling, FindsEquilibriumWhereIterationDiverges) {
   plan.sections.front().length_m = 4e-3;
   const auto turn = *cut_turn(plan);
   const auto u = deflection_m(plan, turn, turn.height_m.front());
-  for (std::size_t n = 100; n < 1000; n += 100) {  // tooth 0 alone is in the work
+  for (std::size_t n = 100; n < 1000; n += 100) {  // only tooth 0 is in the work
     const auto row = static_cast<Eigen::Index>(n);
     const double a = turn.turned_rad[n], f = plan.feed_per_tooth_m - u(row, 0), r = plan.radius_m();
     const double h = f * std::sin(a) - f * f * std::sin(a) * std::cos(a) / (kPi * r) +
@@ -190,9 +194,9 @@ TEST(Milling, FindsEquilibriumWhereIterationDiverges) {
   }
 }
 
-// Where the tooth leaves the work, a weak tool has several equilibria, one of them unstable. Chip
-// models that differ by 0.02 µm in 15 µm would then give deflections that differ by 2.5 %, unless
-// both take the stable equilibrium.
+// Where the tooth leaves the work, a weak tool has several equilibria; one of them is unstable. The
+// test uses chip models that differ by 0.02 µm in 15 µm. If one of them used the unstable
+// equilibrium, the deflections would differ by 2.5 %.
 TEST(Milling, StaysInTheStableEquilibrium) {
   const auto bent_m = [](ChipModel chip) {
     MillingPlan plan = preset();
@@ -206,8 +210,8 @@ TEST(Milling, StaysInTheStableEquilibrium) {
   EXPECT_NEAR(bent_m(ChipModel::sine) / bent_m(ChipModel::eq8), 1, 2e-3);
 }
 
-// Eq. 9 in the middle of a down cut without Kr: u = k (f - u), k = -C b Kt / 2 at 135 degrees,
-// where the chip grows with its own deflection.
+// Eq. 9 in the middle of a down cut without Kr: u = k (f - u) with k = -C b Kt / 2 at 135 degrees.
+// There the chip increases with its own deflection.
 TEST(Milling, GrowingChipMatchesTheClosedForm) {
   MillingPlan plan = plain(ChipModel::sine, DeflectionModel::paper);
   plan.is_up = false;
@@ -229,14 +233,15 @@ TEST(Milling, EdgeForceActsOnTheEdgeInTheWork) {
   plan.Kte = 2e3;
   plan.Kre = 3e3;
   const auto with = *cut_turn(plan);
-  const double a = with.turned_rad[900], b = plan.axial_depth_m;  // 90 degrees
+  const double a = with.turned_rad[900], b = plan.axial_depth_m;  // the angle is 90 degrees
   EXPECT_NEAR(with.fx_N(900, 0) - without.fx_N(900, 0), b * (2e3 * std::cos(a) + 3e3 * std::sin(a)),
               1e-9);
   EXPECT_NEAR(with.fy_N(900, 0) - without.fy_N(900, 0), b * (2e3 * std::sin(a) - 3e3 * std::cos(a)),
               1e-9);
 }
 
-// With the offset added to the radius of the tool, the mean of the wall is at its nominal position.
+// If the offset is added to the radius of the tool, the mean of the wall is at its nominal
+// position.
 TEST(WearOffset, CompensatesTheMeanOfTheWall) {
   DeclaredMillingPlan declared{preset(), {}};
   const auto offset = *wear_offset(declared);
@@ -261,7 +266,7 @@ TEST(WearOffset, UncertaintyComesFromItsInputs) {
   EXPECT_GT(offset.u_m, 0.01e-6);
 }
 
-// A run-out that its u would make negative is limited to 0; the largest part is first.
+// If u would make the run-out negative, the run-out is limited to 0. The largest part comes first.
 TEST(WearOffset, PartsAreWithinLimitsAndInOrder) {
   DeclaredMillingPlan declared{preset(), {}};
   declared.plan.steps_per_turn = 720;

@@ -1,5 +1,5 @@
-// How a cut changes with its inputs, where closed forms apply: the force on a rigid tool with one
-// element is proportional to the depth, for all drawn inputs.
+// Tests how a cut changes with its inputs, where closed forms apply. For a rigid tool with one
+// element, the force is proportional to the depth for all drawn inputs.
 #include "algo/milling/milling_trials.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// A rigid cut without helix and run-out, with few steps.
+// A cut of a rigid tool without helix and run-out, with few steps per turn.
 MillingPlan rigid_cut() {
   MillingPlan plan = parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
   plan.elements = 1;
@@ -75,7 +75,7 @@ TEST(MillingOutputs, HaveTheUnitsOfTheirNames) {
   EXPECT_EQ(milling_outputs()[2], "deflection_um");
 }
 
-// Forces are proportional to the depth.
+// The forces are proportional to the depth.
 TEST(MillingEffects, AreProportionalToTheDepth) {
   const MillingPlan plan = rigid_cut();
   const auto nominal = milling_output_values(*milling(plan));
@@ -86,7 +86,8 @@ TEST(MillingEffects, AreProportionalToTheDepth) {
   ASSERT_EQ(effects->size(), 2u);
   for (const std::size_t k : {0u, 1u}) {
     EXPECT_NEAR((*effects)[0][k], 0.05 * nominal[k], 1e-9);
-    // u exceeds the depth: a negative depth is impossible; above the depth the slope is the same.
+    // u exceeds the depth, and a negative depth is impossible. The effect of u is therefore
+    // calculated from the slope above the depth.
     EXPECT_NEAR((*effects)[1][k], 1.5 * nominal[k], 1e-9);
   }
   EXPECT_EQ((*effects)[0].size(), 6u);
@@ -122,7 +123,8 @@ TEST(MillingTrials, DrawInputsFromANormalDistribution) {
   EXPECT_NEAR(mean, 0, 0.2);  // four standard deviations
   EXPECT_NEAR(square, 1, 0.29);
   EXPECT_NEAR(within, 0.683, 0.1);
-  // A trial does not depend on the other trials of a call; the second stream has other numbers.
+  // A trial has the same values if other trials of a call are omitted. The second stream has other
+  // values.
   const auto some = outputs_of(*trials, 3, 4, 5), second = outputs_of(*trials, 0, 1, 8, {1});
   for (std::size_t j = 0; j < 5; ++j) EXPECT_EQ(some[0][j], out[0][3 + 4 * j]);
   for (std::size_t j = 0; j < 8; ++j) EXPECT_NE(second[0][j], out[0][j]);
@@ -134,8 +136,8 @@ TEST(MillingTrials, DrawInputsFromANormalDistribution) {
   EXPECT_NE(outputs_of(*milling_trials(plan, {{&depth_input(), 1e-6}}, 8), 9, 1, 1)[0][0], run[0]);
 }
 
-// Each input has its own random numbers: the test takes each of two inputs alone from the second
-// stream.
+// Each input has its own random numbers. In turn, only one of two inputs has the values of the
+// second stream.
 TEST(MillingTrials, InputsAreIndependent) {
   const MillingPlan plan = rigid_cut();
   const MillingInput &kt = input_of(&MillingPlan::Kt), &kr = input_of(&MillingPlan::Kr);
@@ -147,7 +149,7 @@ TEST(MillingTrials, InputsAreIndependent) {
              both = outputs_of(*trials, 0, 1, 4, {1, 1});
   const auto alone = outputs_of(*depth, 0, 1, 4), alone_second = outputs_of(*depth, 0, 1, 4, {1});
   for (std::size_t j = 0; j < 4; ++j) {
-    // The depth multiplies the force, independently of Kt.
+    // The depth multiplies the force by the same factor for any Kt.
     EXPECT_NEAR(first[0][j] / none[0][j], alone_second[0][j] / alone[0][j], 1e-12);
     EXPECT_NEAR(both[0][j] / last[0][j], alone_second[0][j] / alone[0][j], 1e-12);
     EXPECT_NE(last[0][j], none[0][j]);
@@ -155,7 +157,7 @@ TEST(MillingTrials, InputsAreIndependent) {
   EXPECT_EQ(milling_trials(plan, {{&kr, 1}, {&kt, 1}}, 1)->causes().size(), 2u);
 }
 
-// Drawn inputs may describe an impossible cut.
+// The drawn inputs may describe a cut that is impossible.
 TEST(MillingTrials, ImpossibleCutsAreNotSolved) {
   const auto is_solved = [](const MillingPlan& plan) {
     const auto trials = milling_trials(plan, {{&depth_input(), 0}}, 1);
@@ -197,7 +199,8 @@ TEST(MillingTrials, ImpossibleCutsAreNotSolved) {
   }
 }
 
-// The height of an element is that of its middle; the number of steps is a multiple of the teeth.
+// The height of an element is the height of its middle. The number of steps is a multiple of the
+// number of teeth.
 TEST(CutTurn, HasItsElementsAndSteps) {
   MillingPlan plan = rigid_cut();
   plan.elements = 4;
@@ -218,10 +221,10 @@ TEST(CutTurn, HasItsElementsAndSteps) {
   EXPECT_NEAR(force(30, 1), turn.fy_N.row(30).sum(), 1e-15);
 }
 
-// A tooth on its trochoid is faster by the feed where it cuts along the feed. With h = f sin φ, to
-// first order: a chip along the radius sweeps h (r - h / 2) and the force counts h r, which is more
-// by the integral of h^2 / 2; where the tip is at the free side, a triangle of h by h cos φ is not
-// cut yet.
+// On its trochoid, a tooth is faster by the feed where it cuts along the feed. The chip is h = f
+// sin φ. To first order, a chip along the radius sweeps h (r - h / 2), but the force contains h r,
+// which is more by the integral of h² / 2. Where the tip is at the free side, a triangle of h by h
+// cos φ is not cut yet.
 TEST(CutTurn, TrochoidPowerMatchesTheSweptVolume) {
   for (const bool up : {true, false}) {
     MillingPlan plan = rigid_cut();
@@ -241,8 +244,8 @@ TEST(CutTurn, TrochoidPowerMatchesTheSweptVolume) {
   }
 }
 
-// The force on a tooth along its path, including the edge force, times its speed, element by
-// element: the radial force does no work.
+// Expected, element by element: the force on a tooth along its path, including the edge force,
+// times its speed. The radial force does no work.
 TEST(CutTurn, PowerIsForceTimesSpeedOfEachElement) {
   for (const bool up : {true, false}) {
     MillingPlan plan = rigid_cut();
@@ -291,7 +294,7 @@ TEST(Milling, HasTheMeansAndWindowOfItsTurn) {
   EXPECT_LT(found.iterations, 15);
 }
 
-// A deflection is proportional to 1 / E; the limit is half of the tool radius.
+// The deflection is proportional to 1 / E. Its limit is half of the radius of the tool.
 TEST(Milling, RefusesADeflectionBeyondHalfTheRadius) {
   MillingPlan plan = rigid_cut();
   plan.youngs_modulus_Pa *= milling(plan)->deflection_m / (plan.radius_m() / 2);
@@ -308,7 +311,7 @@ TEST(WallByHand, ThreeHeights) {
   EXPECT_NEAR(line.Ra_m(), (2 + 1 + 3) / 3.0, 1e-15);
 }
 
-// The mean over the depth uses the elements; tip and root have separate results.
+// The mean over the depth is the mean of the elements. The tip and the root have separate results.
 TEST(WallByHand, ResultsMatchItsLines) {
   MillingPlan plan = parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
   plan.elements = 3;
@@ -337,8 +340,7 @@ TEST(WallByHand, ResultsMatchItsLines) {
   EXPECT_EQ(wall.Ra_root_m, lines[4].Ra_m());
 }
 
-// Drawn inputs with a run-out of up to a tenth of the radius, of either sign, are solved; others
-// are not.
+// A trial is solved if its run-out is at most a tenth of the radius, with either sign.
 TEST(MillingTrials, RunoutIsLimitedToATenthOfTheRadius) {
   for (const double share : {-0.101, -0.099, 0.099, 0.101}) {
     MillingPlan plan = rigid_cut();

@@ -1,4 +1,5 @@
-// Shares of planted causes: closed forms, and how often U contains the true value.
+// Shares of simulated causes. They are compared with closed forms, and the test counts how often U
+// contains the true share.
 #include "algo/part/part_error.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ PartPath path_of(bool with_normals) {
   return path;
 }
 
-// Four shapes over the path; each cause is a multiple of one shape.
+// Four errors along the path. Each cause is a multiple of one of them.
 Field shape(int k) {
   Field field;
   for (std::size_t p = 0; p < kPoints; ++p) {
@@ -59,7 +60,7 @@ TEST(PartError, SharesInClosedForm) {
     EXPECT_NEAR(found.layers[k].rms_m, std::sqrt(mean_square(causes[k].value_m)), 1e-18);
     EXPECT_EQ(found.layers[k].U_share, 0);
   }
-  // The largest error is at the end of the path, where all causes add up.
+  // The largest error is at the end of the path, where all causes have the same sign.
   double most = 0;
   std::size_t at = 0;
   for (std::size_t p = 0; p < kPoints; ++p) {
@@ -73,12 +74,12 @@ TEST(PartError, SharesInClosedForm) {
   EXPECT_NEAR(found.max_m, most, 1e-18);
   EXPECT_EQ(found.worst, at);
   EXPECT_LT(found.p95_m, found.max_m);
-  // Without normals the length of the error counts.
+  // Without normals, the size of an error is its length.
   EXPECT_NEAR(part_error(path_of(false), causes, 3).max_m, most * std::sqrt(1.09), 1e-15);
 }
 
-// Two causes of one layer add up with their signs. For a cause with unknown value (a budget) the
-// expected square counts.
+// Two causes of one layer are added with their signs. If the value of a cause is unknown (a
+// budget), its expected square is used.
 TEST(PartError, AddsSignedCausesAndExpectedSquares) {
   std::vector<PartCause> causes = {{0, "a", times(shape(1), 3e-6), times(shape(1), 0)},
                                    {0, "b", times(shape(1), -1e-6), times(shape(1), 0)},
@@ -88,13 +89,12 @@ TEST(PartError, AddsSignedCausesAndExpectedSquares) {
   EXPECT_NEAR(found.layers[1].rms_m, 2e-6, 1e-15);
   EXPECT_NEAR(found.layers[0].share, 0.5, 1e-12);
   EXPECT_NEAR(found.causes[0].share, 9. / 14, 1e-12);
-  // |2 + 2 xi| - 2 exceeds 1.645 u in one trial of twenty; in the other direction it cannot go so
-  // far.
+  // |2 + 2 xi| - 2 exceeds 1.645 u in one of twenty trials. In the other direction it is limited.
   EXPECT_NEAR(found.U_max_m, 1.645 * 2e-6, 0.35e-6);
 }
 
-// 1,000 parts: each cause is measured with its u, and the true share is compared with the stated
-// share. With a budget the last cause is not measured; only its u is known.
+// 1,000 parts. Each cause is measured with its u, and the stated share is compared with the true
+// share. With a budget, the last cause is not measured, and only its u is known.
 void expect_planted_shares_within_U(bool with_budget) {
   const double size[] = {2e-6, 1.5e-6, 1e-6, 1.2e-6}, u[] = {0.1e-6, 0.08e-6, 0.1e-6, 0.05e-6};
   std::mt19937 engine(3);
@@ -137,7 +137,8 @@ TEST(PartError, SharesOfABudgetAreWithinTheirU) {
   expect_planted_shares_within_U(true);
 }
 
-// Calculated by hand: X under Y of a table; the tool is above the point at which the errors hold.
+// Calculated by hand: X carries the tool, Y the table. The tool is above the point at which the
+// errors are stated.
 TEST(MachineCauses, MatchesManualCalculationOfLeversAndSources) {
   const auto machine = parse_machine(R"(name = "m"
 machine = {chain = "w-Y-b-X-t"}
@@ -170,17 +171,17 @@ acts_on = [ { error = "EYY", factor = 2 }, { error = "EXX", factor = 9 } ]
   EXPECT_EQ(found.axes[1].name, "EXX");
   EXPECT_EQ(found.axes[2].name, "EBX");
   EXPECT_NEAR(found.axes[1].value_m[1](0), 2e-6, 1e-12);
-  EXPECT_NEAR(found.axes[2].value_m[1](0), 10e-6 * 0.1, 1e-12);  // 10 urad at 100 mm
+  EXPECT_NEAR(found.axes[2].value_m[1](0), 10e-6 * 0.1, 1e-12);  // 10 urad with a lever of 100 mm
   EXPECT_NEAR(std::abs(found.axes[2].u_m[1](0)), 2e-6 * 0.1, 1e-12);
   EXPECT_NEAR(std::abs(found.axes[0].value_m[1](0)), 25e-6 * 0.04, 1e-12);
-  // EXX is measured, so the source does not act on it.
+  // EXX is measured, so the source does not act on EXX.
   ASSERT_EQ(found.budget.size(), 1u);
   EXPECT_NEAR(std::abs(found.budget[0].u_m[1](1)), 1e-6, 1e-12);
   EXPECT_EQ(found.budget[0].u_m[1](0), 0);
 }
 
-// The u of the only cause is a share of its value. All sizes are proportional to |1 + share xi|, so
-// U of each size is the 95 % point of |xi|, 1.96, times the share.
+// The only cause has a u that is a share of its value. All sizes are proportional to |1 + share
+// xi|, so U of each size is the share times the 95 % point of |xi|, 1.96.
 TEST(PartError, UncertaintyOfASingleCauseInClosedForm) {
   const double share = 0.1;
   const std::vector<PartCause> causes = {
@@ -194,30 +195,30 @@ TEST(PartError, UncertaintyOfASingleCauseInClosedForm) {
     EXPECT_NEAR(found.causes[0].U_rms_m / found.causes[0].rms_m, 1.96 * share, 0.01);
     EXPECT_EQ(found.layers[0].share, 1);
     EXPECT_NEAR(found.layers[0].U_share, 0, 1e-12);
-    // The 191st of 200 sorted sizes.
+    // Expected: the 191st of 200 sorted sizes.
     std::vector<double> sizes;
     for (const Eigen::Vector3d& v : causes[0].value_m)
       sizes.push_back(with_normals ? std::abs(v(2)) : v.norm());
     std::sort(sizes.begin(), sizes.end());
-    EXPECT_NEAR(found.p95_m, sizes[190], 0.005 * sizes[190]);  // the median of 4,000 draws
+    EXPECT_NEAR(found.p95_m, sizes[190], 0.005 * sizes[190]);  // median of 4,000 draws
   }
 }
 
-// Only u of the cause is known, so no point is free of error.
+// Only u of the cause is known, so the error is not 0 at any point.
 TEST(PartError, IsNotZeroIfOnlyUIsKnown) {
   const std::vector<PartCause> causes = {{0, "screw", times(shape(2), 0), times(shape(2), 2e-6)}};
   const PartError found =
       part_error(path_of(true), causes, 1, {.seed = 3, .shares = 100, .errors = 4000});
   double largest = 0;
   for (const Eigen::Vector3d& u : causes[0].u_m) largest = std::max(largest, std::abs(u(2)));
-  // |xi| has the median 0.6745.
+  // The median of |xi| is 0.6745.
   EXPECT_NEAR(found.max_m / largest, 0.6745, 0.03);
   EXPECT_GT(found.p95_m, 0.5 * found.max_m);
   EXPECT_GT(found.U_max_m / largest, 1.0);
 }
 
-// The RMS of a cause with unknown value is |xi| u. 95 % of all trials are within 0.995 u of u,
-// because 2 (Φ(1.995) − Φ(0.005)) = 0.950.
+// The value of the cause is unknown, so its RMS is |xi| u. In 95 % of all trials this is within
+// 0.995 u of u: 2 (Φ(1.995) − Φ(0.005)) = 0.950.
 TEST(PartError, RmsOfAnUnknownCauseIsUncertain) {
   const std::vector<PartCause> causes = {{0, "screw", times(shape(2), 0), times(shape(2), 2e-6)}};
   const PartError found =
@@ -226,8 +227,8 @@ TEST(PartError, RmsOfAnUnknownCauseIsUncertain) {
   EXPECT_NEAR(found.causes[0].U_rms_m / found.causes[0].rms_m, 0.995, 0.03);
 }
 
-// Two causes have the same mean square; the first has the relative uncertainty r. Its share is (1 +
-// r xi)² / ((1 + r xi)² + 1), which changes by r xi / 2 to first order.
+// Two causes have the same mean square, and the first has the relative uncertainty r. The share of
+// the first is (1 + r xi)² / ((1 + r xi)² + 1); to first order it changes by r xi / 2.
 TEST(PartError, UncertaintyOfAShareInClosedForm) {
   const double share = 0.02;
   const std::vector<PartCause> causes = {
@@ -244,8 +245,8 @@ TEST(PartError, UncertaintyOfAShareInClosedForm) {
   EXPECT_EQ(found.layers[1].U_rms_m, 0);
 }
 
-// ECY, the rotation of the body of Y, and EC0Y, the rotation of its line, have different effects.
-// ECY acts by the X coordinate of the point, EC0Y by the travel of Y.
+// ECY is the rotation of the body of Y, EC0Y the rotation of its axis line. The effect of ECY is
+// proportional to the X coordinate of the point, the effect of EC0Y to the travel of Y.
 TEST(MachineCauses, SeparatesRotationOfBodyAndLine) {
   const auto machine = parse_machine(R"(name = "m"
 machine = {chain = "w-Y-b-X-t"}
@@ -278,9 +279,10 @@ u_EC0Y_urad = 3
   }
 }
 
-// Calculated by hand: X is on the table and moves along + when its command grows, so the command
-// +10 mm brings the tool to x = -10 mm of the part. There the table is 4 um too far along +X, so
-// the tool is 4 um too far along -X. Y moves the tool.
+// Calculated by hand. X is the axis of the table and moves in the direction + when its command
+// increases. So the command +10 mm brings the tool to x = -10 mm of the part. There the table is 4
+// um too far in the direction +X, so the tool is 4 um too far in the direction -X. Y moves the
+// tool.
 TEST(MachineCauses, PathIsInPartCoordinates) {
   for (const bool is_iso : {false, true}) {
     const auto machine = parse_machine(std::string(R"(name = "m"
@@ -313,10 +315,10 @@ acts_on = [ { error = "EZX", factor = 1, factor_per_mm = 0.1, of = "X" } ]
     EXPECT_EQ(found.axes[0].value_m[right](0), 0);
     EXPECT_NEAR(found.axes[1].value_m[0](1), 3e-6, 1e-15);
     EXPECT_EQ(found.axes[1].value_m[1](1), 0);
-    // Factor 1 + 0.1 / mm of the command: 2 at +10 mm, 0 at -10 mm.
+    // The factor is 1 + 0.1 / mm times the command: 2 at +10 mm, 0 at -10 mm.
     EXPECT_NEAR(std::abs(found.budget[0].u_m[off](2)), 1e-6, 1e-15);
     EXPECT_NEAR(found.budget[0].u_m[right](2), 0, 1e-15);
-    EXPECT_TRUE(found.beyond.empty());  // the ends of the path are exactly the ends of the tables
+    EXPECT_TRUE(found.beyond.empty());  // the path ends exactly at the ends of the tables
   }
 }
 

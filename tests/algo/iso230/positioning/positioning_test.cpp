@@ -1,5 +1,5 @@
-// ISO 230-2 by hand: two targets with simple values; the notices about the plan of a test.
-// tests/tools/iso230_test checks readings of real machines.
+// Results of ISO 230-2, calculated by hand for two targets, and the notices about the plan of a
+// test. tests/tools/iso230_test checks readings of real machines.
 #include "algo/iso230/positioning/positioning.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,8 @@ namespace {
 
 const double kRoot2 = std::sqrt(2.0);
 
-// Means 1 and 6 with s = √2 and 2√2 at the first target, 10 and 8 with s = 0 and √2 at the second.
+// Readings {target, direction, run, deviation}. The means forward and reverse are 1 and 6 with s =
+// √2 and 2√2 at the first target, 10 and 8 with s = 0 and √2 at the second target.
 std::vector<PositioningReading> two_targets() {
   return {{1, -1, 2, 9}, {0, 1, 1, 0},  {0, 1, 2, 2},  {0, -1, 1, 4},
           {1, 1, 1, 10}, {0, -1, 2, 8}, {1, 1, 2, 10}, {1, -1, 1, 7}};
@@ -55,7 +56,7 @@ TEST(Positioning, GivesEachTarget) {
   EXPECT_DOUBLE_EQ(second.reverse.s, kRoot2);
   EXPECT_DOUBLE_EQ(second.mean, 9);
   EXPECT_DOUBLE_EQ(second.B, 2);
-  EXPECT_DOUBLE_EQ(second.R, 4 * kRoot2);  // from the reverse approach: larger than 2√2 + 2
+  EXPECT_DOUBLE_EQ(second.R, 4 * kRoot2);  // reverse approach, which exceeds 2√2 + 2
 }
 
 TEST(Positioning, OneDirectionHasItsOwnResultsOnly) {
@@ -68,11 +69,12 @@ TEST(Positioning, OneDirectionHasItsOwnResultsOnly) {
     EXPECT_TRUE(std::isnan(unknown)) << unknown;
 }
 
-// B, E and M do not need a second run; R and A do.
+// B, E and M have values for a single run; R and A need a second run.
 TEST(Positioning, SingleRunHasMeansOnly) {
   auto readings = two_targets();
   std::erase_if(readings, [](const auto& r) { return r.run == 2; });
-  const Positioning p = positioning(readings).value();  // 0 and 4, then 10 and 7
+  // Deviations 0 and 4 at target 1, 10 and 7 at target 2.
+  const Positioning p = positioning(readings).value();
   EXPECT_EQ(p.B, 4);
   EXPECT_EQ(p.B_mean, -0.5);
   EXPECT_EQ(p.E_forward, 10);
@@ -107,7 +109,7 @@ TEST(Positioning, RefusesInvalidReadings) {
 
 TEST(Positioning, NamesTheTargetThatLacksReadings) {
   auto readings = two_targets();
-  readings.pop_back();  // the second target's run 1 from the reverse side
+  readings.pop_back();  // target 2 in run 1, reverse
   EXPECT_NE(refused(readings).find("target 1000 mm: only one reading in reverse direction"),
             std::string::npos);
   readings.erase(readings.begin());
@@ -115,7 +117,7 @@ TEST(Positioning, NamesTheTargetThatLacksReadings) {
             std::string::npos);
 }
 
-// Limits of ±2√3 µm give U = 4 µm with k = 2; a drift of 5 µm gives 3 µm.
+// Limits of ±2√3 µm of the device are U = 4 µm with k = 2. A drift of 5 µm is U = 3 µm.
 TEST(PositioningUncertainty, CombinesDeviceAndDrift) {
   const PositioningUncertainty U = positioning_uncertainty({2e-6 * std::sqrt(3.0), 5e-6});
   EXPECT_DOUBLE_EQ(U.device, 4e-6);
@@ -133,7 +135,7 @@ TEST(PositioningUncertainty, IsUnknownWithoutADeclaration) {
   EXPECT_TRUE(std::isnan(U.E_M_A));
 }
 
-// `targets_m` with `runs` readings from each direction.
+// Results for targets at `targets_m` with `runs` readings in each direction.
 Positioning planned(const std::vector<double>& targets_m, int runs = 5) {
   std::vector<PositioningReading> readings;
   for (const double target_m : targets_m)

@@ -1,5 +1,5 @@
-// Number of runs and seed of the coverage tests: few runs in the test suite; the environment can
-// request more for publishable figures.
+// Number of runs and seed of the coverage tests. The test suite uses few runs; environment
+// variables set more runs for publishable figures.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 
 namespace mdof::test {
 
-// MDOF_COVERAGE_RUNS if set, otherwise `otherwise`.
+// The number in MDOF_COVERAGE_RUNS, or `otherwise` if it is not set.
 inline int coverage_runs(int otherwise) {
   const char* runs = std::getenv("MDOF_COVERAGE_RUNS");
   return runs ? std::atoi(runs) : otherwise;
 }
-// MDOF_COVERAGE_SEED if set, otherwise `otherwise`.
+// The number in MDOF_COVERAGE_SEED, or `otherwise` if it is not set.
 inline std::uint64_t coverage_seed(std::uint64_t otherwise) {
   const char* seed = std::getenv("MDOF_COVERAGE_SEED");
   return seed ? std::strtoull(seed, nullptr, 10) : otherwise;

@@ -1,4 +1,4 @@
-// Formats notices for comparisons in tests: codes and values, no sentences.
+// Formats notices for comparisons in tests. The text contains codes and values, but no sentences.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace mdof::test {
 
-// "run 3: probe_stepped E step_um=0.5 time_s=2": source, code, subject, values with six digits.
+// "run 3: probe_stepped E step_um=0.5 time_s=2": source, code, subject, and values with six digits.
 inline std::string shown(const Notice& notice) {
   std::string out = notice.source.empty() ? "" : notice.source + ": ";
   out += to_string(notice.code);
@@ -34,7 +34,7 @@ inline bool has(const Notices& notices, NoticeCode code) {
                      [code](const Notice& each) { return each.code == code; });
 }
 
-// The value of a key; NaN: there is no such number.
+// The value of a key; NaN if the notice has no number with this key.
 inline double number(const Notice& notice, std::string_view key) {
   const NoticeValue* x = value(notice, key);
   const double* found = x ? std::get_if<double>(x) : nullptr;

@@ -12,12 +12,12 @@ inline constexpr double kOverrun_m = 1e-3;
 inline const std::vector<double> kMachineTargets = {0,     5e-3,    10.2e-3, 14.9e-3,
                                                     20e-3, 25.1e-3, 30e-3};
 
-// The expected labels of a visit.
+// The expected target, run and direction of a visit.
 struct Truth {
   int target, run, direction;
 };
 
-// Moves as the test commands and records the expected labels of each stop.
+// Moves as the test commands and records the expected target, run and direction of each stop.
 struct Machine : SteppingAxis {
   using SteppingAxis::SteppingAxis;
   std::vector<Truth> truth;

@@ -1,5 +1,5 @@
-// Numbers without a pattern, identical in every build. A wrong index or sign changes the results
-// that a test calculates from them.
+// Numbers without a pattern; they are the same in every build. A wrong index or sign in the code
+// under test changes the results that a test calculates from them.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 
 namespace mdof::test {
 
-// The default fixture of the paper, axis X, with its three lengths in mm.
+// The default fixture of the paper for the axis X, with its three lengths in mm.
 inline std::string rig_x_toml(double l_mm = 10, double h_mm = 15, double z_mm = 20) {
   const auto probe = [](const std::string& id, double x, double y, double z, const char* measures) {
     return "[[probe]]\nid = \"" + id + "\"\nposition_mm = [" + std::to_string(x) + ", " +
@@ -23,7 +23,8 @@ inline Rig rig_x(double l_mm = 10, double h_mm = 15, double z_mm = 20) {
   return parse_rig(rig_x_toml(l_mm, h_mm, z_mm), "rig_X.toml").value();
 }
 
-// The default fixture with `keys` added to the table of one probe and `end` appended to the file.
+// The default fixture. `keys` are added to the text of one probe, and `end` is appended to the
+// file.
 inline Rig rig_x_with(const std::string& probe, const std::string& keys,
                       const std::string& end = "") {
   std::string toml = rig_x_toml();

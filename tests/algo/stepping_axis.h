@@ -12,7 +12,7 @@
 
 namespace mdof::algo {
 
-// stop() makes the stops; the test itself counts them.
+// stop() moves to a position and waits there. The test itself counts the stops.
 struct SteppingAxis {
   double rate_hz = 500, dwell_s = 0.4, speed_m_s = 0.05, noise_m = 10e-9;
   double x_m = -1e-3;

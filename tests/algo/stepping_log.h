@@ -1,5 +1,5 @@
-// The log of an axis that steps to 13 targets, in both directions, three times: 78 stops. The model
-// shares no code with the code under test.
+// The log of an axis that steps to 13 targets in both directions, three times: 78 stops. This model
+// uses no code of the code under test.
 #pragma once
 
 #include <algorithm>
@@ -24,14 +24,14 @@ struct SteppingLog {
   double pitch_mm = 5, overrun_mm = 1;
   int targets = 13, runs = 3;
   double encoder_noise_um = 0.005, probe_noise_um = 0.01;
-  double probe_step_um = 1e-6;  // resolution of the logged readings; 0: not rounded
+  double probe_step_um = 1e-6;  // resolution of the logged readings; 0: no rounding
   double drift_um_per_min = 0.005;
-  std::size_t probes = 5;  // A ... E, and more top probes
+  std::size_t probes = 5;  // A ... E; the sixth is a top probe, the seventh a side probe
   std::uint64_t seed = 1;
 
   // Position of the axis at each scan, mm.
   std::vector<double> path_mm() const {
-    std::vector<double> stops;  // NaN: turn without a stop
+    std::vector<double> stops;  // NaN: the axis turns without a stop
     std::vector<bool> stays;
     const auto stop = [&](double mm, bool stay) { stops.push_back(mm), stays.push_back(stay); };
     stop(-overrun_mm, false);
@@ -55,8 +55,8 @@ struct SteppingLog {
     return path;
   }
 
-  // Readings of the probes without noise at position d (mm), in µm, to first order. The curve
-  // depends on the seed.
+  // Readings of the probes without noise at the position d (mm), in µm, to first order. The form of
+  // the axis depends on the seed.
   std::vector<double> readings_um(double d) const {
     const double w = 0.09 * d, p = static_cast<double>(seed % 97);
     const double dy = 1.8 * std::sin(w + p) + 0.01 * d, dz = 1.3 * std::cos(2 * w + 2 * p);

@@ -13,8 +13,8 @@
 namespace mdof::algo {
 namespace {
 
-// JCGM 101 §9.2.3: the sum of four rectangular quantities ±√3 has u = 2.0 and the 95 % interval
-// ±3.88.
+// Example of JCGM 101 §9.2.3: the sum of four rectangular quantities of ±√3 has u = 2.0 and the 95
+// % interval ±3.88.
 class FourRectangular : public Experiment {
  public:
   const std::vector<std::string>& outputs() const override { return outputs_; }
@@ -51,7 +51,7 @@ TEST(AdaptiveRule, SettlesForTheExampleOfTheStandard) {
   AdaptiveRule rule = rule_of({2, {}});
   StudyStatistics all(e, pilot_scale(e));
   const std::uint64_t trials = run_until_settled(e, rule, all);
-  // δ = 0.05 for u = 2.0 with two digits. The standard reports about 10^5 trials.
+  // u = 2.0 with two digits has the tolerance δ = 0.05. The standard reports about 10^5 trials.
   EXPECT_DOUBLE_EQ(rule.progress().at(0).tolerance, 0.05);
   EXPECT_TRUE(rule.settled());
   EXPECT_LT(trials, 2'000'000u);
@@ -86,13 +86,13 @@ TEST(AdaptiveRule, ToleranceIsHalfAUnitOfTheLastDigit) {
   EXPECT_DOUBLE_EQ(tolerance(0.33333, 2), 0.005);
   EXPECT_DOUBLE_EQ(tolerance(36, 1), 5);
   EXPECT_DOUBLE_EQ(tolerance(36, 2), 0.5);
-  EXPECT_DOUBLE_EQ(tolerance(9.96, 2), 0.5);  // rounds to 10: c = 10, l = 0
+  EXPECT_DOUBLE_EQ(tolerance(9.96, 2), 0.5);  // is rounded to 10: c = 10, l = 0
   EXPECT_DOUBLE_EQ(tolerance(1, 1), 0.5);
   EXPECT_DOUBLE_EQ(tolerance(100, 3), 0.5);
   EXPECT_DOUBLE_EQ(tolerance(1.2e-9, 3), 0.5e-11);
 }
 
-// Two blocks with the means 1 and 3: the standard deviation of the average is 1.
+// Two blocks have the means 1 and 3, so the standard deviation of their average is 1.
 TEST(AdaptiveRule, WorstIsTwiceTheStandardDeviationOfTheAverage) {
   AdaptiveRule rule = rule_of({2, {{"Y_um", 2.5}}});
   EXPECT_FALSE(rule.settled());
@@ -118,7 +118,7 @@ TEST(AdaptiveRule, ConstantOutputSettlesAfterTwoBlocks) {
   EXPECT_TRUE(rule.settled());
 }
 
-// The output is constant in each block, but differs between the blocks.
+// The output is constant within each block and differs between the blocks.
 TEST(AdaptiveRule, OutputThatChangesBetweenBlocksIsNotConstant) {
   AdaptiveRule rule = rule_of({2, {}});
   rule.add({{10'000, 4, 0, 4, 4}});
@@ -146,7 +146,7 @@ TEST(BlockFigures, MatchTheSortedTrials) {
   double* const out[] = {x.data()};
   e.run(block, 1, block, out);
   std::sort(x.begin(), x.end());
-  // M = 10240, q = 9216, r = 512.
+  // By the standard: M = 10240, q = 9216, r = 512.
   EXPECT_EQ(f.low, x[511]);
   EXPECT_EQ(f.high, x[511 + 9216]);
   EXPECT_EQ(f.n, block);
@@ -177,7 +177,7 @@ TEST(AdaptiveBlocks, HaveAtLeast100TrialsOutside) {
   EXPECT_EQ(adaptive_block_trials(e, 0.9999).value() % block_trials(e), 0u);
 }
 
-// The values of a block are kept in memory, so 10^12 values are rejected.
+// The values of a block are kept in memory, so a block of 10^12 values is refused.
 TEST(AdaptiveBlocks, RejectsACoverageWithTooLongBlocks) {
   const FourRectangular e;
   EXPECT_GE(adaptive_block_trials(e, 0.99999).value(), 10'000'000u);

@@ -1,4 +1,5 @@
-// Tolerances and comparisons with known results: linear outputs of normal quantities.
+// Tests tolerances and comparisons for linear outputs of normal quantities, whose results are
+// known.
 #include "algo/sensitivity/allocation.h"
 
 #include <gtest/gtest.h>
@@ -40,14 +41,15 @@ Allocation allocate_first(const StudyPlan& plan) {
   return allocate(*e, plan.allocations.at(0)).value();
 }
 
-// εy = ((B + C)/2 - A)/l, l = 10 mm: sd = √(a² + (b² + c²)/4)/10 µrad with sd in nm. The sampling
-// uncertainty of the 95 % quantile of 10000 trials is about 1.1 %.
+// εy = ((B + C)/2 - A)/l with l = 10 mm: the standard deviation is √(a² + (b² + c²)/4)/10 µrad if
+// a, b, c are the standard deviations in nm. The relative sampling uncertainty of the 95 % quantile
+// of 10000 trials is about 1.1 %.
 TEST(Allocation, FindsTheTolerancesOfALinearOutput) {
   const double limit = 2;
   const Allocation found =
       allocate_first(plan_of(drift("A", 6) + drift("B", 8) +
                              allocation("\"probe.A.drift_nm\", \"probe.B.drift_nm\"", limit)));
-  const double allowed = limit * 10 / k95;  // of √(a² + b²/4), nm
+  const double allowed = limit * 10 / k95;  // limit of √(a² + b²/4), nm
   const auto expected_probability = [&](double sd) {
     return std::erf(limit * 10 / sd / std::sqrt(2.0));
   };
@@ -73,7 +75,7 @@ TEST(Allocation, FindsTheTolerancesOfALinearOutput) {
   EXPECT_NEAR(found.frontier[7][0].value / allowed, 1, 0.03);
 }
 
-// The interval of about 19 of 20 seeds contains the true tolerance.
+// For about 19 of 20 seeds the interval must contain the true tolerance.
 TEST(Allocation, SamplingBoundsHoldTheTruth) {
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -113,8 +115,8 @@ TEST(Allocation, IsTheSameHoweverItsTasksAreRun) {
   EXPECT_EQ(forward.reached, backward.reached);
 }
 
-// Each trial gives `scale` times its quantity, which is 1, so it is within a limit up to exactly
-// that factor. Trial j of n gives (1 + spread j/n) times that value.
+// Trial j of n has the output scale (1 + spread j/n); the quantity is 1. Without a spread, a trial
+// is within a limit up to exactly the scale that equals the limit.
 class Proportional : public ScalableExperiment {
  public:
   explicit Proportional(double spread = 0) : spread_(spread) {}
@@ -163,8 +165,8 @@ double largest_factor(double limit) {
   return found.common_factor;
 }
 
-// Powers of two are found exactly, other factors by bisection to 5e-4. From 2^20 on everything is
-// allowed, below 2^-20 nothing.
+// If the factor is a power of two it is found exactly, otherwise by bisection with an error of
+// 5e-4. Limits from 2^20 on allow everything, limits below 2^-20 nothing.
 TEST(Allocation, EqualsTheLimitOfAProportionalOutput) {
   for (const double limit : {1.0, 8.0, 0x1p19, 0.25, 0x1p-19})
     EXPECT_EQ(largest_factor(limit), limit);
@@ -177,8 +179,9 @@ TEST(Allocation, EqualsTheLimitOfAProportionalOutput) {
   EXPECT_EQ(largest_factor(0x1.8p-21), 0);
 }
 
-// 300 trials from 1 to 2, of which 285 must be within 10: the 285th in order is 1 + 284/300. The
-// bounds are those of 293 and 277 trials: 285 ± 1.96 √(300 · 0.95 · 0.05) = 292.4 and 277.6.
+// 300 trials have outputs from 1 to 2 at the scale 1; 285 trials must be within 10. The 285th in
+// order is 1 + 284/300. The bounds follow from the 277th and the 293rd trial: 285 ± 1.96 √(300 ·
+// 0.95 · 0.05) = 277.6 and 292.4.
 TEST(Allocation, MatchesTheOrderStatistic) {
   const Proportional e(1);
   const PlannedAllocation planned{"EBX_urad", 10, 0.95, {"probe.A.drift_nm"}, 300, "plan.toml:9"};
@@ -204,7 +207,8 @@ TEST(Allocation, RejectsAnUnknownOutput) {
   EXPECT_EQ(found.error().message, "plan.toml:9: this study has no output \"EZX_um\"");
 }
 
-// At twice the distance the angle is half as large for the same reading errors, in each trial.
+// In each trial the reading errors of both rigs are equal. If the distance of the probes is
+// doubled, the angle is half as large.
 TEST(Comparison, TwiceTheWidthHalvesTheAngles) {
   const StudyPlan plan = plan_of(drift("*", 6) + "[compare]\nrig = \"rig_wide.toml\"\n");
   const auto ours = make_plan_experiment(plan).value();
@@ -222,8 +226,8 @@ TEST(Comparison, TwiceTheWidthHalvesTheAngles) {
 }
 
 TEST(Comparison, StandardErrorIsThatOfPairedTrials) {
-  // The drift of A is twice as large in the second plan, and the drift of B is equal. A and B are
-  // independent.
+  // The drift of A is twice as large in the second plan, the drift of B is equal in both. A and B
+  // are independent.
   double squares = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     StudyPlan small = plan_of(drift("A", 3) + drift("B", 8));

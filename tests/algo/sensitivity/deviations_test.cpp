@@ -1,5 +1,5 @@
-// The effect of each name of a plan on the mounting of a trial: one deviation in its unit, and
-// nothing else (PLAN.md).
+// Tests the effect of each name of a plan on the mounting of a trial. A name must change one
+// deviation, in the unit of this deviation, and nothing else (PLAN.md).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ Deviations deviations_of(const Mounting& m, const PlanAxis::TrueErrors& truth) {
   return all;
 }
 
-// Deviations by the quantity `name` with the constant value 3.
+// Deviations of a trial in which the quantity `name` has the constant value 3.
 Deviations deviations_by(const std::string& name) {
   const auto plan = parse_study_plan(
       "name = \"t\"\nmodel = \"rigid\"\nrig = "

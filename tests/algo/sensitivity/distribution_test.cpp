@@ -1,5 +1,5 @@
-// Quantiles and special functions against values from 30-digit arithmetic, moments against JCGM
-// 101.
+// Quantiles and special functions are compared with values from 30-digit arithmetic, moments with
+// JCGM 101.
 #include "algo/sensitivity/distribution.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ struct Moments {
   double mean, sd;
 };
 
-// Moments from the midpoints of n equal shares of probability.
+// Moments that are calculated from the middles of n intervals of equal probability.
 Moments moments_of(const Distribution& d, int n = 1'000'000) {
   const QuantileFunction q(d);
   double sum = 0, squares = 0;
@@ -66,7 +66,7 @@ TEST(PlanFunctions, MatchTheTables) {
                              {5000, 37582.62631568535}};
   for (const auto& [x, value] : gamma)
     EXPECT_NEAR(log_gamma(x), value, 1e-14 * (1 + std::abs(value))) << x;
-  // ln 14! and ln 15!, where the series is shortest, to the last digits of a double.
+  // ln 14! and ln 15!, to the last digits of a double. Here the series has the fewest terms.
   EXPECT_NEAR(log_gamma(15), 25.191221182738681500, 1.5e-14);
   EXPECT_NEAR(log_gamma(16), 27.899271383840891566, 1.5e-14);
   for (const double x : {1e-300, 1e-5, 0.7, 0.999999, 1.0, 1.5, 3.0, 1e10, 1e300})
@@ -92,8 +92,8 @@ TEST(StudentT, QuantilesMatchTheTables) {
       {10000, 0.975, 1.9602012398906263},  {10000, 0.999999999, 6.0033554479471416},
   };
   for (const auto& [dof, p, x] : rows) {
-    // For p = 1 - q near 1, a double stores q with an error of 1e-16 only, and x follows by its
-    // slope.
+    // For p = 1 - q near 1, a double represents q only with an error of 1e-16. The error of x is
+    // this error times the slope.
     const double by_p = 1e-16 / (1 - p);
     const QuantileFunction q(student(dof, 5, 2));
     EXPECT_NEAR((q.at(p) - 5) / 2 / x, 1, 1e-8 + by_p) << dof << " " << p;
@@ -125,7 +125,7 @@ TEST(Distribution, LimitedDistributionsHaveTheirMomentsAndEnds) {
   const std::pair<Distribution, double> cases[] = {
       {limited(Kind::rectangular, a, b), half / std::sqrt(3.0)},
       {limited(Kind::triangular, a, b), half / std::sqrt(6.0)},
-      {trapezoid, half * std::sqrt((1 + 0.4 * 0.4) / 6)},  // JCGM 101 §6.4.4
+      {trapezoid, half * std::sqrt((1 + 0.4 * 0.4) / 6)},  // standard deviation by JCGM 101 §6.4.4
       {limited(Kind::u_shaped, a, b), half / std::sqrt(2.0)},
   };
   for (const auto& [d, sd] : cases) {
@@ -144,7 +144,7 @@ TEST(Distribution, TriangleMayBeAsymmetric) {
   Distribution d = limited(Kind::triangular, 0, 4);
   d.mode = 0;
   const QuantileFunction q(d);
-  EXPECT_DOUBLE_EQ(q.at(0.75), 2);  // 1 - (1 - x/4)² = 3/4
+  EXPECT_DOUBLE_EQ(q.at(0.75), 2);  // 1 - (1 - x/4)² = 3/4 for x = 2
   EXPECT_NEAR(moments_of(d).mean, 4.0 / 3, 1e-6);
 }
 
@@ -188,8 +188,8 @@ TEST(Correlation, FactorReproducesTheMatrix) {
 }
 
 TEST(Correlation, RejectsAnIndefiniteMatrixWithItsEigenvalue) {
-  // The eigenvalues are 1.9, 1.9 and -0.8: three quantities cannot all be negatively correlated
-  // with the other two by 0.9.
+  // The eigenvalues are 1.9, 1.9 and -0.8, so the matrix is invalid: three quantities cannot all
+  // have correlations of -0.9 with each other.
   const PlannedCorrelation group{{"a", "b", "c"},
                                  {1, -0.9, -0.9, -0.9, 1, -0.9, -0.9, -0.9, 1},
                                  "plan.toml:7: correlation[1].quantities"};

@@ -1,5 +1,5 @@
-// Indices and comparisons of a few trials, some of them unsolved, against the published estimators,
-// trial by trial.
+// Indices and comparisons of a few trials; some of the trials are unsolved. They are compared with
+// the published estimators, which the test applies to each trial.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,8 @@
 namespace mdof::algo {
 namespace {
 
-// Two outputs and three causes; each output is another function of the numbers of a trial.
+// An experiment with two outputs and three causes. Each output is a different function of the
+// random numbers of a trial.
 class Tabulated final : public CausalExperiment {
  public:
   explicit Tabulated(double scale = 1) : scale_(scale) {
@@ -36,7 +37,7 @@ class Tabulated final : public CausalExperiment {
   double value(std::span<const std::uint8_t> second, std::uint64_t trial, std::size_t k) const {
     const auto x = [&](std::size_t c) { return numbers_.at(trial)[second[c]][c]; };
     if (k == 0) return 5 + x(0) + scale_ * x(1) * x(2) - 0.3 * x(2);
-    // The second output is unsolved if the second cause is small, in either stream.
+    // The second output is unsolved if the second cause is below -0.6, in either stream.
     return x(1) < -0.6 ? std::numeric_limits<double>::quiet_NaN()
                        : -40 + scale_ * x(0) * x(1) + 2 * x(2) * x(2);
   }
@@ -61,8 +62,8 @@ double centre_of(const Tabulated& e, std::size_t output, std::uint64_t trials) {
   return sum / count;
 }
 
-// Ratio of two sums over blocks and its standard error: Cochran, Sampling Techniques, Eq. 6.13,
-// with the mean of the blocks in place of the population mean.
+// Ratio of two sums over blocks and its standard error by Cochran, Sampling Techniques, Eq. 6.13.
+// The mean of the blocks replaces the population mean.
 std::pair<double, double> ratio(const std::vector<double>& y, const std::vector<double>& x) {
   double top = 0, bottom = 0, squares = 0;
   for (std::size_t b = 0; b < y.size(); ++b) top += y[b], bottom += x[b];
@@ -80,9 +81,10 @@ TEST(SobolByHand, EstimatorsMatchThePapers) {
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_EQ(found[k].key, e.outputs()[k]);
     const double c = centre_of(e, k, 16);
-    // All trials whose A, B and mixtures are solved.
+    // Only trials are used for which A, B and all mixtures are solved.
     double sum = 0, n = 0;
-    std::vector<std::vector<std::array<double, 5>>> solved(kBlocks);  // A, B, ABi
+    // A, B, ABi of the solved trials.
+    std::vector<std::vector<std::array<double, 5>>> solved(kBlocks);
     for (std::uint64_t i = 0; i < kTrials * kBlocks; ++i) {
       std::array<double, 5> f{e.value(std::vector<std::uint8_t>{0, 0, 0}, i, k),
                               e.value(std::vector<std::uint8_t>{1, 1, 1}, i, k),
@@ -94,7 +96,7 @@ TEST(SobolByHand, EstimatorsMatchThePapers) {
       sum += f[0] + f[1];
       n += 2;
     }
-    EXPECT_EQ(n == 2 * kTrials * kBlocks, k == 0);  // all trials of the first output are solved
+    EXPECT_EQ(n == 2 * kTrials * kBlocks, k == 0);  // only the first output is solved in all trials
     std::vector<double> variance;
     std::array<std::vector<double>, 3> first, total;
     for (const auto& block : solved) {
@@ -135,7 +137,7 @@ TEST(SobolByHand, OneBlockHasNoStandardError) {
     EXPECT_TRUE(std::isnan(index.first_se));
     EXPECT_TRUE(std::isnan(index.total_se));
   }
-  EXPECT_EQ(SobolSums(e, 20).result()[0].causes[0].first, 0);  // without trials
+  EXPECT_EQ(SobolSums(e, 20).result()[0].causes[0].first, 0);  // no trials
 }
 
 TEST(ComparisonByHand, RatioAndItsStandardErrorAreCorrect) {
@@ -160,7 +162,7 @@ TEST(ComparisonByHand, RatioAndItsStandardErrorAreCorrect) {
     EXPECT_NEAR(found[k].sd_this, std::sqrt(v), 1e-12);
     EXPECT_NEAR(found[k].sd_other, std::sqrt(w), 1e-12);
     EXPECT_NEAR(found[k].ratio, std::sqrt(w / v), 1e-12);
-    // To first order: the contribution of each block to the relative change of w and v.
+    // To first order: contribution of each block to the relative change of w and v.
     double squares = 0;
     for (const auto& block : solved) {
       double off = 0;

@@ -1,4 +1,4 @@
-// Sobol indices of functions whose indices have a closed form.
+// Sobol indices of functions whose indices are known in closed form.
 #include "algo/sensitivity/indices.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kBlockTrials = 4096;
 
-// A function of independent uniform numbers on (0, 1).
+// A function of independent uniform random numbers between 0 and 1.
 class FunctionExperiment final : public CausalExperiment {
  public:
   using Function = std::function<double(const std::vector<double>&)>;
@@ -52,14 +52,14 @@ class FunctionExperiment final : public CausalExperiment {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Ishigami & Homma 1990 with a = 7, b = 0.1.
+// The function of Ishigami & Homma (1990) with a = 7 and b = 0.1.
 double ishigami(const std::vector<double>& u) {
   const double sine1 = sine_of_turns(u[0] - 0.5), sine2 = sine_of_turns(u[1] - 0.5);
   const double x3 = 2 * kPi * (u[2] - 0.5);
   return sine1 + 7 * sine2 * sine2 + 0.1 * x3 * x3 * x3 * x3 * sine1;
 }
 
-// Sobol's g-function: the product of (|4x - 2| + a)/(1 + a).
+// Sobol's g-function: the product of (|4x - 2| + a)/(1 + a), with these values of a.
 const std::vector<double> kA = {0, 1, 4.5, 9, 99, 99, 99, 99};
 double g_function(const std::vector<double>& u) {
   double product = 1;
@@ -122,8 +122,8 @@ TEST(Sobol, GFunctionHasItsAnalyticIndices) {
   expect_known(FunctionExperiment(8, 2, g_function), g_known());
 }
 
-// The deviations of 30 seeds, in units of their standard error, have a mean square of one if the
-// standard errors are correct.
+// The indices of 30 seeds deviate from the truth. If the standard errors are correct, the mean
+// square of deviation / standard error is 1.
 TEST(Sobol, StandardErrorsAreCorrect) {
   const auto known = ishigami_known();
   double first = 0, total = 0, worst = 0;
@@ -143,7 +143,7 @@ TEST(Sobol, StandardErrorsAreCorrect) {
       ++n;
     }
   }
-  // 90 nearly independent squares: a mean of 1 ± 0.15.
+  // 90 squares that are nearly independent have the mean 1 ± 0.15.
   EXPECT_NEAR(first / n, 1, 0.6);
   EXPECT_NEAR(total / n, 1, 0.6);
   EXPECT_LT(worst, 5);
@@ -157,7 +157,7 @@ TEST(SumBlocks, SufficeForAStandardErrorOfFewTrials) {
   }
 }
 
-// Like StandardErrorsAreCorrect, in the shortest possible blocks.
+// As StandardErrorsAreCorrect, with blocks of one trial.
 TEST(Sobol, StandardErrorsAreCorrectInBlocksOfOneTrial) {
   const auto known = ishigami_known();
   double total = 0;
@@ -171,7 +171,8 @@ TEST(Sobol, StandardErrorsAreCorrectInBlocksOfOneTrial) {
   EXPECT_NEAR(total / 200, 1, 0.35);
 }
 
-// The same for pairs: the second experiment has twice the x1. 200 seeds of 100 trials.
+// As above, for a comparison of two experiments; x1 is twice as large in the second. 200 seeds of
+// 100 trials.
 TEST(Comparison, StandardErrorIsCorrectInBlocksOfOneTrial) {
   double squares = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -222,7 +223,7 @@ TEST(Sobol, LeavesOutUnsolvedTrials) {
   const FunctionExperiment e(
       2, 6, [](const std::vector<double>& u) { return u[0] < 0.1 ? std::nan("") : u[0] + u[1]; });
   const auto found = by_cause(sums_of(e, 16));
-  // x1 uniform on (0.1, 1): variances 0.81/12 and 1/12.
+  // In solved trials x1 is uniform on (0.1, 1). The variances are 0.81/12 and 1/12.
   EXPECT_NEAR(found.at("x1").total, 0.81 / 1.81, 5 * found.at("x1").total_se);
   EXPECT_NEAR(found.at("x2").first, 1 / 1.81, 5 * found.at("x2").first_se);
 }
@@ -244,8 +245,8 @@ std::string drift(const std::string& probe, double sd) {
          ".drift_nm\"\ndistribution = \"normal\"\nsd = " + std::to_string(sd) + "\n";
 }
 
-// εy = ((B + C)/2 - A)/l is linear, so the indices are shares of variance. A correlated group is
-// one cause with the variance of its combination.
+// εy = ((B + C)/2 - A)/l is linear, so the indices are shares of the variance. A correlated group
+// is one cause; its variance is the variance of its linear combination.
 TEST(Sobol, CorrelatedGroupHasTheVarianceOfItsSum) {
   const auto e =
       experiment_of("[truth]\ntravel_mm = [30]\n" + drift("A", 3) + drift("B", 4) + drift("C", 5) +
@@ -262,7 +263,7 @@ TEST(Sobol, CorrelatedGroupHasTheVarianceOfItsSum) {
   EXPECT_NEAR(two.total, group / (a + group), 5 * two.total_se);
 }
 
-// The travel is drawn in bins; its second stream must be independent of the bin of the first
+// The travel is drawn in bins. Its second stream must be independent of the bin of the first
 // stream.
 TEST(Sobol, BinnedCauseHasCorrectIndices) {
   const std::string rest =
@@ -277,7 +278,8 @@ TEST(Sobol, BinnedCauseHasCorrectIndices) {
   ASSERT_TRUE(head) << head.error().message;
   const auto e = make_plan_experiment(*head).value();
   const auto found = by_cause(sums_of(*e, 16));
-  // δz = 1e-4 d + B/2 (1 - d/l): with t = d/l on (0, 6), in µm: t + b (1 - t)/2, b of sd 1.
+  // δz = 1e-4 d + B/2 (1 - d/l). With t = d/l uniform on (0, 6) this is t + b (1 - t)/2 in µm; b
+  // has the standard deviation 1.
   const double travel = 3, product = (1 - 2 * 3 + 12) / 4.0;  // Var t; E (1 - t)²/4
   const double drift_first = 4 / 4.0;                         // (E (1 - t))²/4
   const CauseIndex &t = found.at("travel_mm"), &b = found.at("probe.B.drift_nm");

@@ -1,5 +1,5 @@
-// Ranks and intervals of JCGM 101 §7.7, calculated by hand or by exhaustive search. Mutation tests
-// (tests/mutate) found these cases.
+// Ranks and intervals by JCGM 101 §7.7. The expected values are calculated by hand or by exhaustive
+// search. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ double bin_edge_value(std::size_t bin) {
   return kIntervalScale.low + static_cast<double>(bin) * kIntervalScale.width;
 }
 
-// p M = 3.47, 3.55, 950 and 95.95; the rank is the integer part of p M + 1/2.
+// p M is 3.47, 3.55, 950 and 95.95. The rank is the integer part of p M + 1/2.
 TEST(IntervalRanks, MatchJcgm101) {
   EXPECT_EQ(quantile_rank(0.0347, 100), 3u);
   EXPECT_EQ(quantile_rank(0.0355, 100), 4u);
@@ -29,15 +29,15 @@ TEST(IntervalRanks, MatchJcgm101) {
     return std::pair(r.low, r.high);
   };
   using Ranks = std::pair<std::uint64_t, std::uint64_t>;
-  EXPECT_EQ(symmetric(0.95, 1000), Ranks(25, 975));  // (1000 - 950)/2
-  EXPECT_EQ(symmetric(0.95, 101), Ranks(3, 99));     // q = 96, (5 + 1)/2
-  EXPECT_EQ(symmetric(0.5, 7), Ranks(2, 6));         // q = 4, (3 + 1)/2
-  EXPECT_EQ(symmetric(0.0347, 100), Ranks(49, 52));  // q = 3, (97 + 1)/2
+  EXPECT_EQ(symmetric(0.95, 1000), Ranks(25, 975));  // r = (1000 - 950)/2
+  EXPECT_EQ(symmetric(0.95, 101), Ranks(3, 99));     // q = 96, r = (5 + 1)/2
+  EXPECT_EQ(symmetric(0.5, 7), Ranks(2, 6));         // q = 4, r = (3 + 1)/2
+  EXPECT_EQ(symmetric(0.0347, 100), Ranks(49, 52));  // q = 3, r = (97 + 1)/2
   EXPECT_EQ(symmetric(0.96, 100), Ranks(2, 98));     // q = 96
 }
 
-// Small lists with a power of two of trials per bin, so that each length is exact. The expected
-// interval is the first of the shortest intervals over all ranks.
+// The number of trials in a bin is a power of two, so that each length is exact. The expected
+// interval is found by comparing all ranks; it is the first of the shortest intervals.
 TEST(IntervalRanks, ShortestIsTheFirstOfTheSmallestLength) {
   std::uint32_t state = 12345;
   const auto next = [&](std::uint32_t below) {
@@ -49,8 +49,7 @@ TEST(IntervalRanks, ShortestIsTheFirstOfTheSmallestLength) {
     std::size_t bin = 100, first = 0, last = 0;
     std::uint64_t n = 0;
     for (int k = 0; k < 5; ++k) {
-      const bool end =
-          k == 0 || k == 4;  // one trial, so the smallest and the largest value are known
+      const bool end = k == 0 || k == 4;  // a single trial: the smallest or largest value
       const std::uint64_t count = std::uint64_t{1} << (end ? 0 : next(list % 2 == 0 ? 1 : 4));
       counts.add_core(bin, count);
       if (k == 0) first = bin;
@@ -74,9 +73,9 @@ TEST(IntervalRanks, ShortestIsTheFirstOfTheSmallestLength) {
   }
 }
 
-// 3200 trials: rank 3 (0.001 M = 3.2) is alone in bin 1000 and rank 3197 (3196.8) is alone in bin
-// 2400, each in the middle of its bin. A tenth of their distance is 140 bins: bins 860 to 2540 are
-// drawn, 1681 bins in bars of 15.
+// Of 3200 trials, rank 3 (0.001 M = 3.2) is alone in bin 1000, and rank 3197 (3196.8) is alone in
+// bin 2400; both are in the middle of their bins. A tenth of their distance is 140 bins, so bins
+// 860 to 2540 are drawn. These 1681 bins are drawn as bars of 15 bins.
 TEST(HistogramForDrawing, ShowsTheCentralTrialsAndATenthMore) {
   OutputHistogram counts;
   for (const auto& [bin, n] : {std::pair(50u, 2u), std::pair(1000u, 1u), std::pair(1500u, 1000u),
@@ -89,15 +88,15 @@ TEST(HistogramForDrawing, ShowsTheCentralTrialsAndATenthMore) {
   ASSERT_EQ(h.counts.size(), 113u);
   EXPECT_EQ(h.below, 2u);
   EXPECT_EQ(h.above, 3u);
-  EXPECT_EQ(h.counts[9], 1u);      // (1000 - 860)/15
-  EXPECT_EQ(h.counts[42], 1000u);  // (1500 - 860)/15
-  EXPECT_EQ(h.counts[56], 2193u);  // (1700 - 860)/15
-  EXPECT_EQ(h.counts[102], 1u);    // (2400 - 860)/15
+  EXPECT_EQ(h.counts[9], 1u);      // index (1000 - 860)/15
+  EXPECT_EQ(h.counts[42], 1000u);  // index (1500 - 860)/15
+  EXPECT_EQ(h.counts[56], 2193u);  // index (1700 - 860)/15
+  EXPECT_EQ(h.counts[102], 1u);    // index (2400 - 860)/15
 }
 
-// The histogram extends from bin `first` to the last bin of the core, because a fifth of the trials
-// is beyond the core: 1200 bins need bars of ten bins, 1201 bins bars of eleven. With trials below
-// the core, it begins with the first bin.
+// A fifth of the trials is beyond the core, so the histogram is from bin `first` to the last bin of
+// the core. 1200 bins need bars of ten bins, 1201 bins need bars of eleven. If there are trials
+// below the core, the histogram begins with the first bin of the core.
 TEST(HistogramForDrawing, EndsWithTheCore) {
   const auto drawn_from = [](std::size_t first, std::uint64_t below) {
     OutputHistogram counts;

@@ -25,7 +25,7 @@ std::unique_ptr<ScalableExperiment> experiment_with(const std::string& text) {
   return std::move(*experiment);
 }
 
-// First output of trials 0 ... n - 1.
+// First output of the trials 0 ... n - 1.
 std::vector<double> first_output(const Experiment& e, std::size_t n) {
   std::vector<std::vector<double>> all(e.outputs().size(), std::vector<double>(n));
   std::vector<double*> place;
@@ -41,7 +41,7 @@ double drawn(const ScalableExperiment& e, const std::string& name) {
   return 0;
 }
 
-// The model is valid up to 0.25 rad.
+// The model is valid for angles up to 0.25 rad.
 TEST(PlanRules, DoesNotSolveAnglesBeyondTheModel) {
   for (const char* const forward : {"small-angle", "rigid"}) {
     for (const char* const angle : {"EAX_urad", "EBX_urad", "ECX_urad"}) {
@@ -55,7 +55,7 @@ TEST(PlanRules, DoesNotSolveAnglesBeyondTheModel) {
   }
 }
 
-// The size is constant, but each direction is drawn.
+// The size of the deviation is constant; its direction is drawn in each trial.
 TEST(PlanRules, TiltAndCircleVaryByTheirDirection) {
   const auto e =
       experiment_with("[truth]\ntravel_mm = [30]\n" +
@@ -68,7 +68,7 @@ TEST(PlanRules, TiltAndCircleVaryByTheirDirection) {
   EXPECT_GT(drawn(*e, "probe.E.position_um direction/turns"), 0);
 }
 
-// Correlated quantities keep the directions that they have without correlation.
+// The directions of quantities must be the same with and without a correlation.
 TEST(PlanRules, CorrelatedCirclesKeepTheirDirections) {
   const std::string circles =
       "[truth]\ntravel_mm = [30]\n" +
@@ -87,8 +87,8 @@ TEST(PlanRules, CorrelatedCirclesKeepTheirDirections) {
   EXPECT_NE(drawn(*together, "probe.E.position_um"), drawn(*apart, "probe.E.position_um"));
 }
 
-// At a pitch of 1 mrad, encoder noise of 1 mm changes the heights by 1 um. The noise is drawn anew
-// at each position, so it changes the straightness.
+// At a pitch of 1 mrad, an encoder noise of 1 mm changes the heights by 1 um. The noise is drawn
+// anew at each position, so it changes the straightness.
 TEST(PlanRules, EncoderNoiseIsDrawnAtEachPosition) {
   const std::string head =
       "outputs = [\"EZX_straightness_um\"]\n"
@@ -105,7 +105,7 @@ TEST(PlanRules, EncoderNoiseIsDrawnAtEachPosition) {
   EXPECT_LT(mean(first_output(*quiet, 200)), 1e-3);
 }
 
-// Mountings and planes are limited to 0.25 rad, too.
+// The angles of mountings and planes are also limited to 0.25 rad.
 TEST(PlanRules, DoesNotSolveMountingsBeyondTheModel) {
   for (const char* const name :
        {"installation.top.yaw_mrad", "installation.side.yaw_mrad", "target.top.pitch_mrad",
@@ -118,8 +118,8 @@ TEST(PlanRules, DoesNotSolveMountingsBeyondTheModel) {
     }
 }
 
-// A normal travel is evaluated over two standard deviations to each side: a series over it equals a
-// series over that range.
+// A normal travel is evaluated over ±2 standard deviations. A series over this travel must equal a
+// series over the range of ±2 standard deviations.
 TEST(PlanRules, NormalTravelCoversTwoStandardDeviations) {
   const auto series = [](const std::string& travel, const std::string& quantities) {
     return experiment_with(
@@ -138,7 +138,8 @@ TEST(PlanRules, NormalTravelCoversTwoStandardDeviations) {
   }
 }
 
-// Noise of A and B at each reading: each has its own scale factor, at a point and in a series.
+// A and B have noise at each reading. Each noise has its own scale factor, at a point and in a
+// series.
 TEST(PlanRules, EachNoiseHasItsOwnScale) {
   const auto noise = [](const char* probe) {
     return quantity(std::string("probe.") + probe + ".noise_nm",
@@ -170,8 +171,8 @@ TEST(PlanRules, EachNoiseHasItsOwnScale) {
   }
 }
 
-// The target of two of these rigs moves against the encoder, so their travel has the opposite sign
-// of the travel in the plan.
+// In two of these rigs the target moves against the encoder. Their travel has the opposite sign of
+// the travel in the plan.
 TEST(PlanRules, ErrorStatesHowToReplaceAMovingFixture) {
   const std::string folder = ::testing::TempDir() + "mdof_plan_rules_test";
   std::filesystem::create_directories(folder);

@@ -74,7 +74,8 @@ void expect_sd(const std::vector<double>& x, double sd, const std::string& what)
   EXPECT_NEAR(f.sd, sd, 5 * f.sd_se + 1e-12) << what;
 }
 
-// Rig and true errors of most tests: the default fixture, d = 30 mm, no error motion.
+// Text of a plan with the rig and true errors of most tests: the default fixture, d = 30 mm, no
+// error motion.
 std::string still(const std::string& rest, const std::string& head = "") {
   return "name = \"test\"\nrig = \"../five-probe/rig_X.toml\"\n" + head +
          "\n[truth]\ntravel_mm = [30]\n" + rest;
@@ -95,14 +96,14 @@ TEST(PlanExperiment, SimulationIAgreesWithTheory) {
   const auto e = make_plan_experiment(*plan);
   ASSERT_TRUE(e) << e.error().message;
   const auto x = run(**e, 200'000);
-  // algo/sensitivity/README.md: products of two uniform numbers.
-  const double l2 = 20e-3;                        // l''
-  const double a2 = 1e-6 / 3, d2 = 2500e-12 / 3;  // variances of an angle and an offset
+  // Theory by algo/sensitivity/README.md: products of two uniform numbers.
+  const double l2 = 20e-3;                        // the length l''
+  const double a2 = 1e-6 / 3, d2 = 2500e-12 / 3;  // variance of an angle; of an offset
   expect_sd(x[kEAX], 1.0 / 3, "EAX");
   expect_sd(x[kEBX], 1.0 / 3, "EBX");
   expect_sd(x[kECX], 1.0 / 3, "ECX");
-  expect_sd(x[kEZX], 1e6 * std::sqrt(a2 * d2), "EZX");  // -εx δy
-  // u δz + (q - u) l'' with u ≈ εx and q - u ≈ -2 εy εz; third order is below 20 pm
+  expect_sd(x[kEZX], 1e6 * std::sqrt(a2 * d2), "EZX");  // product -εx δy
+  // EYX = u δz + (q - u) l'' with u ≈ εx and q - u ≈ -2 εy εz. Third-order terms are below 20 pm.
   const Figures y = figures_of(x[kEYX]);
   EXPECT_NEAR(y.sd, 1e6 * std::sqrt(a2 * d2 + 4 * l2 * l2 * a2 * a2), 5 * y.sd_se + 2e-5);
   EXPECT_NEAR(figures_of(x[kEAX]).worst, 1.0, 0.02);
@@ -133,8 +134,8 @@ TEST(PlanExperiment, HasNoErrorWithoutQuantities) {
   }
 }
 
-// The rig's own height map and plane offset are in the readings and in the solution, so they must
-// cancel.
+// The rig's height map and plane offset are in the readings and in the solution, so their effects
+// must cancel.
 TEST(PlanExperiment, HeightMapAndPlaneOffsetCancel) {
   for (const char* const head :
        {"model = \"rigid\"\n", "model = \"rigid\"\nzero_at_start = false\n"}) {
@@ -153,8 +154,9 @@ TEST(PlanExperiment, HeightMapAndPlaneOffsetCancel) {
 }
 
 TEST(PlanExperiment, NoiseZeroAndDriftPropagateAsInTheModel) {
-  // l = 10 mm, d = 30 mm, independent u: εx = (B - C)/2l; εy = ((B + C)/2 - A)/l; εz = (E - D)/l.
-  const double u = 5;  // nm; µrad = nm/mm
+  // l = 10 mm, d = 30 mm, independent readings with the same u: εx = (B - C)/2l; εy = ((B + C)/2 -
+  // A)/l; εz = (E - D)/l.
+  const double u = 5;  // nm; an angle of 1 nm/mm is 1 µrad
   for (const char* kind : {"noise_nm", "zero_nm", "drift_nm"}) {
     const auto e = experiment_of(still(normal(std::string("probe.*.") + kind, u)));
     const auto x = run(*e, 50'000);
@@ -173,10 +175,10 @@ TEST(PlanExperiment, CommonDriftHardlyChangesTheAngles) {
                                      "[[correlation]]\nquantities = [\"probe.*.drift_nm\"]\n"
                                      "coefficient = 0.8\n"));
   const auto x = run(*e, 50'000);
-  // The differences keep 1 - 0.8 of the variance.
+  // The common part of the drift cancels in differences; 1 - 0.8 of the variance remains.
   expect_sd(x[kEAX], 0.5 * std::sqrt(0.2 / 2), "EAX");
   expect_sd(x[kEBX], 0.5 * std::sqrt(0.2 * 1.5), "EBX");
-  // δz = Σ w with Σ w = 1: variance u² (0.2 Σ w² + 0.8)
+  // δz is a sum with weights w that have the sum 1. Its variance is u² (0.2 Σ w² + 0.8).
   expect_sd(x[kEZX], 5e-3 * std::sqrt(0.2 * 11 + 0.8), "EZX");
   EXPECT_EQ(e->causes(), std::vector<std::string>{"probe.*.drift_nm"});
 }
@@ -188,24 +190,27 @@ TEST(PlanExperiment, CorrelatedUniformQuantitiesKeepTheirMarginals) {
             "[[correlation]]\nquantities = [\"probe.B.drift_nm\", \"probe.C.drift_nm\"]\n"
             "matrix = [[1, 0.5], [0.5, 1]]\n"));
   const auto x = run(*e, 100'000);
-  // Correlation of the values of a Gaussian copula with uniform marginals: 6/π asin(ρ/2).
+  // The values of a Gaussian copula with uniform marginals have the correlation 6/π asin(ρ/2).
   const double rho = 6 / 3.14159265358979 * std::asin(0.25);
   expect_sd(x[kEAX], std::sqrt(2 * (1 - rho) * 100.0 / 3) / 20, "EAX");
   EXPECT_LE(figures_of(x[kEAX]).worst, 1.0);
 }
 
 TEST(PlanExperiment, SensitivityScalesTheReading) {
-  // Pitch of 100 µrad with d = 30: A reads (d - l) εy = 2 µm; 1 % of it is 20 nm, 2 µrad of -A/l.
+  // At a pitch of 100 µrad and d = 30 mm, A reads (d - l) εy = 2 µm. 1 % of it is 20 nm, which
+  // changes the pitch -A/l by 2 µrad.
   const auto e =
       experiment_of(still("EBX_urad = [100]\n" + constant("probe.A.sensitivity_percent", 1)));
   EXPECT_NEAR(run(*e, 1)[kEBX][0], -2.0, 1e-3);
 }
 
 TEST(PlanExperiment, PositionErrorsActWithTheAngles) {
-  // εz of 100 µrad: side probe E 10 µm further along x reads εz 10 µm more: 1 nm, 0.1 µrad.
+  // At a yaw εz of 100 µrad, a side probe E that is 10 µm further along x reads εz 10 µm more: 1
+  // nm, which is a yaw of 0.1 µrad.
   const auto shifted = experiment_of(still("ECX_urad = [100]\n" + constant("probe.E.x_um", 10)));
   EXPECT_NEAR(run(*shifted, 1)[kECX][0], 0.1, 1e-4);
-  // On a circle: the same amplitude times a cosine, so the sd is 1/√2 of it.
+  // The position is on a circle, so the effect is 0.1 µrad times a cosine. Its standard deviation
+  // is 1/√2 of 0.1 µrad.
   const auto circle =
       experiment_of(still("ECX_urad = [100]\n" + constant("probe.E.position_um", 10)));
   const auto x = run(*circle, 50'000);
@@ -214,8 +219,9 @@ TEST(PlanExperiment, PositionErrorsActWithTheAngles) {
 }
 
 TEST(PlanExperiment, YawedFixtureMixesPitchAndRoll) {
-  // The top probes are turned by 2 mrad about z, so 0.2 µrad of a pitch of 100 µrad appear as roll.
-  // A probe at (x, y) moves to (x - θy, y + θx): Δz = q y - p x = ... - p(x - θy): q̂ = p θ.
+  // The top probes are turned by θ = 2 mrad about z, so 0.2 µrad of a pitch of 100 µrad appear as
+  // roll. A probe at (x, y) moves to (x - θy, y + θx). With the pitch p, Δz = -p (x - θy), which
+  // contains the roll q̂ = p θ.
   const auto e =
       experiment_of(still("EBX_urad = [100]\n" + constant("installation.top.yaw_mrad", 2)));
   EXPECT_NEAR(run(*e, 1)[kEAX][0], 0.2, 1e-3);
@@ -223,13 +229,15 @@ TEST(PlanExperiment, YawedFixtureMixesPitchAndRoll) {
 }
 
 TEST(PlanExperiment, FixtureOffsetAlongTheMotionTurnsPitchIntoZ) {
-  // All probes are 50 µm further along x: -p x gives -100 µrad · 50 µm = -5 nm of δz.
+  // All probes are 50 µm further along x. The height -p x changes by -100 µrad · 50 µm = -5 nm,
+  // which appears as δz.
   const auto e = experiment_of(still("EBX_urad = [100]\n" + constant("installation.x_um", 50)));
   EXPECT_NEAR(run(*e, 1)[kEZX][0], -0.005, 1e-5);
 }
 
 TEST(PlanExperiment, TiltedTargetPlaneGivesASlope) {
-  // Side plane yawed by 1 mrad about z: y = h + 1e-3 (x - d) in M: 30 mm of travel give -30 µm.
+  // The side plane is yawed by 1 mrad about z: y = h + 1e-3 (x - d) in M. A travel of 30 mm changes
+  // the reading by -30 µm.
   const auto side = experiment_of(still(constant("target.side.yaw_mrad", 1)));
   EXPECT_NEAR(run(*side, 1)[kEYX][0], -30, 0.05);
   EXPECT_NEAR(run(*side, 1)[kECX][0], 0, 1e-2);
@@ -240,14 +248,14 @@ TEST(PlanExperiment, TiltedTargetPlaneGivesASlope) {
 TEST(PlanExperiment, FlatnessStaysWithinItsLimit) {
   const auto e = experiment_of(still(constant("target.top.flatness_um", 0.2)));
   const auto x = run(*e, 20'000);
-  // εx = (B - C)/2l of heights and zeros, each within ±0.1 µm.
+  // εx = (B - C)/2l contains two heights and two zeros, each within ±0.1 µm.
   EXPECT_LT(figures_of(x[kEAX]).worst, 0.4 / 20e-3 + 1e-3);
   EXPECT_GT(figures_of(x[kEAX]).sd, 1);
 }
 
 TEST(PlanExperiment, ExpansionIsAboutTheOriginOfM) {
-  // The distance of probes D and E grows by 10 ppm/K · 2 K · 15 mm = 300 nm towards the target:
-  // they read -0.3 µm.
+  // The distance of D and E from the origin increases by 10 ppm/K · 2 K · 15 mm = 300 nm towards
+  // the target, so both read -0.3 µm.
   const std::string expansion = "[expansion]\nfixture_ppm_per_K = 10\ntarget_ppm_per_K = 10\n";
   const auto fixture = experiment_of(still(constant("temperature.fixture_K", 2) + expansion));
   EXPECT_NEAR(run(*fixture, 1)[kEYX][0], -0.3, 1e-6);
@@ -256,7 +264,7 @@ TEST(PlanExperiment, ExpansionIsAboutTheOriginOfM) {
 }
 
 TEST(PlanExperiment, EncoderErrorsActWithTheAngles) {
-  // δz = c - d p: 1 µm of travel too much with a pitch of 100 µrad gives -0.1 nm.
+  // δz = c - d p: an error of 1 µm of the travel d at a pitch p of 100 µrad changes δz by -0.1 nm.
   const auto offset = experiment_of(still("EBX_urad = [100]\n" + constant("encoder.offset_um", 1)));
   EXPECT_NEAR(run(*offset, 1)[kEZX][0], -1e-4, 1e-6);
   const auto scale =
@@ -269,12 +277,12 @@ TEST(PlanExperiment, WithoutZeroTheMountingIsAnError) {
   const auto zeroed = experiment_of(still(lower));
   EXPECT_NEAR(run(*zeroed, 1)[kEBX][0], 0, 1e-6);
   const auto raw = experiment_of(still(lower, "zero_at_start = false\n"));
-  EXPECT_NEAR(run(*raw, 1)[kEBX][0], 300, 1e-3);  // A reads -3 µm: -A/l
+  EXPECT_NEAR(run(*raw, 1)[kEBX][0], 300, 1e-3);  // A reads -3 µm, so the pitch -A/l is 300 µrad
 }
 
 TEST(PlanExperiment, SeriesGiveErrorsOfStraightness) {
-  // Both side probes have 1 % too much sensitivity, so the whole series of δy and its straightness
-  // are 1 % too large.
+  // The sensitivity of both side probes is 1 % too large, so the whole series of δy and its
+  // straightness are 1 % too large.
   const auto e = experiment_of(
       "name = \"t\"\nrig = \"../five-probe/rig_X.toml\"\n"
       "outputs = [\"EYX_straightness_um\", \"EYX_straightness_end_point_um\"]\n"
@@ -282,7 +290,7 @@ TEST(PlanExperiment, SeriesGiveErrorsOfStraightness) {
       constant("probe.D.sensitivity_percent", 1) + constant("probe.E.sensitivity_percent", 1));
   for (const auto& x : run(*e, 500)) {
     const Figures f = figures_of(x);
-    // The peak-to-valley value of a wave of ±10 µm about a line is at most 20 µm.
+    // The wave of ±10 µm deviates from a line by at most 20 µm peak to valley.
     EXPECT_LT(f.worst, 0.4);
     EXPECT_GT(f.mean, 0.1);
     for (const double v : x) EXPECT_GT(v, 0.05);
@@ -296,8 +304,8 @@ TEST(PlanExperiment, SquarenessUsesTheArtefactAndBothSlopes) {
       "[truth]\ntravel_mm = [0, 60]\nEYX_um = [2]\nEXY_um = [2]\n";
   const auto square = experiment_of(head + constant("target.square_urad", 5));
   EXPECT_NEAR(run(*square, 1)[0][0], 5, 1e-3);
-  // A side plane yawed by 100 µrad gives a slope of -100 µrad of δy for X. For Y, whose δy is -EXY,
-  // it gives +100 µrad of EXY. They cancel in -slope(EXY) - slope(EYX).
+  // A side plane that is yawed by 100 µrad gives δy a slope of -100 µrad for X. For Y, δy is -EXY,
+  // so EXY has a slope of +100 µrad. Both slopes cancel in -slope(EXY) - slope(EYX).
   const auto yawed = experiment_of(head + constant("target.side.yaw_mrad", 0.1));
   EXPECT_NEAR(run(*yawed, 1)[0][0], 0, 1e-2);
 }
@@ -353,7 +361,7 @@ TEST(PlanExperiment, TrialsAreInTheirBins) {
   }
 }
 
-// Stored bits of a plan's results. They change only if the meaning of a plan changes.
+// Stored bits of the results of a plan. They may change only if the meaning of a plan changes.
 TEST(PlanExperiment, HasTheSameBitsInEveryBuild) {
   const auto e = mounting();
   std::uint64_t hash = 14695981039346656037U;

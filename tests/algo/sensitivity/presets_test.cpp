@@ -1,5 +1,5 @@
-// The simulations of the paper against their theory (algo/sensitivity/README.md derives it),
-// against the scalar models, and bit for bit.
+// The simulations of the paper are compared with their theory (algo/sensitivity/README.md derives
+// it), with the scalar models, and with stored bits.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -44,7 +44,7 @@ StudyStatistics study(const Experiment& experiment, std::uint64_t trials) {
   return s;
 }
 
-// First-order variance of each output of simulation II at one travel, in µm² and µrad².
+// First-order variance of each output of simulation II at the travel d_mm, in µm² and µrad².
 std::array<double, 5> variance_at(const SimulationOptions& o, double d_mm) {
   const double A = from_urad(o.angle_range_urad), B_um = o.offset_range_um;
   const double d = d_mm * 1e3, l = o.l_mm * 1e3, up = o.side_height_mm * 1e3;  // µm
@@ -77,7 +77,8 @@ TEST(Simulation1, SpreadAndExtremesMatchTheory) {
     EXPECT_NEAR(outputs[k].mean, 0, 5 * outputs[k].mean_se);
     EXPECT_NEAR(outputs[k].sd, sd[k], 5 * outputs[k].sd_se);
     EXPECT_NEAR(outputs[k].mean_se, sd[k] / 1e3, 1e-3 * sd[k]);
-    // Only the third order exceeds these extremes, and the found extremes are close to them.
+    // Only third-order terms exceed the calculated extremes. The extremes of the trials are close
+    // to them.
     EXPECT_LT(outputs[k].max, extreme[k] * 1.002);
     EXPECT_GT(outputs[k].min, -extreme[k] * 1.002);
     EXPECT_GT(outputs[k].max, extreme[k] * (k == 0 ? 0.8 : 0.98));
@@ -85,8 +86,8 @@ TEST(Simulation1, SpreadAndExtremesMatchTheory) {
   }
 }
 
-// The standard error of the sd follows from the fourth moment; a product of two uniform quantities
-// has the kurtosis 3.24.
+// The standard error of the standard deviation follows from the fourth moment. A product of two
+// uniform quantities has the kurtosis 3.24.
 TEST(Simulation1, StandardErrorOfTheSdMatchesTheFourthMoment) {
   const auto experiment = make_simulation(simulation_1_defaults()).value();
   const auto outputs = study(*experiment, 1'000'000).overall();
@@ -147,15 +148,15 @@ TEST(Simulation2, TranslationalErrorGrowsWithTravelAsInTheory) {
   for (std::size_t i = 1; i < bins.size(); ++i) {
     EXPECT_GT(bins[i].outputs[1].sd, bins[i - 1].outputs[1].sd);
   }
-  // EYX first decreases, because the offset σz and the rotation θp compensate each other until 25
-  // mm.
+  // EYX first decreases with the travel, because the offset σz and the rotation θp compensate each
+  // other up to 25 mm.
   EXPECT_LT(bins[2].outputs[0].sd, bins[0].outputs[0].sd);
   EXPECT_GT(bins[5].outputs[0].sd, 1.2 * bins[0].outputs[0].sd);
 }
 
-// The kernel against the scalar models of algo/small_angle: the readings come from a fixture with
-// the probe positions of trial i; the nominal fixture solves them. Side plane and all rotations are
-// included.
+// The kernel is compared with the scalar models of algo/small_angle. The readings come from a
+// fixture with the probe positions of trial i, and the nominal fixture solves them. The simulation
+// includes a side plane and all rotations.
 TEST(Simulation2, EveryTrialMatchesTheScalarModels) {
   SimulationOptions o = simulation_2_defaults();
   o.side_plane_mm = 15;
@@ -216,7 +217,7 @@ TEST(Simulations, SingleTrialEqualsTheBatchForAnyStep) {
   }
 }
 
-// Stored from g++ 12; clang++ and every instruction set give the same bits.
+// The bits were stored from g++ 12. clang++ and every instruction set must give the same bits.
 TEST(Simulations, HaveTheStoredBits) {
   for (const InstructionSet set : available_instruction_sets()) {
     const auto hash = [set](const SimulationOptions& options) {
@@ -256,7 +257,7 @@ TEST(Simulations, ErrorsNameTheInvalidOption) {
   EXPECT_NE(message([](O& o) { o.travel_bins = 201; }).find("1 to 200"), std::string::npos);
 }
 
-// Four bins of 10 mm from 20 mm on: trial i is anywhere in bin i modulo 4.
+// Four bins of 10 mm from 20 mm on. The travel of trial i is anywhere in bin i modulo 4.
 TEST(Simulations, TravelBeginsAtTheGivenPosition) {
   SimulationOptions o;
   o.travel_from_mm = 20;

@@ -1,5 +1,5 @@
-// The histogram of a study, calculated by hand: the range of its core, and that it counts every
-// trial beyond the core.
+// Tests the histogram of a study with values calculated by hand: the range of its core, and the
+// counts of trials beyond the core.
 #include "algo/sensitivity/statistics/quantile.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 namespace mdof::algo {
 namespace {
 
-// The core is twice as wide as the central 98 %, about their middle: for 0 ... 199 they are 2 ...
-// 197.
+// The core is twice as wide as the interval of the central 98 % of the values, with the same
+// middle. For 0 ... 199 this interval is 2 ... 197.
 TEST(HistogramScale, IsTwiceTheCentralPart) {
   std::vector<double> values;
   for (int i = 0; i < 200; ++i) values.push_back((i * 77) % 200);
@@ -19,7 +19,7 @@ TEST(HistogramScale, IsTwiceTheCentralPart) {
   const OutputScale scale = scale_for(values);
   EXPECT_EQ(scale.low, 99.5 - 195);
   EXPECT_EQ(scale.high(), 99.5 + 195);
-  // If almost all values are equal, the different ones determine the core.
+  // Almost all values are equal, so the two other values determine the core.
   std::vector<double> rare(1000, 5.0);
   rare[17] = 1;
   rare[900] = 8;
@@ -37,7 +37,8 @@ TEST(HistogramScale, WidthOfAConstantIsAShareOfItOrOfOne) {
   EXPECT_EQ(scale_for({}).high(), 1);
 }
 
-// The width is at least 2^-30 of the value, so that the edges of the bins differ.
+// The width of the core is at least 2^-30 of the value; otherwise the edges of the bins could be
+// equal.
 TEST(HistogramScale, HasALeastWidth) {
   const OutputScale narrow = scale_for({4, 4 + 0x1p-36}), wide = scale_for({4, 4 + 0x1p-28});
   EXPECT_NEAR(narrow.width * kCoreBins / 0x1p-28, 1, 1e-6);
@@ -59,8 +60,8 @@ OutputHistogram histogram_of(const std::vector<double>& x) {
   return counts;
 }
 
-// Beyond the core, the width of the bins doubles with each power of 2 of 64 + j, at a distance of j
-// widths. Each octave has 64 bins.
+// Beyond the core, a trial is at a distance of j widths of a bin. At each power of 2 of 64 + j the
+// width of the bins doubles. Each octave has 64 bins.
 TEST(OutputHistogram, CountsEveryTrial) {
   constexpr double kMost = std::numeric_limits<double>::max();
   for (const double sign : {1.0, -1.0}) {
@@ -98,7 +99,7 @@ TEST(OutputHistogram, CountsEveryTrial) {
   EXPECT_LT(ordered.resolution(6), 0.2);
 }
 
-// Values beyond the core do not change the first and the last bin of the core.
+// Values beyond the core must not change the counts of the first and the last bin of the core.
 TEST(OutputHistogram, ValuesBeyondKeepTheCore) {
   const OutputHistogram counts = histogram_of({-1 + kScale.width / 2, -7, 1 - kScale.width / 2, 9});
   EXPECT_EQ(counts.core(0), 1u);
@@ -106,7 +107,7 @@ TEST(OutputHistogram, ValuesBeyondKeepTheCore) {
   EXPECT_EQ(counts.tails().size(), 2u);
 }
 
-// Counts of 32 bits are moved to larger counters before they overflow.
+// 32-bit counters are added to larger counters before they overflow.
 TEST(OutputHistogram, MovesCountsBeforeTheyOverflow) {
   OutputHistogram counts(3);
   for (int i = 0; i < 5; ++i) {
@@ -121,14 +122,16 @@ TEST(OutputHistogram, MovesCountsBeforeTheyOverflow) {
   EXPECT_EQ(counts.core(kCoreBins - 2), 0u);
 }
 
-// Four trials in one bin are spread evenly from the smallest value to the end of the bin.
+// Four trials in one bin are placed at equal distances from the smallest value to the end of the
+// bin.
 TEST(OrderedTrials, AreSpreadEvenlyInTheirBin) {
   const double w = kScale.width;
   const std::vector<double> x = {0.5 * w, 0.1 * w, 0.9 * w, 0.6 * w, 3.5 * w, 7.5 * w};
   const OrderedTrials trials(histogram_of(x), kScale, 0.1 * w, 7.5 * w);
   ASSERT_EQ(trials.size(), 6u);
   EXPECT_EQ(trials.value(1), 0.1 * w);
-  EXPECT_NEAR(trials.value(2), (0.1 + 0.9 * 1.5 / 4) * w, 1e-12 * w);  // from 0.1 to 1 widths
+  // The four trials are between 0.1 and 1 widths.
+  EXPECT_NEAR(trials.value(2), (0.1 + 0.9 * 1.5 / 4) * w, 1e-12 * w);
   EXPECT_NEAR(trials.value(4), (0.1 + 0.9 * 3.5 / 4) * w, 1e-12 * w);
   EXPECT_NEAR(trials.value(5), 3.5 * w, 1e-12 * w);  // a single trial is in the middle of its bin
   EXPECT_EQ(trials.value(6), 7.5 * w);

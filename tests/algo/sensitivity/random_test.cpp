@@ -12,8 +12,8 @@ namespace {
 
 constexpr Stream kStream = {0x299f31d0a4093822, 1};
 
-// The known answer of Random123 for the counter of the digits of π, as draws: its words are
-// d16cfe09 94fdcceb 5001e420 24126ea1.
+// The known answer test of Random123 whose counter consists of the digits of π. Its words are
+// d16cfe09 94fdcceb 5001e420 24126ea1; they are converted to draws.
 TEST(SensitivityRandom, DrawsMatchThePublishedBlock) {
   const Stream stream = {0x299f31d0a4093822, 0x03707344};
   const std::uint64_t trial = 0x85a308d3'243f6a88;
@@ -29,7 +29,7 @@ TEST(SensitivityRandom, EveryInstructionSetGivesTheScalarBits) {
     for (const std::uint64_t first : {0ull, 4294967290ull, 0xFFFFFFFF'00000000ull}) {
       for (const std::uint64_t step : {1ull, 20ull, 5'000'000'001ull}) {
         for (const std::uint64_t q : {0ull, 7ull, 1000ull}) {
-          std::vector<double> x(517);  // no multiple of a vector, more than an inner batch
+          std::vector<double> x(517);  // no multiple of a vector, more than one inner batch
           draws(kStream, q, first, step, x, set);
           for (std::size_t j = 0; j < x.size(); ++j) {
             ASSERT_EQ(x[j], draw(kStream, first + step * j, q))
@@ -50,7 +50,8 @@ TEST(SensitivityRandom, PairIsTwoDraws) {
   }
 }
 
-// Mean 1/2, variance 1/12, no correlation between draws, trials, streams and seeds.
+// The draws must have the mean 1/2 and the variance 1/12. Draws, trials, streams and seeds must not
+// be correlated.
 TEST(SensitivityRandom, DrawsAreUniformAndUncorrelated) {
   constexpr std::size_t kN = 200'000;
   const auto column = [](Stream stream, std::uint64_t q, std::uint64_t first) {

@@ -1,4 +1,4 @@
-// Statistics of a few trials, each value calculated by hand. Mutation tests (tests/mutate) found
+// Statistics of a few trials. Each value is calculated by hand. Mutation tests (tests/mutate) found
 // these cases.
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace mdof::algo {
 namespace {
 
-// Outputs given trial by trial; the last value is repeated.
+// An experiment with given outputs, one for each trial. The last value is repeated.
 class Given : public Experiment {
  public:
   explicit Given(std::vector<double> values, BinnedQuantity binned = {})
@@ -40,8 +40,9 @@ StudyStatistics small_study(const Experiment& e, std::uint64_t trials) {
   return s;
 }
 
-// 1, 2, 2, 3, 3, 3, 7, 11: mean 4, squares 9 + 4 + 4 + 1 + 1 + 1 + 9 + 49 = 78, fourth powers 81 +
-// 16 + 16 + 1 + 1 + 1 + 81 + 2401 = 2598.
+// The trials are 1, 2, 2, 3, 3, 3, 7, 11, with the mean 4. The sum of squares about the mean is 9 +
+// 4 + 4 + 1 + 1 + 1 + 9 + 49 = 78. The sum of fourth powers is 81 + 16 + 16 + 1 + 1 + 1 + 81 + 2401
+// = 2598.
 TEST(StatisticsByHand, IsCorrectForEightTrials) {
   const Given e({1, 2, 2, 3, 3, 3, 7, 11});
   const OutputSummary s = small_study(e, 8).overall().at(0);
@@ -72,8 +73,8 @@ TEST(StatisticsByHand, HasTheDefaultQuantiles) {
   EXPECT_EQ(asked, (std::vector<double>{0.025, 0.25, 0.5, 0.75, 0.975}));
 }
 
-// Each bin ends where the next one begins, and the last at the exact end: 0.1 + 3 × 0.2 would be
-// larger.
+// Each bin ends where the next bin begins, and the last bin ends at exactly 0.7. The sum 0.1 + 3 ×
+// 0.2 would be larger.
 TEST(StatisticsByHand, BinsAreContiguous) {
   const auto bins = small_study(Given({1, 2, 3}, {"travel_mm", 0.1, 0.7, 3}), 7).bins();
   ASSERT_EQ(bins.size(), 3u);
@@ -97,14 +98,15 @@ TEST(StatisticsByHand, BlockIsTheSmallestMultiple) {
   EXPECT_EQ(block_trials(Given({1}, {"travel_mm", 0, 1, 3}), 1537), 3072u);
 }
 
-// 100/(1 - coverage) trials in blocks of 10240: 10204 and 10246 trials.
+// At least 100/(1 - coverage) trials are necessary, in blocks of 10240: 10204 trials in one block,
+// 10246 in two.
 TEST(StatisticsByHand, AdaptiveBlockHas100TrialsOutside) {
   EXPECT_EQ(adaptive_block_trials(Given({1}), 0.5).value(), 10240u);
   EXPECT_EQ(adaptive_block_trials(Given({1}), 0.9902).value(), 10240u);
   EXPECT_EQ(adaptive_block_trials(Given({1}), 0.99024).value(), 20480u);
 }
 
-// Blocks of -0 and of +0 after a first number, in both orders.
+// Trials of -0 and of +0 follow a first value, in both orders.
 TEST(StatisticsByHand, ZeroHasOneSignInAnyOrder) {
   for (const double first : {5.0, -5.0}) {
     std::vector<double> values(1024, 0.0);
@@ -120,7 +122,7 @@ TEST(StatisticsByHand, ZeroHasOneSignInAnyOrder) {
   }
 }
 
-// 1, 4, 9 ...: numbers of trials that are not multiples of the vector length.
+// The trials are 1, 4, 9 ... The numbers of trials are not multiples of the vector length.
 TEST(StatisticsByHand, IsCorrectForAnyNumberAndInstructionSet) {
   std::vector<double> squares;
   for (int i = 1; i <= 17; ++i) squares.push_back(i * i);
@@ -133,7 +135,7 @@ TEST(StatisticsByHand, IsCorrectForAnyNumberAndInstructionSet) {
       const auto x = static_cast<double>(n);
       EXPECT_EQ(s.n, n);
       EXPECT_NEAR(s.mean, (x + 1) * (2 * x + 1) / 6, 1e-9) << n;
-      // Sum of fourth powers n (n + 1) (2n + 1) (3n² + 3n - 1)/30.
+      // The sum of fourth powers is n (n + 1) (2n + 1) (3n² + 3n - 1)/30.
       const double fourth = (x + 1) * (2 * x + 1) * (3 * x * x + 3 * x - 1) / 30;
       EXPECT_NEAR(s.sd, std::sqrt((fourth - s.mean * s.mean) * x / (x - 1)), 1e-6) << n;
       EXPECT_EQ(s.min, 1);
@@ -152,7 +154,7 @@ TEST(StatisticsByHand, KeepsUnsolvedTrials) {
   EXPECT_NEAR(read->overall().at(0).mean, 3, 1e-12);
 }
 
-// The end of a histogram is a count of 0 in bin 0. Bytes that end with a count of 0 in bin 1 are
+// A count of 0 in bin 0 is the end of a histogram. Bytes that end with a count of 0 in bin 1 are
 // damaged.
 TEST(StatisticsByHand, ChecksTheEndOfAHistogram) {
   const Given e({1, 3});
@@ -164,8 +166,8 @@ TEST(StatisticsByHand, ChecksTheEndOfAHistogram) {
   EXPECT_FALSE(StudyStatistics::parse(bytes, e));
 }
 
-// One trial in each of `n` bins from bin 1000 on, `beyond` trials below and `beyond` + 1 above the
-// core.
+// A histogram with one trial in each of `n` bins from bin 1000 on, `beyond` trials below the core,
+// and `beyond` + 1 trials above it.
 Histogram drawn(std::size_t n, std::uint64_t beyond = 0) {
   const OutputScale scale{-1, 0x1p-12};
   OutputHistogram counts;
@@ -177,7 +179,7 @@ Histogram drawn(std::size_t n, std::uint64_t beyond = 0) {
   return histogram_for_drawing(counts, scale, trials);
 }
 
-// Up to 120 bins are drawn separately, then two bins per bar, and so on.
+// Up to 120 bins have one bar each. With more bins, two bins share a bar, then three, and so on.
 TEST(HistogramForDrawing, HasUpTo120Bars) {
   for (const auto& [bins, together, bars] :
        {std::tuple(120u, 1u, 120u), std::tuple(121u, 2u, 61u), std::tuple(240u, 2u, 120u),
@@ -192,7 +194,7 @@ TEST(HistogramForDrawing, HasUpTo120Bars) {
   }
 }
 
-// Five of 2011 trials are beyond the bins on one side, six on the other.
+// Of 2011 trials, five are below the bins and six above.
 TEST(HistogramForDrawing, CountsTrialsBeyondTheBars) {
   const Histogram h = drawn(2000, 5);
   EXPECT_GE(h.below, 5u);

@@ -1,5 +1,5 @@
-// Valid and damaged bytes of statistics, assembled by hand in the format of statistics_bytes.cpp.
-// Mutation tests (tests/mutate) found these cases.
+// Valid and damaged bytes of statistics. The test assembles them in the format of
+// statistics_bytes.cpp. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -15,14 +15,15 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::int64_t, std::uint64_t>>;
 
-// One output in one bin. `core`: number of empty bins before, count; `tails`: key, count.
+// Bytes of one output in one bin. `core`: pairs of the number of empty bins before and the count.
+// `tails`: pairs of key and count.
 struct OutputBytes {
   std::uint64_t n = 0, unsolved = 0;
   double min = 1.5, max = 2.5;
   std::uint8_t lost = 0;
   Pairs core = {}, tails = {};
-  bool ends_in_core = false;  // the data end after the last core bin
-  bool ends = false;          // the data end after this tail, although another tail is announced
+  bool ends_in_core = false;  // the bytes end after the last core bin
+  bool ends = false;          // the bytes end before a tail that is announced
 };
 
 class BytesShape : public Experiment {
@@ -73,7 +74,7 @@ std::string bytes_of(std::size_t outputs, std::size_t bins, std::uint64_t trials
   return to;
 }
 
-// Whether the bytes of one output in one bin can be read.
+// Returns whether the bytes of one output in one bin are accepted.
 bool is_read(const OutputBytes& cell) {
   const BytesShape shape(1, 1);
   const std::string bytes = bytes_of(1, 1, cell.n + cell.unsolved, {cell});
@@ -82,8 +83,8 @@ bool is_read(const OutputBytes& cell) {
   return read.has_value();
 }
 
-// Eleven trials: core bins 5, 6 and the last; tails with the first and last keys and the keys next
-// to the core.
+// Eleven trials: in core bin 5, core bin 6 and the last core bin, and in tails with the first and
+// last keys and the keys next to the core.
 const OutputBytes kGood{.n = 11,
                         .unsolved = 2,
                         .core = {{5, 2}, {0, 1}, {8184, 1}},
@@ -97,7 +98,7 @@ TEST(StatisticsBytes, AreWrittenAsTheyWereRead) {
     EXPECT_TRUE(is_read(some)) << int{lost};
   }
   EXPECT_TRUE(
-      is_read({.unsolved = 3, .min = 2, .max = -2}));  // without trials there are no extremes
+      is_read({.unsolved = 3, .min = 2, .max = -2}));  // without trials no extremes are required
   EXPECT_TRUE(is_read({.n = 1, .min = 2, .max = 2, .core = {{3, 1}}}));
 }
 
@@ -120,10 +121,10 @@ TEST(StatisticsBytes, RejectsImpossibleCountsOfBins) {
   EXPECT_TRUE(core(3, {{8191, 3}}));
   EXPECT_TRUE(core(3, {{1, 2}, {8189, 1}}));
   for (const bool ends : {false, true}) {
-    EXPECT_FALSE(core(3, {{8192, 3}}, ends));          // after the last bin
-    EXPECT_FALSE(core(3, {{1, 2}, {8190, 1}}, ends));  // the same from the third bin on
-    EXPECT_FALSE(core(3, {{1, 3}, {0, 1}}, ends));     // more than the trials
-    EXPECT_FALSE(core(3, {{1, 2}}, ends));             // fewer than the trials
+    EXPECT_FALSE(core(3, {{8192, 3}}, ends));          // bin after the last one
+    EXPECT_FALSE(core(3, {{1, 2}, {8190, 1}}, ends));  // bin after the last one, as the second pair
+    EXPECT_FALSE(core(3, {{1, 3}, {0, 1}}, ends));     // more counts than trials
+    EXPECT_FALSE(core(3, {{1, 2}}, ends));             // fewer counts than trials
   }
 }
 
@@ -139,12 +140,13 @@ TEST(StatisticsBytes, RejectsImpossibleTails) {
     EXPECT_FALSE(tails({{2, 2}, {2, 1}}, ends));
     EXPECT_FALSE(tails({{2, 2}, {-3, 1}}, ends));
     EXPECT_FALSE(tails({{-3, 3}, {2, 0}}, ends));
-    EXPECT_FALSE(tails({{-3, 2}, {2, 2}}, ends));  // more than the trials
-    EXPECT_FALSE(tails({{-3, 2}}, ends));          // fewer than the trials
+    EXPECT_FALSE(tails({{-3, 2}, {2, 2}}, ends));  // more counts than trials
+    EXPECT_FALSE(tails({{-3, 2}}, ends));          // fewer counts than trials
   }
 }
 
-// Two outputs in two bins: the sum of the trials of each output must equal the trials of the study.
+// Two outputs in two bins. For each output, the sum of its trials must equal the number of trials
+// of the study.
 TEST(StatisticsBytes, EachOutputNeedsAllTrials) {
   const auto of = [](std::uint64_t n, std::uint64_t unsolved) {
     return OutputBytes{.n = n, .unsolved = unsolved, .core = {{9, n}}};

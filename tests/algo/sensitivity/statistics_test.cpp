@@ -1,5 +1,5 @@
-// Statistics of many distributions against exact order statistics by sorting, and equal bits for
-// every order, split and instruction set.
+// The statistics of many distributions are compared with exact order statistics, which are found by
+// sorting. The bits must be equal for every order of blocks, every split and every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,8 @@
 namespace mdof::algo {
 namespace {
 
-// One output: a function of the first random number of the trial and of its number.
+// An experiment with one output, a function of the first random number of the trial and of the
+// number of the trial.
 class OneOutput : public Experiment {
  public:
   using Function = std::function<double(double u, std::uint64_t trial)>;
@@ -88,7 +89,7 @@ std::vector<Shape> shapes() {
   };
 }
 
-// Compares each value of a summary with the trial of its rank.
+// Compares each value of the summary with the sorted trial at its rank.
 void expect_order(const OutputSummary& s, const std::vector<double>& x) {
   const auto at = [&](std::uint64_t rank) { return x[rank - 1]; };
   ASSERT_EQ(s.n, x.size());
@@ -100,8 +101,8 @@ void expect_order(const OutputSummary& s, const std::vector<double>& x) {
   const IntervalRanks r = symmetric_ranks(s.coverage, s.n);
   EXPECT_NEAR(s.symmetric.low, at(r.low), s.resolution);
   EXPECT_NEAR(s.symmetric.high, at(r.high), s.resolution);
-  // The shortest interval over all ranks: the found interval is equally short within the resolution
-  // and contains as many trials.
+  // The shortest interval is searched over all ranks. The interval in the summary must contain as
+  // many trials and be as short, within the resolution.
   const std::uint64_t q = r.high - r.low;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::uint64_t i = 1; i + q <= s.n; ++i) shortest = std::min(shortest, at(i + q) - at(i));
@@ -170,7 +171,7 @@ TEST(StudyStatistics, MomentsMatchTheTrials) {
   }
 }
 
-// A moment that exceeds the fixed-point sums is NaN; it is never wrong.
+// If a moment exceeds the range of the fixed-point sums, it must be NaN and not a wrong number.
 TEST(StudyStatistics, OverflowingMomentIsNaN) {
   const OneOutput e([](double u, std::uint64_t i) { return i == 50'000 ? 1e200 : gaussian(u); });
   const OutputSummary s = study(e, 60'000).overall().at(0);
@@ -181,8 +182,8 @@ TEST(StudyStatistics, OverflowingMomentIsNaN) {
   EXPECT_NEAR(s.symmetric.high, 1.96, 0.05);
 }
 
-// A rare event, from nm to mm, that is not in the pilot, and values that are constant except for
-// rounding.
+// The values are constant except for rounding. A rare event, from nm to mm, does not occur in the
+// pilot.
 TEST(StudyStatistics, PilotWithoutSpreadKeepsLaterValues) {
   for (const double usual : {0.0, -3.0, 250.0}) {
     for (const double event : {1e-3, 50.0, 1000.0}) {
@@ -217,14 +218,14 @@ TEST(StudyStatistics, AnyOrderSplitAndInstructionSetGivesSameBytes) {
     b.merge(a);
     EXPECT_EQ(b.serialise(), bytes) << to_string(set);
     StudyStatistics c = StudyStatistics::parse(a.serialise(), *experiment, set).value();
-    c.add_block(*experiment, 2 * block, 5 * block);  // like a run that is continued
+    c.add_block(*experiment, 2 * block, 5 * block);  // as in a run that is continued
     EXPECT_EQ(c.serialise(), bytes) << to_string(set);
     EXPECT_EQ(c.trials(), trials);
   }
 }
 
-// Pilot, sums and histograms of the first 10^5 trials: stored from g++ 12; clang++ gives the same
-// bits.
+// The bytes of the pilot, sums and histograms of the first 10^5 trials were stored from g++ 12.
+// clang++ must give the same bits.
 TEST(StudyStatistics, HaveTheStoredBits) {
   const auto experiment = make_simulation(simulation_1_defaults()).value();
   EXPECT_EQ(sha256_hex(study(*experiment, 100'000).serialise()),
@@ -279,7 +280,8 @@ TEST(StudyStatistics, RejectsDamagedBytes) {
   const OneOutput e([](double u, auto) { return std::tan(M_PI * (u - 0.5)); }, 2);
   const std::string bytes = study(e, 20'000).serialise();
   ASSERT_TRUE(StudyStatistics::parse(bytes, e));
-  EXPECT_EQ(StudyStatistics::parse(bytes, e)->serialise(), bytes);  // the tails have far values
+  // The tails contain values far away.
+  EXPECT_EQ(StudyStatistics::parse(bytes, e)->serialise(), bytes);
   for (std::size_t n = 0; n < bytes.size(); n += 1 + n / 50) {
     EXPECT_FALSE(StudyStatistics::parse(bytes.substr(0, n), e)) << n;
   }
@@ -290,7 +292,7 @@ TEST(StudyStatistics, RejectsDamagedBytes) {
       std::string other = bytes;
       other[at] = static_cast<char>(other[at] ^ flip);
       const auto parsed = StudyStatistics::parse(other, e);
-      if (parsed) {  // a changed sum or edge may be another valid number
+      if (parsed) {  // a changed sum or edge can be another valid number
         ++accepted;
         parsed->overall();
         parsed->bins();
@@ -323,8 +325,9 @@ TEST(StudyStatistics, BlocksAreMultiplesOfTheBins) {
   }
 }
 
-// The scale follows the magic, the version and three counts: the lower edge and the width of a bin,
-// which must be positive and small enough that 8192 bins reach a finite number.
+// The scale follows the magic number, the version and three counts. It consists of the lower edge
+// of the first bin and the width of a bin. The width must be positive, and the end of 8192 bins
+// must be finite.
 TEST(StudyStatistics, RejectsAScaleThatIsNotFinite) {
   const OneOutput e([](double u, auto) { return u; });
   const std::string bytes = study(e, 1000).serialise();
@@ -336,7 +339,7 @@ TEST(StudyStatistics, RejectsAScaleThatIsNotFinite) {
   EXPECT_TRUE(is_read(0, -3));
   EXPECT_TRUE(is_read(1, 0.5));
   EXPECT_TRUE(is_read(1, 2e304));
-  EXPECT_FALSE(is_read(1, 2.3e304));  // 8192 bins are 1.88e308
+  EXPECT_FALSE(is_read(1, 2.3e304));  // 8192 bins would have the width 1.88e308
   for (const double none : {0.0, -1.0, HUGE_VAL, std::nan("")}) EXPECT_FALSE(is_read(1, none));
   for (const double none : {-HUGE_VAL, HUGE_VAL, std::nan("")}) EXPECT_FALSE(is_read(0, none));
 }

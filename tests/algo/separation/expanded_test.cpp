@@ -1,4 +1,5 @@
-// k and U of a separation. Machine and target are straight, so the result is only noise.
+// Coverage factor and U of a separation. Machine and target are straight, so the results contain
+// only noise.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +17,8 @@ double normal(std::uint32_t trial, std::uint32_t set_up, std::uint32_t i) {
   return gaussian(uniform(words[0], words[1]));
 }
 
-// Three set-ups: the second is shifted by a step, the third is turned over. There are n - 3 degrees
-// of freedom.
+// Three set-ups: in the second the target is shifted by a step, in the third it is turned over.
+// There are n - 3 degrees of freedom.
 SeparationRequest noise_only(std::uint32_t n, std::uint32_t trial) {
   SeparationRequest request;
   for (std::uint32_t k = 0; k < 3; ++k) {
@@ -32,7 +33,7 @@ SeparationRequest noise_only(std::uint32_t n, std::uint32_t trial) {
   return request;
 }
 
-// Counts how many of 3,000 intervals contain the true value 0.
+// Counts how many of the 3,000 intervals contain the true value, which is 0.
 TEST(SeparationExpanded, UCoversTheTruthWithStudentsT) {
   constexpr std::uint32_t kTrials = 3000;
   for (const std::uint32_t n : {4U, 6U}) {
@@ -46,13 +47,14 @@ TEST(SeparationExpanded, UCoversTheTruthWithStudentsT) {
       held += off_m <= found->machine.U_m(1);
       covered_by_two_u += off_m <= 2 * found->machine.u_m[1];
     }
-    // 95 %, within three standard deviations for 3,000 trials.
+    // 95 % ± three standard deviations of the share for 3,000 trials.
     EXPECT_NEAR(100.0 * held / kTrials, 95, 1.2) << n;
     EXPECT_LT(100.0 * covered_by_two_u / kTrials, 88) << n;
   }
 }
 
-// 12.71 and 1.960 are from GUM table G.2; between them the degrees of freedom follow equation G.2b.
+// The factors 12.71 and 1.960 are from GUM table G.2. For values between them, the degrees of
+// freedom follow from equation G.2b.
 TEST(SeparationExpanded, DeclaredUHasInfiniteDegreesOfFreedom) {
   auto request = noise_only(4, 1);
   const auto scatter = separate(request).value();
@@ -61,7 +63,7 @@ TEST(SeparationExpanded, DeclaredUHasInfiniteDegreesOfFreedom) {
               1e-3 * scatter.machine.U_m(1));
   for (auto& set_up : request.set_ups) set_up.declared = {{"", {0, 30e-9, 0, 0}}};
   const auto both = separate(request).value();
-  // Degrees of freedom: u^4 / (u_s^4 / 1) with the scatter u_s alone.
+  // The degrees of freedom are u^4 / (u_s^4 / 1); u_s is the u of the scatter alone.
   const double ratio = both.machine.u_m[1] / scatter.machine.u_m[1];
   EXPECT_GT(ratio, 1);
   EXPECT_NEAR(both.machine.freedom[1] / std::pow(ratio, 4), 1, 1e-9);

@@ -1,4 +1,4 @@
-// The data of a run for a separation: the error, or the readings of one probe.
+// Data of a run for a separation: values of an error, or readings of one probe.
 #include "algo/separation/run_series.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// A δy of 2 µm/m and a yaw of 30 µrad/m: at the fixture, EYX = δy - d εz.
+// A run with δy = 2 µm/m · d and the yaw εz = 30 µrad/m · d. At the fixture EYX is δy - d εz.
 mdof::Run make_slope_run(const Rig& rig) {
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .targets_m = {0, 10e-3, 30e-3}};
   synthetic.truth = [](double d) { return Errors5{2e-6 * d, 0, 0, 0, 30e-6 * d}; };
@@ -27,7 +27,8 @@ TEST(RunSeries, ErrorSeriesIsTheMeanAtEachTarget) {
   }
 }
 
-// Probe D is at x = 0 and reads δy - εz d. Three runs of two visits give u/√6.
+// Probe D at x = 0 reads δy - εz d. Each target has two visits in three runs, so u of the mean is
+// u/√6.
 TEST(RunSeries, ProbeSeriesIsTheReading) {
   for (const char* id : {"D", "E"}) {
     const auto run = make_slope_run(test::rig_x());
@@ -45,8 +46,8 @@ TEST(RunSeries, ProbeSeriesIsTheReading) {
   EXPECT_NEAR(probe_series(run, test::rig_x(), "D", Axis::y)->set_up.error_m[2], -before, 1e-18);
 }
 
-// The declared shift is compared with a run that has this gain: 2 % of D, and of B with the effect
-// of the roll.
+// The effect of a declared gain is compared with a run that has this gain: 2 % of probe D, or 2 %
+// of probe B, which changes the roll.
 TEST(RunSeries, DeclaredGainHasTheEffectOfARealGain) {
   for (const std::size_t k : {1u, 3u}) {
     const Rig rig = test::rig_x_with(k == 1 ? "B" : "D", "u_sensitivity_ppm = 20000");
@@ -72,7 +73,8 @@ TEST(RunSeries, DeclaredGainHasTheEffectOfARealGain) {
   }
 }
 
-// The separation determines the measured surface; the other surface contributes to u.
+// The flatness of the measured surface is a result of the separation and not part of u. The
+// flatness of the other surface contributes to u.
 TEST(RunSeries, ContainsFlatnessOfTheOtherSurface) {
   const std::string planes =
       "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.05\n"
@@ -82,7 +84,7 @@ TEST(RunSeries, ContainsFlatnessOfTheOtherSurface) {
   EXPECT_FALSE(declared_shifts(make_slope_run(side), side, 0, Axis::z)->empty());
 }
 
-// A plane needs no id.
+// A plane without an id is recognised by its normal.
 TEST(RunSeries, OmitsFlatnessOfThisSurfaceWithoutAnId) {
   const Rig side = test::rig_x_with("", "",
                                     "[[plane]]\nnormal = \"+Y\"\nu_flatness_um = "
@@ -103,11 +105,11 @@ TEST(RunSeries, RejectsAProbeOfAnotherDirection) {
       std::string::npos);
 }
 
-// The sensitivity and the drift of the read probe count, and those of no other probe. The drift is
-// 0 at the start of the run.
+// u contains the sensitivity and the drift of the selected probe only. The drift is 0 at the start
+// of the run.
 TEST(RunSeries, ProbeHasItsOwnSensitivityAndDrift) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 20000",
-                                   "[drift]\nu_um_per_h = 3.6\n");  // 1 nm/s
+                                   "[drift]\nu_um_per_h = 3.6\n");  // 3.6 µm/h is 1 nm/s
   const auto run = make_slope_run(rig);
   for (const auto& [id, scales] :
        {std::pair("D", true), std::pair("E", false), std::pair("A", false)}) {
@@ -117,7 +119,8 @@ TEST(RunSeries, ProbeHasItsOwnSensitivityAndDrift) {
       if (scales) {
         EXPECT_NEAR(own.declared[0].shift_m[i], 0.02 * own.error_m[i], 1e-18);
       }
-      // Six visits, ten seconds apart: forward at 10 i, reverse at 10 (5 - i), 60 s per run.
+      // Six visits in intervals of ten seconds: forward at 10 i s, in reverse at 10 (5 - i) s; a
+      // run takes 60 s.
       double mean_s = 0;
       for (int r = 0; r < 3; ++r)
         mean_s += (60.0 * r + 10 * static_cast<double>(i) + 60.0 * r +

@@ -1,5 +1,5 @@
-// Error separation of known machines and targets: planted shapes are found where they are seen;
-// unseen shapes are named and left out.
+// Error separation of simulated machines and targets. Shapes that the set-ups determine must be
+// found. Other shapes must be named and excluded from the results.
 #include "algo/separation/separate.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ constexpr double kMm = 1e-3, kUm = 1e-6, kNm = 1e-9;
 double wave(double x, double period_mm, double phase) {
   return std::sin(2 * std::numbers::pi * (x / (period_mm * kMm) + phase));
 }
-// About 3 µm of machine and 1 µm of target error, with parabolas and without a common period.
+// Errors of machine (about 3 µm) and target (about 1 µm): parabolas and waves of different periods.
 double machine_at(double x) {
   return kUm * (1.1 * wave(x, 47, 0.1) + 0.4 * wave(x, 17, 0.7) + 900 * x * x);
 }
@@ -30,14 +30,14 @@ double height_at(double c) {
   return kUm * (0.3 * wave(c, 38, 0.3) + 0.1 * wave(c, 13, 0.6) - 300 * c * c);
 }
 
-// Position of the read material in the target's own coordinate. It is calculated by moving the
-// bodies, not by the formula of set_up.h.
+// Position of the measured material in the coordinate of the target. It is calculated by moving the
+// bodies and not by the formula of set_up.h.
 struct TargetPose {
   bool upside_down = false, end_for_end = false;
   double shift_m = 0;
 };
 double target_coordinate(double in_C, const TargetPose& target_pose) {
-  const double from_zero = in_C - target_pose.shift_m;  // towards + of the motion
+  const double from_zero = in_C - target_pose.shift_m;  // in the direction + of the motion
   return target_pose.end_for_end ? -from_zero : from_zero;
 }
 
@@ -55,7 +55,7 @@ double normal(std::uint64_t seed, int number, std::size_t i) {
   return gaussian(uniform(words[0], words[1]));
 }
 
-// Reading of an instrument: the displacement of the surface along +, as an error of the moving
+// Simulated reading: the displacement of the surface in the direction +, as an error of the moving
 // body.
 SetUp measured(const World& world, const TargetPose& target_pose, int number) {
   SetUp s;
@@ -90,7 +90,7 @@ Column steps(int n, double step_m, double from_m = 0) {
   return x;
 }
 
-// Removes shapes from a column by least squares; each is orthogonal to the previous shapes.
+// Removes shapes from a column by least squares. Each shape is made orthogonal to those before it.
 Column without(Column y, std::vector<Column> shapes) {
   std::vector<Column> square;
   const auto take_out = [](Column& of, const Column& shape) {
@@ -144,7 +144,7 @@ TEST(Separation, ReversalSeparatesBothExceptForALine) {
       const Column& c = found->target.place_m;
       EXPECT_NEAR(c.front(), fixture == against ? -53 * kMm : 7 * kMm, 1e-15);
       EXPECT_LT(worst(found->target.seen_m, without(of(c, height_at), line(c))), 1e-15);
-      // The halves of the textbook, each without its line.
+      // Half of the sum by the textbook, without its line.
       Column half;
       for (std::size_t i = 0; i < world.x_m.size(); ++i)
         half.push_back((request.set_ups[0].error_m[i] + request.set_ups[1].error_m[i]) / 2);
@@ -203,7 +203,7 @@ TEST(Separation, ShiftAndTurnSeparateAllExceptALine) {
   EXPECT_LT(found->residual_m, 1e-15);
 }
 
-// A shape that changes its sign over the shift looks like the machine after the turn.
+// A shape whose sign changes over the shift equals a shape of the machine after the turn.
 TEST(Separation, TurnWithShiftHidesTwiceTheShift) {
   const World world{{}, 0, steps(25, 2.5 * kMm)};
   auto found = separate(request_of(world, {{}, {true, false, 10 * kMm}}));
@@ -216,8 +216,8 @@ TEST(Separation, TurnWithShiftHidesTwiceTheShift) {
   EXPECT_EQ(names(found->target), (std::set<std::string>{"offset", "slope", "period 5 mm"}));
 }
 
-// After a turn about the normal, the surface faces the same direction, so shapes symmetric about
-// the middle stay hidden. After a turn about the third axis, antisymmetric shapes stay hidden.
+// After a turn about the normal, shapes that are symmetric about the middle are not determined.
+// After a turn about the third axis, antisymmetric shapes are not determined.
 TEST(Separation, EndForEndTurnSeesHalfOfTheShapes) {
   const World world{{}, 0, steps(13, 5 * kMm)};
   for (const bool upside_down : {false, true}) {
@@ -254,14 +254,14 @@ TEST(Separation, UncertaintyMatchesTheNoise) {
   }
   for (std::size_t i = 0; i < u.size(); ++i)
     EXPECT_NEAR(std::sqrt(square[i] - sum[i] * sum[i]) / u[i], 1, 0.06) << i;
-  // Reversal alone: the half difference of n readings with u has u/sqrt(2), without a line.
+  // Reversal alone: half differences have u/sqrt(2); the line is not contained in the result.
   const auto reversal = separate(request_of(world, {{}, {true, false, 0}}));
   double trace = 0;
   for (const double v : reversal->target.u_m) trace += v * v / (5 * kNm * 5 * kNm);
   EXPECT_NEAR(trace, (13 - 2) / 2.0, 1e-9);
 }
 
-// A third set-up equal to the first, with ten times its uncertainty, contributes only its weight.
+// The third set-up equals the first with ten times the uncertainty, so its weight is 1/100.
 TEST(Separation, ReadingsAreWeightedByTheirUncertainty) {
   const World world{{}, 0, steps(7, 10 * kMm), 1 * kNm};
   auto request = request_of(world, {{}, {true, false, 0}, {}});
@@ -287,7 +287,7 @@ TEST(Separation, UsesTheScatterWithoutUncertainty) {
     EXPECT_NE(by_scatter->u_reason.find("scatter"), std::string::npos);
     square += std::pow(by_scatter->target.u_m[4] / with->target.u_m[4], 2) / kTrials;
   }
-  EXPECT_NEAR(square, 1, 0.09);  // sd of the mean: sqrt(2/6/400) = 0.03
+  EXPECT_NEAR(square, 1, 0.09);  // standard deviation of the mean: sqrt(2/6/400) = 0.03
 }
 
 TEST(Separation, ReportsAWrongShift) {
@@ -330,8 +330,8 @@ TEST(Separation, RejectsImpossibleSetUps) {
   says(request, "2 readings");
 }
 
-// Calculated by hand: in a reversal the machine is half the sum. A common gain of 1 % in both
-// set-ups is 1 % of the seen shape. Separate gains are 1 % of each half, and their squares add.
+// By hand: in a reversal the machine error is half of the sum. A common gain error of 1 % is 1 % of
+// the result. Separate gain errors of 1 % are 1 % of each half, and their squares add.
 TEST(Separate, UContainsDeclaredShifts) {
   const auto found = [](const std::string& common, double gain) {
     SeparationRequest request;
@@ -357,7 +357,7 @@ TEST(Separate, UContainsDeclaredShifts) {
     EXPECT_NEAR(one.target.u_m[i], 0.01 * std::abs(one.target.seen_m[i]), 2e-12);
     EXPECT_LT(none.machine.u_m[i], 2e-12);
   }
-  // Each set-up has its own gain; places on the target descend when positions ascend.
+  // Each set-up has its own gain. Places on the target decrease if positions increase.
   const Separation own = found("", 0.01);
   for (std::size_t i = 0; i < 7; ++i) {
     const double first = one.machine.seen_m[i] + one.target.seen_m[6 - i];
@@ -369,7 +369,7 @@ TEST(Separate, UContainsDeclaredShifts) {
   EXPECT_NE(none.u_reason.find("repeatability only"), std::string::npos);
 }
 
-// Four set-ups whose probes have separate scale errors of about 1 %, with noise of 2 nm.
+// Four set-ups with noise of 2 nm. The probes have separate scale errors of about 1 %.
 TEST(Separate, DeclaredShiftsDoNotContradict) {
   const auto accused = [](double declared_scale) {
     int n = 0;
@@ -393,7 +393,7 @@ TEST(Separate, DeclaredShiftsDoNotContradict) {
   };
   EXPECT_EQ(accused(0.01), 0);
   EXPECT_GT(accused(0), 75);
-  EXPECT_GT(accused(0.001), 40);  // scale errors are ten times as large as declared
+  EXPECT_GT(accused(0.001), 40);  // the scale errors are ten times the declared u
 }
 
 }  // namespace

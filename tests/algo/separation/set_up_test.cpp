@@ -1,5 +1,5 @@
-// The effect of a rotation by 180° on a surface, from rotated vectors of its normal and of the
-// motion.
+// The effect of a rotation by 180° on a surface. It is compared with the rotation of two vectors:
+// the normal of the surface and the direction of motion.
 #include "algo/separation/set_up.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,8 @@
 namespace mdof::algo {
 namespace {
 
-// A rotation by 180° about an axis keeps the component along this axis and inverts the others.
+// A rotation by 180° about an axis does not change the component along this axis and inverts the
+// others.
 double sign_after(Axis about, Axis of) {
   return about == of ? 1 : -1;
 }

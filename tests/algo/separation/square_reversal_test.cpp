@@ -1,4 +1,4 @@
-// Two set-ups of a square, calculated by hand.
+// Two set-ups of a square. The results are calculated by hand.
 #include "algo/separation/square_reversal.h"
 
 #include <gtest/gtest.h>
@@ -18,11 +18,12 @@ SquareSetUp set_up(int corner, double value_urad, double u_random_urad, double d
   return {corner, budget};
 }
 
-// m + α = 12 and m - α = 4 µrad: m = 8, α = 4.
+// m is the error of the machine, α of the square: m + α = 12 µrad and m - α = 4 µrad, so m = 8
+// µrad, α = 4 µrad.
 TEST(SquareReversalByHand, SeparatesTheSquareFromTheMachine) {
   const auto found = square_reversal(set_up(1, 12, 3, 2, 10), set_up(-1, 4, 4, 2, 10)).value();
   EXPECT_NEAR(found.EC0Y_rad, 8e-6, 1e-15);
-  EXPECT_NEAR(found.square_rad, -4e-6, 1e-15);  // EC0Y of a square assumed to be perfect is m - α
+  EXPECT_NEAR(found.square_rad, -4e-6, 1e-15);  // opposite sign of α, because EC0Y would be m - α
   EXPECT_NEAR(found.u_random_rad, 2.5e-6, 1e-15);
   EXPECT_NEAR(found.u_declared_rad, 2e-6, 1e-12);
   EXPECT_NEAR(found.u_rad, std::hypot(2.5e-6, 2e-6), 1e-12);
@@ -30,8 +31,8 @@ TEST(SquareReversalByHand, SeparatesTheSquareFromTheMachine) {
   EXPECT_NEAR(turned.square_rad, 4e-6, 1e-15);
 }
 
-// Welch-Satterthwaite for two equal contributions with 5 degrees of freedom: 10 degrees of freedom,
-// k from the t distribution is 2.228.
+// Equation of Welch and Satterthwaite for two equal contributions with 5 degrees of freedom each:
+// 10 degrees of freedom. The coverage factor of the t distribution is 2.228.
 TEST(SquareReversalByHand, DegreesOfFreedomAdd) {
   const auto found = square_reversal(set_up(1, 1, 3, 0, 5), set_up(-1, 1, 3, 0, 5)).value();
   EXPECT_NEAR(found.freedom, 10, 1e-9);
@@ -41,8 +42,8 @@ TEST(SquareReversalByHand, DegreesOfFreedomAdd) {
   EXPECT_NEAR(uneven.freedom, 45. * 45 / (36. * 36 / 5 + 81. / 20), 1e-9);
 }
 
-// u exceeds u_random by the last bit only, and the repeatability is 1e-13 of u: nothing is
-// declared, and the degrees of freedom are infinite.
+// u exceeds u_random by one rounding step only, and the repeatability is 1e-13 of u. This must not
+// be taken as a declared contribution, and the degrees of freedom are infinite.
 TEST(SquareReversalByHand, IgnoresRounding) {
   SquareSetUp a = set_up(1, 1, 3, 0, 5e52), b = set_up(-1, 1, 3, 0, 5e52);
   a.budget.u = std::nextafter(a.budget.u_random, 1);

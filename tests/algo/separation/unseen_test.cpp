@@ -1,4 +1,4 @@
-// Names of unseen shapes, for shapes made by hand.
+// Names of shapes that a separation does not determine. The shapes are defined by hand.
 #include "algo/separation/unseen.h"
 
 #include <gtest/gtest.h>
@@ -40,10 +40,10 @@ TEST(UnseenShapes, HaveTheNamesOfTheirSpan) {
   EXPECT_EQ(named({kOnes}), "offset (1)\n");
   EXPECT_EQ(named({kLine, kOnes}), "offset (1)\nslope (1)\n");
   EXPECT_EQ(named({kOnes, kLine, kSquares}), "offset (1)\nslope (1)\nparabola (1)\n");
-  // A line about the middle, without an offset, is only the slope.
+  // A line about the middle contains no offset, so its name is slope.
   EXPECT_EQ(named({{-5, -3, -1, 1, 3, 5}}), "slope (1)\n");
-  // The line that starts at 0 contains an offset, which is seen. So the shape is neither offset nor
-  // slope.
+  // A line that starts at 0 contains an offset, and the offset is determined. So this shape is
+  // neither an offset nor a slope.
   EXPECT_EQ(named({kLine}), "1 more shape, from 10 mm to 50 mm (1)\n");
 }
 
@@ -91,8 +91,9 @@ TEST(HiddenPeriods, AreTheGreatestCommonDivisorAndItsFractions) {
   EXPECT_EQ(mm({}, 2), (std::vector<double>{}));
 }
 
-// A shape is unseen if less than a millionth of it is seen, for any number of places. The columns
-// are an offset rotated by this amount towards +1, -1 ..., which has the same length.
+// A shape is reported as not determined if less than a millionth of it is determined, for any
+// number of places. The column is an offset that is rotated towards the shape +1, -1 ... by the
+// angle `by`.
 TEST(UnseenShapes, UpToAMillionthOfAShapeMayBeSeen) {
   const auto turned = [](double by) {
     std::vector<double> shape;

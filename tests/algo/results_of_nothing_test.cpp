@@ -139,7 +139,7 @@ TEST(ResultsOfNothing, SingleVisitsShowNoDrift) {
       EXPECT_EQ(figure, 0);
     EXPECT_FALSE(series.steps);
   }
-  EXPECT_EQ(slow_noises({0, 10, 20}).front().share, 0);  // white noise
+  EXPECT_EQ(slow_noises({0, 10, 20}).front().share, 0);  // the first is white noise
 }
 
 TEST(ResultsOfNothing, NoPassesShowNoLag) {

@@ -59,7 +59,7 @@ inline Machine machine_of(const CompensationTable& table, const Eigen::Vector3d&
   return machine;
 }
 
-// u of the tool position at the axis position of a row.
+// u of the tool position if the axis is at the position in a row of the table.
 inline Eigen::Vector3d tool_uncertainty(const Machine& machine, const CompensationTable& table,
                                         std::size_t row) {
   algo::Command command{};

@@ -93,7 +93,7 @@ TEST(DriftSentences, NameTheProbesAboveTheLimit) {
 TEST(DriftSentences, NameAllFiveErrors) {
   RunDrift drift;
   drift.length_s = 60;
-  const double changes[] = {1e-6, 2e-6, 3e-6, 4e-6, 5e-6};  // m; rad
+  const double changes[] = {1e-6, 2e-6, 3e-6, 4e-6, 5e-6};  // two in m, three in rad
   for (std::size_t k = 0; k < 5; ++k) {
     drift.errors[k].order = 1;
     drift.errors[k].change = changes[k];

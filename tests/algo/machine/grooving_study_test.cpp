@@ -89,7 +89,7 @@ struct Seen {
       for (std::size_t i = 0; i < at.size(); ++i) (*beside)[i] -= first + slope * at[i];
     }
   }
-  // The line of X is turned by the angle that is missing to 90° between the axes.
+  // The axis line of X is turned by 90° minus the angle between the axes.
   Three by_equation_1(std::size_t i, std::size_t j) const {
     return {along_x[i] + beside_y[j], beside_x[i] + along_y[j] + slopes * at[i], 0};
   }

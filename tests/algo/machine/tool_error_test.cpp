@@ -262,7 +262,7 @@ TEST(Compensating, CorrectsThePositionCompletely) {
     ASSERT_TRUE(c);
     EXPECT_TRUE(c->converged);
     EXPECT_LE(c->steps, 8);
-    // Expected position: the independent matrices.
+    // The expected position is calculated by the independent matrices.
     const auto reached = test::tool_matrix(machine, c->command, true);
     const auto nominal = test::tool_matrix(machine, wanted, false);
     for (std::size_t k = 0; k < 3; ++k)

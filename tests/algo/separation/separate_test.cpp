@@ -144,7 +144,7 @@ TEST(Separation, ReversalSeparatesBothExceptForALine) {
       const Column& c = found->target.place_m;
       EXPECT_NEAR(c.front(), fixture == against ? -53 * kMm : 7 * kMm, 1e-15);
       EXPECT_LT(worst(found->target.seen_m, without(of(c, height_at), line(c))), 1e-15);
-      // Half of the sum by the textbook, without its line.
+      // By the textbook, the machine error is half of the sum; its line is removed.
       Column half;
       for (std::size_t i = 0; i < world.x_m.size(); ++i)
         half.push_back((request.set_ups[0].error_m[i] + request.set_ups[1].error_m[i]) / 2);

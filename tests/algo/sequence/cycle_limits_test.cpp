@@ -99,13 +99,15 @@ Cycle group_cycle(const std::vector<Row>& groups, int targets) {
   return cycle_of(row, targets).cycle;
 }
 
-// For most targets, the axis must stay within half of the targets between the visits of a target.
+// Between the visits of a target, the axis must move over at most half of all targets. This must be
+// true for most targets.
 TEST(QuasiPilgrimLimit, StaysWithinHalfOfTheTargets) {
   EXPECT_EQ(group_cycle({{1, 2, 3, 4}, {5, 6, 7, 8}}, 8), Cycle::quasi_pilgrim);
-  // The axis stays within 5 targets for five of nine targets, within 4 for four. The median is 5.
+  // Between the visits of a target the axis moves over 5 targets (for five of the nine targets) or
+  // over 4 targets (for the other four). The median is 5.
   EXPECT_EQ(group_cycle({{1, 2, 3, 4}, {5, 6, 7, 8, 9}}, 9), Cycle::none);
   EXPECT_EQ(group_cycle({{1, 2, 3, 4, 5}, {6, 7, 8, 9}}, 9), Cycle::none);
-  // The axis stays within 3 targets for five targets, within 9 for four. The median is 3.
+  // The axis moves over 3 targets (for five targets) or over 9 (for four). The median is 3.
   EXPECT_EQ(group_cycle({{2, 4}, {9, 1, 3, 5}, {6, 7, 8}}, 9), Cycle::quasi_pilgrim);
 }
 

@@ -75,8 +75,9 @@ rpc::ServerOptions server_options(const RpcAccess& access) {
 
 }  // namespace
 
-// The destructor stops the stations, closes the database and lets the storekeeper write its pending
-// data. The members are then destroyed in reverse order (server, service, event loop).
+// The destructor stops the stations and closes the database. The storekeeper then writes its
+// pending data. At last the other members are destroyed: first the server, then the service, then
+// the event loop.
 struct App::Parts {
   explicit Parts(Config c)
       : config(std::move(c)),
@@ -105,7 +106,8 @@ struct App::Parts {
     replayer.reset();
     query.reset();
     stations.clear();
-    reader.reset();  // before the writer, which then leaves a single database file
+    reader.reset();  // Closed before the writer: the last connection to close leaves a single
+                     // database file.
     keeper.reset();
   }
   Status open_store();
@@ -161,7 +163,7 @@ Status App::Parts::open_store() {
   return {};
 }
 
-// While the database was not writable, it may have been opened as immutable.
+// The reader may have opened the database as immutable while the database was not writable.
 void App::Parts::reopen_reader() {
   auto opened = store::Store::open(config.database, store::Access::read_only);
   if (opened) *reader = std::move(*opened);
@@ -189,7 +191,7 @@ void App::Parts::start_stations() {
   }
 }
 
-// The axis position that a user set last. Damaged entries are ignored.
+// The axis position that a user set last. A position that cannot be read is reported and ignored.
 std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
   auto last = reader->last_datum(axis);
   if (last) return std::move(*last);
@@ -200,8 +202,8 @@ std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
   return std::nullopt;
 }
 
-// A message that cannot be sent is counted (clients see the count), and the journal gives the
-// cause.
+// A message that cannot be sent is counted. The next message contains this count, and the journal
+// contains the cause.
 void App::Parts::report(const char* topic, const std::string& json, std::string_view of) {
   const Status reported = service.publish(topic, json, of);
   if (reported) return;
@@ -234,7 +236,7 @@ Status App::Parts::listen() {
   };
   methods->clients = [this] { return service.clients(); };
   MDOF_TRY(methods->generation, reader->generation());
-  // The generation never decreases, even if the activation that raised it was lost.
+  // The generation never decreases, even if the activation that increased the generation was lost.
   methods->generation =
       std::max(methods->generation, store::read_announced_head(config.database).generation);
   add_all_methods(table, *methods);
@@ -301,14 +303,13 @@ void App::Parts::watch_clock() {
   report(kRunTopic, clock_json(step_s));
 }
 
-// A signal during start-up is kept until the loop runs; the loop then ends at once.
+// A signal that arrives during start-up is pending until the loop runs. The loop then ends at once.
 void App::Parts::handle_signals() {
   std::vector<int> signals{SIGTERM, SIGINT};
   struct sigaction hang_up {};
   ::sigaction(SIGHUP, nullptr, &hang_up);
   if (hang_up.sa_handler != SIG_IGN)
-    signals.push_back(SIGHUP);  // a signal that is ignored (nohup)
-                                // stays ignored
+    signals.push_back(SIGHUP);  // nohup makes a process ignore SIGHUP
   loop.on_signal(signals, [this](int) {
     systemd::notify_stopping("stopping");
     loop.stop();

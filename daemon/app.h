@@ -1,4 +1,5 @@
-// The application object of mdofd. It owns all parts and creates them in start-up order.
+// The application object of mdofd. It creates, in this order, and owns all objects that mdofd
+// needs.
 #pragma once
 
 #include <memory>
@@ -10,10 +11,11 @@ namespace mdof::daemon {
 
 class App {
  public:
-  // Opens the database, the sockets and the devices. Returns the errors of these parts.
+  // Opens the database, the sockets and the devices. Returns the first error.
   static Result<std::unique_ptr<App>> create(Config config);
   ~App();
-  // Serves until SIGTERM, SIGINT or SIGHUP. Unfinished runs then end as aborted.
+  // Serves clients until the signal SIGTERM, SIGINT or SIGHUP. The state of an unfinished run then
+  // becomes "aborted".
   void run();
 
  private:

@@ -1,4 +1,5 @@
-// Entries of the history: the acting user, the time of the action, and both as text and JSON.
+// Creates entries of the history (the action, the user and the time) and writes them as text and
+// JSON.
 #pragma once
 
 #include <string>
@@ -15,8 +16,9 @@ HistoryEntry action_now(std::string name, Actor by);
 
 // "uid 1000 (anna) gid 1000 pid 4711"
 std::string actor_text(const Actor& actor);
-// {"deed", "of": "run", "id", "utc", "uid", "gid", "pid", "user"}; "detail" if the entry has one
+// {"deed", "of": "run", "id", "utc", "uid", "gid", "pid", "user"}. The member "detail" is added if
+// the entry has a detail.
 std::string action_json(const HistoryEntry& action);
-void write_actions(JsonWriter& json, const std::vector<HistoryEntry>& actions);  // an array
+void write_actions(JsonWriter& json, const std::vector<HistoryEntry>& actions);  // writes an array
 
 }  // namespace mdof::daemon

@@ -13,7 +13,7 @@ std::optional<std::uint16_t> port_in(std::string_view text) {
   return port;
 }
 
-// The form in which a browser writes a host into Host and Origin.
+// Whether the text has the syntax of a host in the HTTP headers Host and Origin.
 bool is_host(const std::string& text) {
   return !text.empty() && text.find_first_of("/ \t@?#\"'") == std::string::npos;
 }

@@ -32,14 +32,13 @@ void set_ending_signals(void (*handler)(int)) {
     struct sigaction now {};
     ::sigaction(signal, nullptr, &now);
     if (now.sa_handler != SIG_IGN)
-      std::signal(signal, handler);  // a signal that is ignored
-                                     // (nohup) stays ignored
+      std::signal(signal, handler);  // nohup makes a process ignore SIGHUP
   }
 }
 
-// Runs before main(): nothing that must be closed is open until the event loop handles these
-// signals (App::create). A stop request before that therefore ends the process at once, with
-// success.
+// Runs before main(). Until App::create() gives these signals to the event loop, the process has
+// opened nothing that must be closed. Until then, a signal ends the process at once with exit
+// status 0.
 [[gnu::constructor(101)]] void end_on_early_signals() {
   set_ending_signals(end_at_once);
 }
@@ -92,8 +91,8 @@ int run(const Options& options) {
   if (!app) return failed(app.error());
   (*app)->run();
   app->reset();
-  // A thread still waits for a file whose file system does not respond. It would use objects that
-  // the normal exit destroys.
+  // A thread still waits for a file system that does not respond. The normal exit would destroy
+  // objects that this thread uses.
   if (mdof::daemon::Replayer::was_abandoned()) std::_Exit(0);
   return 0;
 }
@@ -126,7 +125,7 @@ int main(int argc, char** argv) try {
   }
   options.serves_page = http->count() > 0;
   if (options.check_only)
-    set_ending_signals(SIG_DFL);  // an interrupted check must not end with success
+    set_ending_signals(SIG_DFL);  // an interrupted check must not end with exit status 0
   return run(options);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "mdofd: %s\n", e.what());

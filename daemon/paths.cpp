@@ -14,7 +14,7 @@ const char* environment(const char* name) {
   return value && *value ? value : nullptr;
 }
 
-// systemd may give several folders, separated by colons; mdofd uses the first.
+// The variable may contain several folders, separated by colons. mdofd uses the first folder.
 std::filesystem::path first_of(const std::string& list) {
   return list.substr(0, list.find(':'));
 }

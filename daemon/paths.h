@@ -1,4 +1,5 @@
-// Default paths of the state and the socket. An option or the environment can override them.
+// Default paths of the database and the socket. An option or an environment variable overrides
+// them.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +9,14 @@
 
 namespace mdof::daemon {
 
-// $STATE_DIRECTORY/mdof.db, else $XDG_STATE_HOME/mdof/mdof.db, else ~/.local/state/mdof/mdof.db.
+// The first path whose variable is set: $STATE_DIRECTORY/mdof.db, $XDG_STATE_HOME/mdof/mdof.db,
+// ~/.local/state/mdof/mdof.db.
 Result<std::filesystem::path> default_database();
-// $RUNTIME_DIRECTORY/mdof.sock, else $XDG_RUNTIME_DIR/mdof.sock, else /run/mdof/mdof.sock.
+// The first path whose variable is set: $RUNTIME_DIRECTORY/mdof.sock, $XDG_RUNTIME_DIR/mdof.sock;
+// otherwise /run/mdof/mdof.sock.
 std::string default_socket();
 
-// The present time, for people and file names: "2026-11-21T08:15:30.123Z".
+// The current time in UTC, as text for people and file names: "2026-11-21T08:15:30.123Z".
 std::string utc_now();
 
 }  // namespace mdof::daemon

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kNoteBytes = 1024;
 constexpr std::size_t kNoticeBytes = 1024, kNoticesBytes = 8 * 1024;
 
-// Cuts between characters of UTF-8, never within one.
+// Never cuts inside a UTF-8 character.
 std::string cut(const std::string& text, std::size_t bytes) {
   if (text.size() <= bytes) return text;
   while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;
@@ -62,7 +62,7 @@ std::string header_item(const RunHeader& header, std::optional<std::int64_t> sup
     json.end_object();
     return json.take();
   };
-  constexpr std::size_t kMostBytes = 16 * 1024;  // so that several runs fit into a page
+  constexpr std::size_t kMostBytes = 16 * 1024;  // Several headers of this size fit into a page.
   std::string whole = item(header, false);
   return whole.size() <= kMostBytes ? whole : item(shortened(header), true);
 }

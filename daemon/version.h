@@ -2,7 +2,8 @@
 
 namespace mdof::daemon {
 
-// The build sets it from the project's version. The provenance of every result contains it.
+// Version of mdof; the build sets it from the version of the project. The provenance of every
+// result contains the version.
 extern const char* const kVersion;
 
 }  // namespace mdof::daemon

@@ -1,5 +1,4 @@
-// The application object of mdofd. It creates, in this order, and owns all objects that mdofd
-// needs.
+// The application object of mdofd. It creates and owns all objects that mdofd needs.
 #pragma once
 
 #include <memory>

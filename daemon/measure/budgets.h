@@ -20,17 +20,20 @@
 
 namespace mdof::daemon {
 
-// Uncertainty of the points of a run at its stated point, with the run's own rig.
+// Uncertainty of the points of a run, at the stated point of the run. The rig is read from the
+// provenance of the run.
 RunUncertainty uncertainty_of(const Run& run);
-// Uncertainty of some points of a run. `part` must contain the first point. Repeatability of the
-// run is not included.
+// Uncertainty of some points of a run. `part` must contain the first point of the run. The
+// uncertainty does not include the repeatability of the run.
 RunUncertainty stop_uncertainty(const Run& part);
 
-// Budgets of the figures of the run. The result is empty and gives the reason if the budgets cannot
-// be calculated or would take long; `mdof budget RUN` calculates them in any case.
+// Budgets of the figures of the run. If the budgets cannot be calculated, or if the calculation
+// would take long, the result contains only the reason. `mdof budget RUN` calculates long budgets,
+// too.
 StatedFigures figure_budgets(const Run& run);
 
-// Both of the above, calculated together at half the cost.
+// The results of uncertainty_of() and figure_budgets(). One call of stated_run() takes half the
+// time of the two calls.
 struct StatedRun {
   RunUncertainty points;
   StatedFigures figures;
@@ -40,30 +43,32 @@ StatedRun stated_run(const Run& run);
 struct RunBudgetsRequest {
   std::int64_t run = 0;
   Reference reference = Reference::fixture;
-  std::string figure;          // the only wanted figure, "EYX_straightness_um"; empty: all figures
-  std::optional<double> at_m;  // errors ("EYX_um") at the target nearest to this position
+  std::string
+      figure;  // name of the only requested figure, "EYX_straightness_um"; empty: all figures
+  std::optional<double>
+      at_m;  // if set: budgets of the errors ("EYX_um") at the target nearest to this position
   algo::TrialsRequest trials;
 };
 struct FoundBudgets {
   StatedAt stated;
-  std::optional<double> at_m;  // position of the target that was used
+  std::optional<double> at_m;  // position of the target of these budgets
   std::vector<Budget> budgets;
   Notices notices;  // notices of the runs
   bool simulated = false;
 };
-// Errors: unknown run; run without error values; figure that the run does not have.
+// Errors: the run is unknown or has no error values; the run does not have the figure.
 Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& request);
 
 // Budget of EC0Y as fit_squareness() calculates it. Nothing is stored.
 Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessRequest& request,
                                         const algo::TrialsRequest& trials);
 
-// Squareness from two set-ups of the same square, which was turned over between them. Nothing is
-// stored. The angle of the square in the rigs is not used. Errors: those of algo::square_reversal()
-// and those of each set-up.
+// Squareness from two set-ups of the same square. The square is turned over between the two
+// set-ups. The angle of the square that the rigs state is not used. Nothing is stored. Errors:
+// those of algo::square_reversal() and of squareness_runs() for each set-up.
 struct FoundSquareReversal {
   SquareReversal found;
-  std::vector<std::string> not_declared;  // keys of the rigs
+  std::vector<std::string> not_declared;  // keys of the uncertainties that the rigs do not declare
   Notices notices;                        // notices of the runs
   bool simulated = false;
 };
@@ -78,14 +83,14 @@ struct FoundParallelism {
   Parallelism parallelism;
   Notices notices;  // notices of the runs
 };
-// Parallelism with its budgets. Nothing is stored. Errors: those of algo::parallelism(), and rigs
-// that cannot be read.
+// Parallelism with its budgets. Nothing is stored. Errors: those of algo::parallelism(); a rig
+// cannot be read.
 Result<FoundParallelism> find_parallelism(store::Store& store, const ParallelismRequest& request);
 
-// The document of `mdof parallelism --json` and the RPC.
+// The document of `mdof parallelism --json` and of the RPC method.
 std::string parallelism_json(const FoundParallelism& found);
 
-// The document of `mdof budget --json` and the RPC; `decision` as in write_budgets().
+// The document of `mdof budget --json` and of the RPC method. `decision`: as in write_budgets().
 std::string budgets_json(const FoundBudgets& found,
                          const std::optional<Decision>& decision = std::nullopt);
 

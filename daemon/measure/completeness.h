@@ -1,4 +1,4 @@
-// Decides whether a run is complete, in the same way for live runs, replays and the command line.
+// Decides whether a run is complete. Live runs, replays and the command line use the same rule.
 #pragma once
 
 #include <string>
@@ -9,14 +9,16 @@
 
 namespace mdof::daemon {
 
-// Whether each target has `repeats` solved points from both sides. False if `repeats` is 0.
+// Whether each target has at least `repeats` solved points with forward approach, and as many with
+// reverse approach. False if `repeats` is 0.
 bool all_measured(const std::vector<double>& targets_m, int repeats,
                   const std::vector<MeasuredPoint>& points);
 
-// Reasons why the run is partial; empty if it is complete.
-//   targets and repeats: points that are missing or could not be solved, by target and approach
-//   targets alone:       targets that were never measured
-//   always:              most of the points could not be solved
+// Notices that state why the run is partial; empty if the run is complete.
+//   If repeats > 0: for each target and approach, the number of missing or unsolved points.
+//   If repeats == 0: the targets that have no solved point.
+//   Points that could not be solved: if they are more than half of all points, or if there is
+//   another notice.
 Notices missing_notices(const std::vector<double>& targets_m, int repeats,
                         const std::vector<MeasuredPoint>& points);
 

@@ -1,6 +1,7 @@
-// `delay_us` of the probes of a rig (filters of their amplifiers) and of the channels of a device
-// (filter, place in a scan): by how much readings are later than their time stamps, and the part of
-// it that alignment removes. The delays of a probe and its channel add up.
+// Delays `delay_us` of readings. A delay states how much later the reading is than its time stamp.
+// The rig states the delay of a probe (filter of the amplifier). The configuration of a device
+// states the delay of a channel (filter, position in the scan). The total delay is the sum of both
+// delays. The aligner removes the delay of a probe relative to the encoder.
 #pragma once
 
 #include <map>
@@ -14,22 +15,23 @@ namespace mdof::daemon {
 
 using ChannelDelays = std::map<std::string, double>;  // s, by id; absent: 0
 
-// Adds the delays of a device's `channel` tables. Rejects a delay that is negative, not finite or
-// longer than `settle_s` (a stop would then begin with readings from before it), and the delay of a
-// channel that the rig does not have.
+// Adds the delays in the `channel` tables of a device. Rejects a delay that is negative, not finite
+// or too large. The limit is `settle_s`: with a longer delay, the first readings of a stop would be
+// from before the axis stopped. Also rejects the delay of a channel that the rig does not have.
 void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDelays& delays);
 
-// Moves each probe earlier by its delay relative to the encoder, so that frames are on the
-// encoder's time line. A late reading contains motion from after its time stamp; the end of each
-// stop is shortened accordingly. Equal delays do not change the scans.
+// Shifts the readings of each probe earlier by the delay of the probe minus the delay of the
+// encoder. The time of each frame is then the time of the encoder. If all delays are equal, nothing
+// is shifted. Each stop ends earlier by the largest delay, because late readings contain motion
+// after the stop.
 PipelineOptions with_delays(PipelineOptions options, const Rig& rig, const ChannelDelays& delays);
 
-// For a replay: replaces the delays of `recorded`, which `options` already contain, by the delays
-// of `rig`. A default `recorded` has no delays.
+// For a replay. `options` contain the delays of the rig `recorded`. Replaces them by the delays of
+// `rig`. A default-constructed `recorded` has no delays.
 PipelineOptions with_delays_of(const Rig& rig, const Rig& recorded, PipelineOptions options);
 
-// Error: settle_s is shorter than the filters of the channels need (`leave_s` of the same options).
-// The message states which key to set.
+// Error: options.dwell.settle_s is shorter than the largest delay (options.dwell.leave_s). The
+// message states which key to set.
 Status check_settling(const PipelineOptions& options);
 
 }  // namespace mdof::daemon

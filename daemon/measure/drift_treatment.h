@@ -1,4 +1,4 @@
-// Treats the drift of a measured run.
+// Removes the drift of a measured run, and compares the drift with its limit.
 #pragma once
 
 #include "schema/rig/rig.h"
@@ -6,10 +6,11 @@
 
 namespace mdof::daemon {
 
-// Call it before the figures are calculated, with the points stated at the fixture. Removes a
-// significant drift from the errors if `remove` is set; a notice states the removed drift, or why
-// nothing was removed. Drift beyond the limit of the rig makes the run doubtful even if it is
-// removed, because the remainder of a large drift is larger.
+// Call this function before the figures are calculated. The errors of the points must be stated at
+// the fixture. If `remove` is true, a significant drift is removed from the errors. A notice states
+// the removed drift, or the reason why no drift was removed. If the drift exceeds the limit of the
+// rig, the run is doubtful, even if the drift is removed: after the removal of a large drift, a
+// large remainder is possible.
 void treat_drift(const Rig& rig, bool remove, Run& run);
 
 }  // namespace mdof::daemon

@@ -1,5 +1,5 @@
-// The probe readings of a fixture by the rigid model. Simulated machines get this function as a
-// parameter, because drivers do not depend on the mathematics of the fixture.
+// Calculates the probe readings of a fixture with the rigid model. A simulated machine gets this
+// function as a parameter, because the drivers do not depend on the folder algo.
 #pragma once
 
 #include "drivers/simulator/machine.h"

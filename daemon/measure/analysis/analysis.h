@@ -1,5 +1,5 @@
-// The analysis of a stored run: straightness by each reference line, angles, figures with their
-// uncertainty, and drift. It is calculated on request and not stored.
+// The analysis of a stored run: the straightness for each reference line, the angles, the figures
+// with their uncertainty, and the drift. The analysis is calculated on request and not stored.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace mdof::daemon {
 
-// The document of `mdof show --figures --json` and run.analyse, for the run at its stated point.
-// Error (bad_input): an imported run.
+// The document of `mdof show --figures --json` and run.analyse. The errors hold at the point
+// run.header.stated. Error (bad_input): the run is imported.
 Result<std::string> analysis_document(store::Store& store, const Run& run);
 
 }  // namespace mdof::daemon

@@ -10,10 +10,11 @@
 
 namespace mdof::daemon {
 
-// Drift at the fixture, whatever the stated point of `run` is.
+// The drift of the errors at the fixture. It does not depend on the stated point of `run`.
 struct StoredDrift {
   algo::RunDrift found;
-  std::vector<StraightnessFigure> without;  // figures without the drift, if it can be removed
+  std::vector<StraightnessFigure>
+      without;  // figures after removal of the drift; empty if the drift cannot be removed
 };
 StoredDrift drift_of(const Run& run);
 

@@ -21,20 +21,21 @@ namespace mdof::daemon {
 
 struct AxisConfig {
   Rig rig;
-  // Either live devices that together provide all channels of the rig, or one replay.
+  // Either one replay, or live devices. All live devices together provide all channels of the rig.
   std::vector<drivers::DriverSpec> devices;
   ChannelDelays delays = {};
 
   bool live() const { return devices.front().live; }
   bool recorded() const { return devices.front().recorded; }
-  bool simulated() const;  // whether any device is simulated
+  bool simulated() const;  // whether one device or more is simulated
 };
 
-// The keys of [rpc] that limit who may connect.
+// The keys of [rpc] that limit connections and permissions.
 struct RpcAccess {
   std::size_t connections = 64, connections_of_user = 32;
-  std::chrono::seconds idle{600};      // limit for a connection without a subscription; 0: no limit
-  std::optional<gid_t> cnc_group;      // one connection is reserved for members of this group
+  std::chrono::seconds idle{600};  // after this time without a request, mdofd closes a connection
+                                   // without a subscription; 0: never
+  std::optional<gid_t> cnc_group;  // mdofd reserves one connection for members of this group
   std::optional<gid_t> approve_group;  // only members of this group may activate a table
   std::string approvers;               // name of approve_group
 };
@@ -48,19 +49,21 @@ struct Config {
   RpcAccess access;
   std::optional<HttpAccess> http;  // the web page; off by default
   PipelineOptions measure;
-  bool gap_given = false;  // measure.align.max_gap_s is given; otherwise the gap follows the
-                           // sampling rates
+  bool gap_given = false;  // measure.align.max_gap_s is given; otherwise mdofd calculates the gap
+                           // from the sampling rates
   Chain machine;           // [machine]; may be unknown
   std::vector<AxisConfig> axes;
   std::string text;  // the TOML text, for the provenance
-  // For messages: the file, and the places of the paths in it, also if they are absent.
+  // For messages: the name of the file, and file, line and key of each path. They are set even if
+  // the file does not contain the keys.
   std::string source, database_key, recordings_key, socket_key;
 };
 
-// [measure] of a configuration that mdofd has accepted. Error: the text is not TOML.
+// Reads [measure] of a configuration that mdofd has accepted before. Error: the text is not TOML.
 Result<PipelineOptions> measure_options(const std::string& configuration);
 
-// Errors state file, line and key; an unknown key also the nearest known key.
+// Each error states the file, the line and the key. The error for an unknown key also states the
+// most similar known key.
 Result<Config> load_config(const std::filesystem::path& file);
 
 }  // namespace mdof::daemon

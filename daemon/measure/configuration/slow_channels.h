@@ -10,13 +10,14 @@
 
 namespace mdof::daemon {
 
-// `align` with the sampling intervals of those channels whose gap they make longer.
+// Adds sampling intervals of channels to `align`. An interval is added only if it makes the gap of
+// its channel longer.
 algo::AlignOptions with_intervals(algo::AlignOptions align,
                                   const std::vector<drivers::DeviceInfo>& devices);
 
-// Error: all values of the device would be missing, because its sampling interval exceeds the
-// requested gap (`gap_given`) or half of the lag bound. The message states which key to set. Call
-// it if readings are interpolated.
+// Error: all values of the device would be missing, because the sampling interval is longer than
+// align.max_gap_s (tested only if `gap_given`) or longer than half of align.lag_bound_s. The
+// message states which key to set. This check is for interpolated readings only.
 Status check_rate(const drivers::DeviceInfo& device, const algo::AlignOptions& align,
                   bool gap_given);
 

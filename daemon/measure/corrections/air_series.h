@@ -1,5 +1,5 @@
-// Ambient conditions during a run, from the columns temperature_C, pressure_kPa and
-// humidity_percent of a log or the channels with these names.
+// Ambient conditions during a run. They are read from the columns temperature_C, pressure_kPa and
+// humidity_percent of a log, or from the channels of these quantities.
 #pragma once
 
 #include <array>
@@ -12,21 +12,22 @@
 
 namespace mdof::daemon {
 
-// Thread-bound. A value that the rig declares replaces the column.
+// Thread-bound. If the rig declares a value, that value is used and the column is ignored.
 class AirSeries {
  public:
   explicit AirSeries(const DeclaredAir& declared) : declared_(declared) {}
 
-  // `raw`: as the device gives it. Cells without a value are skipped.
+  // `raw`: samples before calibration. NaN and values out of the range of the quantity are ignored.
   void push(const SampleBlock& raw);
-  // Linear between the means of each second; constant before the first and after the last mean.
-  // Returns nullopt if a quantity was neither declared nor read.
+  // Averages the values of each second and interpolates linearly between these means. Before the
+  // first mean and after the last mean, the value is constant. Returns nullopt if a quantity was
+  // neither declared nor read.
   std::optional<Air> at(std::int64_t time_ns) const;
 
  private:
   struct Second {
     std::int64_t index = 0;
-    double sum = 0, time_sum_s = 0;  // time since the beginning of the series
+    double sum = 0, time_sum_s = 0;  // sums of the values and of their times since the first value
     double n = 0;
   };
   void add(std::size_t quantity, std::int64_t time_ns, double value);
@@ -37,7 +38,7 @@ class AirSeries {
   std::array<std::vector<Second>, kAirQuantities> read_;
 };
 
-// Whether the channel contains this quantity.
+// Whether the channel measures this quantity (index in air_quantities()).
 bool has_air_quantity(const Channel& channel, std::size_t quantity);
 
 }  // namespace mdof::daemon

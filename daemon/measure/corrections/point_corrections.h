@@ -1,5 +1,6 @@
-// Applies the probe physics that a rig declares (schema/rig/effects/physics.h) to the points of a
-// run, after averaging and before solving. Without declarations the points do not change.
+// Corrects the readings of the points of a run for the probe effects that the rig declares
+// (schema/rig/effects/physics.h). The correction is between averaging and solving. If the rig
+// declares no effect, the points do not change.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@
 
 namespace mdof::daemon {
 
-// The largest change of a reading, and its probe.
+// The largest change of a reading, and the probe of this reading.
 struct LargestChange {
   double size_m = 0;
   std::string probe;
@@ -32,13 +33,13 @@ class PointCorrections {
  public:
   explicit PointCorrections(Rig rig);
 
-  void push(const SampleBlock& raw);  // reads the ambient conditions
+  void push(const SampleBlock& raw);  // reads the ambient conditions from the block
   // Corrects the readings of these points (in the order of the rig). A reading that cannot be
   // corrected becomes NaN, and the point gets the flag "gap_closed:A" or "no_air".
   void apply(const algo::Solver& solver, std::vector<Point>& points) const;
-  // Adds notices to a run whose points were corrected: the largest change, known effects that are
-  // not corrected, and points that could not be corrected. `before`: averaged points before the
-  // correction, which may include points outside the run.
+  // Adds notices to a run whose points were corrected. The notices state the largest change, the
+  // declared effects that were not corrected, and the points that could not be corrected. `before`:
+  // the averaged points before the correction. They may include points that are not in the run.
   void report(const algo::Solver& solver, const std::vector<Point>& before, Run& run) const;
 
  private:
@@ -54,7 +55,8 @@ class PointCorrections {
   void report_failures(Run& run) const;
 
   Rig rig_;
-  algo::WhichCorrections asked_, known_;  // known_: corrections that could be made
+  algo::WhichCorrections asked_, known_;  // asked_: corrections that the rig requests; known_:
+                                          // corrections whose effects the rig declares
   std::optional<AirSeries> air_;
 };
 

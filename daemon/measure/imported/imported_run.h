@@ -11,18 +11,18 @@
 
 namespace mdof::daemon {
 
-// The request for a table of this run alone, to compare it with `other`. If both runs have the same
-// sense and neither states its travel, travel "+" is assumed for both; otherwise the statement of
-// each run is used.
+// The request for a table of `run` alone. The table is compared with the table of `other`. If both
+// runs have the same sense and neither run states its travel, the travel "+" is assumed for both
+// runs. Otherwise the travel that each run states is used.
 TableRequest imported_table_request(const Run& run, const Run& other);
 
-// Adds notices about the readings: no approach, one reading a target.
+// Adds notices if readings have no approach, or if targets have only one reading.
 Run with_positioning_notices(Run run);
-// The contributions that u of the readings includes.
+// The contributions that the standard uncertainty of the readings includes.
 Covers readings_coverage(const Run& run);
 
-// The document of `mdof show` and run.get for an imported run, like run_document() for other runs.
-// `header`: the run's header or a shortened one.
+// The document of `mdof show` and run.get for an imported run. For other runs, run_document()
+// writes it. `header`: the header of the run, complete or shortened.
 std::string imported_document(const Run& run, const RunHeader& header, const StatedFigures& figures,
                               const std::string& result_sha256,
                               const std::vector<HistoryEntry>& actions, bool with_points);

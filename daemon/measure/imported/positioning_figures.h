@@ -6,20 +6,23 @@
 
 namespace mdof::daemon {
 
-// Names and definitions are those of ISO 230-2: E, the bi-directional systematic error (range of
-// the means of both approaches); B, the reversal (the largest absolute difference of the two means
-// of a target); E_forward and E_reverse. E and B need both approaches at each target; E_forward and
-// E_reverse need their approach at each target. If the readings do not state their approach, the
-// only figure is the range of the means of all readings, "EXX_range_um". `why` names the figures
-// that are left out. All figures are absolute values, so that the sense of the deviations does not
-// change them.
+// Names and definitions are those of ISO 230-2:
+//   E: bi-directional systematic error, the range of the means of both approaches;
+//   B: reversal, the largest absolute difference between the two means of a target;
+//   E_forward, E_reverse: range of the means of one approach.
+// E and B need both approaches at each target. E_forward needs the forward approach at each target,
+// and E_reverse the reverse approach. If readings do not state their approach, the only figure is
+// "EXX_range_um", the range of the means of all readings. The member `why` names the missing
+// figures. No figure depends on the sense of the deviations, because all figures are absolute
+// values.
 //
-// U of a range is U of the difference of its two ends. It is NaN if a target has one reading or
-// only equal readings. An uncertainty that the run declares is common to both approaches of a
-// target and so cancels in their difference.
+// U of a range is U of the difference between the largest and the smallest mean. U is NaN if a
+// target has only one reading or only equal readings. An uncertainty that the run declares is the
+// same for both approaches of a target. It cancels in the difference between the two means of a
+// target.
 StatedFigures positioning_figures(const Run& run);
-// The range as if no reading stated its approach. It can be compared with a run whose readings do
-// not state it.
+// Calculates "EXX_range_um" also if the readings state their approach. This figure can be compared
+// with the figure of a run whose readings do not state the approach.
 StatedFigures positioning_range(const Run& run);
 bool has_unknown_approach(const Run& run);
 

@@ -22,65 +22,70 @@
 
 namespace mdof::daemon {
 
-// The document of `mdof show` and run.get: the stored members, the members that are calculated on
-// request (straightness lines), the hash of the result and the history.
+// The document of `mdof show` and run.get. It contains the stored members, the members that are
+// calculated on request (straightness for each reference line), the hash of the result, and the
+// history.
 std::string run_document(const RunMembers& members, const std::string& result_sha256,
                          const std::vector<HistoryEntry>& actions);
 
-// The rig of a run. If the rig has no machine, it gets that of the run's configuration.
+// Reads the rig from the provenance of a run. If the rig does not state the machine, the machine is
+// read from the configuration of the run.
 Result<Rig> rig_of(const RunHeader& run);
 
-// The run at another reference point. Error: the tool is requested and the rig has no
-// tool_point_mm.
+// Reads a run and restates its errors at another reference point. Error: the reference is the tool,
+// but the rig has no tool_point_mm.
 Result<Run> restated_run(store::Store& store, std::int64_t run, Reference reference);
 
-// The first point of the run (needed as the start of its drift), followed by `count` points from
-// `offset`; without figures.
+// Reads the first point of the run, and then `count` points from `offset`. The drift of the run
+// starts at the first point. The result has no figures.
 Result<Run> restated_points(store::Store& store, std::int64_t run, std::int64_t offset,
                             std::int64_t count, Reference reference);
 
 struct TableRequest {
   std::vector<std::int64_t> runs;
   bool keep_slope = false;
-  bool partial = false;                // also use partial runs
-  std::optional<Reference> reference;  // default: the rig's tool point, otherwise the fixture
+  bool partial = false;  // also use partial runs
+  std::optional<Reference>
+      reference;  // default: the tool if the rig states tool_point_mm, otherwise the fixture
   std::optional<HistoryEntry> action = std::nullopt;  // the requesting user
   algo::TableLimits limits = {};
-  // For imported positioning whose runs do not state the travel: true means travel "-" of the
-  // machine.
+  // Travel of the machine: true means "-". It is used only for imported runs of positioning that do
+  // not state their travel.
   std::optional<bool> against_command = std::nullopt;
 };
 struct BuiltTable {
   CompensationTable table;
   Notices notices;   // notices of the source runs
-  Notices doubtful;  // those notices that prevent the use by a controller
+  Notices doubtful;  // those notices that check_gate() rejects
 };
-// Calculates and stores the table. Errors: those of algo::build_table() and algo::check_limits();
-// runs whose rigs have different machines.
+// Calculates and stores a table. Errors: those of algo::build_table() and algo::check_limits(); the
+// rigs of the runs state different machines.
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request);
-// The two parts of build_table(): the long calculation, for which a read-only store is enough, and
-// the storing.
+// The two steps of build_table(). calculate_table() can take long and needs only a read-only store.
+// store_table() stores the result.
 Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& request);
 Status store_table(store::Store& store, CompensationTable& table,
                    const std::optional<HistoryEntry>& action);
 
-// Means of a run by target, as in a table of this run alone: straightness with its slope and at the
-// stated point of the run, angles relative to the first target, u with the uncertainties that the
-// rig declares. Errors: those of algo::build_table() and algo::add_declared_uncertainty().
+// Means of a run for each target, as in a table of this run alone. The straightness contains its
+// slope and holds at the stated point of the run. The angles are relative to the first target. u
+// includes the uncertainties that the rig declares. Errors: those of algo::build_table() and
+// algo::add_declared_uncertainty().
 Result<CompensationTable> means_by_target(const Run& run);
 
 struct ActivationRequest {
   std::int64_t table = 0;
   Consent consent;
-  HistoryEntry action;                                             // the requesting user
-  std::optional<std::int64_t> expected_generation = std::nullopt;  // generation of all active
-                                                                   // tables
+  HistoryEntry action;  // the requesting user
+  std::optional<std::int64_t> expected_generation =
+      std::nullopt;  // the activation fails if the generation of all active tables is another
+                     // number
 };
-// Activates the table. Rejects a table that does not match its hash, and everything that
-// check_gate() rejects, because a controller sees only the numbers.
+// Activates the table. Rejects a table whose content does not match its hash. Also rejects every
+// table that check_gate() rejects: a controller reads only the numbers, without the notices.
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request);
-// The two parts of activate_table(): the checks, for which a read-only store is enough and which
-// return the marks of the table, and the storing.
+// The two steps of activate_table(). check_activation() makes the checks, needs only a read-only
+// store and returns the marks of the table. activate_checked() stores the activation.
 Result<store::Marks> check_activation(store::Store& store, const ActivationRequest& request);
 Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request,
                                            const store::Marks& marks);
@@ -88,41 +93,47 @@ Result<store::Activation> activate_checked(store::Store& store, const Activation
 inline constexpr std::array<AxisPair, 3> kAxisPairs = {
     {{Axis::x, Axis::y}, {Axis::x, Axis::z}, {Axis::y, Axis::z}}};
 struct SquarenessRequest {
-  std::int64_t run_a = 0, run_b = 0;  // their axes must be in the order X, Y, Z
+  std::int64_t run_a = 0,
+               run_b =
+                   0;  // the axis of run_a must be before the axis of run_b in the order X, Y, Z
   algo::ArtefactGiven given;
   bool partial = false;
   std::optional<HistoryEntry> action = std::nullopt;  // the requesting user
   std::optional<AxisPair> axes = std::nullopt;        // required axes of the runs
 };
-// Two runs with their rigs, and the fit without the uncertainties that the rigs declare.
+// Two runs with their rigs, and their squareness. u of this squareness does not include the
+// uncertainties that the rigs declare.
 struct SquarenessRuns {
   Run a, b;
   Rig rig_a, rig_b;
   Squareness fitted;
 };
-// Errors: unknown run; run of an axis that was not requested; those of algo::combined_artefact()
+// Errors: a run is unknown or has another axis than requested; those of algo::combined_artefact()
 // and algo::squareness().
 Result<SquarenessRuns> squareness_runs(store::Store& store, const SquarenessRequest& request);
 struct FittedSquareness {
   Squareness squareness;
-  std::vector<Budget> budgets;  // EC0Y, then EYX_slope_urad and EXY_slope_urad; with Z alike
+  std::vector<Budget> budgets;  // for X and Y: EC0Y, EYX_slope_urad, EXY_slope_urad; for other axes
+                                // in the same order
   Notices notices;
 };
 // Fits the squareness and stores it, unless the same fit is stored already. Errors: those of
 // algo::combined_artefact(), algo::squareness() and algo::squareness_budget().
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request);
-// The two parts of fit_squareness(): the long calculation, for which a read-only store is enough,
-// and the storing.
+// The two steps of fit_squareness(). calculate_squareness() can take long and needs only a
+// read-only store. store_squareness() stores the result.
 Result<FittedSquareness> calculate_squareness(store::Store& store,
                                               const SquarenessRequest& request);
 Status store_squareness(store::Store& store, Squareness& squareness,
                         const std::optional<HistoryEntry>& action);
-// A stored squareness with newly calculated uncertainties. `at` may give other reference points, as
-// tables of the axes may have; the lines stay the same.
+// Calculates the uncertainties of a stored squareness again. `at`: reference points of the two
+// axes, for example those of their tables. If a point is not the fixture, the angle and the slopes
+// are calculated again for these points.
 Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness,
                                            const algo::StatedPair& at = {});
 
-// Both axes by each reference line, calculated on request. The stored fit is by least squares.
+// The squareness for each kind of reference line, calculated on request. The stored squareness uses
+// least-squares lines.
 Result<SquarenessLines> squareness_reference_lines(store::Store& store,
                                                    const Squareness& squareness);
 // The document of `mdof squareness` and squareness.fit.

@@ -1,6 +1,6 @@
-// Raw blocks of one axis -> a run: calibrate, align, find dwells, solve, sort, evaluate. Live
-// measurement, replay and the command line all use this class, so that their results are
-// bit-identical.
+// Calculates a run from the raw blocks of one axis. The steps are: calibrate, align, find dwells,
+// solve, sort, evaluate. Live measurement, replay and the command line use this class, so that
+// their results are bit-identical.
 #pragma once
 
 #include <cstdint>
@@ -24,31 +24,32 @@ class Pipeline : RunBuilder {
   // Rejects a rig that cannot determine the five errors or does not fit the model.
   static Result<Pipeline> create(const Rig& rig, const PipelineOptions& options);
 
-  // Consumes the block. Error: it cannot be calibrated, or its time decreases. If encoder scans are
-  // lost for longer than a dwell window, a dwell ends at the last scan before the loss.
+  // Takes a block and changes its content. Error: the block cannot be calibrated, or its time
+  // decreases. If encoder scans are lost for longer than a dwell window, the current dwell ends at
+  // the last scan before the loss.
   Status push(SampleBlock& raw);
 
-  // The complete points so far: sorted, solved, stated at the fixture. The targets are provisional
-  // until finish().
+  // The points that are complete now: sorted, solved, stated at the fixture. Their targets may
+  // still change until finish().
   const std::vector<MeasuredPoint>& points();
-  // The stops so far that are not among these points.
+  // The stops until now that are not in points().
   const std::vector<StopLeftOut>& left_out() const { return sequence_.left_out; }
-  // The newest calibrated instant, for the live view; size 0 before the first.
+  // The newest calibrated frame, for the live view. The block is empty before the first frame.
   const FrameBlock& newest() const { return newest_; }
-  // Called with the calibrated instants of each push, before dwells are searched.
+  // push() calls `watcher` with the calibrated frames, before it searches dwells.
   void watch(std::function<void(const FrameBlock&)> watcher) { watcher_ = std::move(watcher); }
   bool still() const { return dwell_.still(); }
   bool is_full() const { return found_.size() >= options_.max_stops; }
   std::optional<std::string> waiting_for() const { return aligner_.waiting_for(); }
-  // The target's errors at one instant, stated at the fixture.
+  // Calculates the errors from the readings of one frame, stated at the fixture.
   AxisErrors solve_at(double encoder_m, const std::vector<double>& readings_m,
                       const std::vector<double>& u_m) const;
   const algo::Solver& solver() const { return solver_; }
 
-  // Ends the data. Fills points, figures, scans and notices of a run, and its state: complete or
-  // partial (completeness.h). The caller sets the header's identity and provenance. Error: nothing
-  // was measured; the message states the cause (the encoder did not move, no dwell was long enough,
-  // or a probe was always at the end of its range).
+  // Call this function after the last block. Returns a run with points, figures, scans and notices.
+  // The state of the run is complete or partial (completeness.h). The caller sets the id and the
+  // provenance in the header. Error: no point was measured. The message states the cause: the
+  // encoder did not move, no dwell was long enough, or a probe was always at the end of its range.
   Result<Run> finish();
 
  private:
@@ -69,14 +70,15 @@ class Pipeline : RunBuilder {
   algo::DwellDetector dwell_;
   FrameBlock newest_;
   std::function<void(const FrameBlock&)> watcher_;
-  std::vector<Point> found_;      // averaged, not corrected
+  std::vector<Point> found_;      // averaged stops without corrections
   std::size_t excess_stops_ = 0;  // stops after max_stops
-  std::size_t taken_ = 0;         // number of stops of found_ in sequence_
+  std::size_t taken_ = 0;         // number of stops of found_ that sequence_ contains
   algo::Sequence sequence_;
-  std::optional<algo::SequenceTail> tail_;  // continues sequence_ by single points
+  std::optional<algo::SequenceTail> tail_;  // adds single points to sequence_
   std::size_t next_full_recognition_ =
       0;  // size of found_ at which the whole sequence is recognised again
-  std::optional<std::int64_t> begin_ns_, encoder_ns_;  // first and last scan of the encoder
+  std::optional<std::int64_t> begin_ns_,
+      encoder_ns_;                          // times of the first and the last encoder scan
   std::size_t stops_without_position_ = 0;  // number of stops of found_ without a position
 };
 

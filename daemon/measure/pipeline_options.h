@@ -1,4 +1,4 @@
-// Options for finding a run in samples: everything that a replay accepts besides its rig.
+// Options for the calculation of a run from samples. A replay needs only these options and the rig.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace mdof::daemon {
 
-// Limit of the stops of a run. A point takes about 4 KB of memory.
+// Largest number of stops of a run. A point uses about 4 KB of memory.
 inline constexpr std::size_t kMostStops = 50'000;
 
 struct PipelineOptions {
@@ -22,16 +22,18 @@ struct PipelineOptions {
   algo::AlignOptions align;
   algo::DwellOptions dwell;
   algo::SequenceOptions sequence;
-  double stale_s = 0.5;       // an older instant is not shown as good
-  bool keep_points = true;    // false: for a view without a run
-  int repeats = 0;            // requested repeats from both sides; 0: until stopped
-  bool remove_drift = false;  // remove significant drift from the errors (algo/drift)
-  std::optional<algo::OnTheFlyOptions> on_the_fly;  // for replays; dwells are then not searched
-  EncoderDatum datum;                  // datum that the pushed positions already contain
-  std::size_t max_stops = kMostStops;  // further stops are counted and left out
+  double stale_s = 0.5;     // the live view does not show an older frame as good
+  bool keep_points = true;  // false: only for a live view without a run
+  int repeats = 0;  // requested points for each target and approach; 0: the user ends the run
+  bool remove_drift = false;  // remove a significant drift from the errors (algo/drift)
+  std::optional<algo::OnTheFlyOptions>
+      on_the_fly;                      // only for replays; if set, dwells are not searched
+  EncoderDatum datum;                  // datum; the pushed positions contain it already
+  std::size_t max_stops = kMostStops;  // later stops are counted but not evaluated
 
   std::string json() const;  // for the provenance
-  // The part of json() that the configuration gives: without the devices' rates, targets and datum.
+  // The members of json() that the configuration states. The sampling rates of the devices, the
+  // targets and the datum are not included.
   std::string settings_json() const;
 };
 

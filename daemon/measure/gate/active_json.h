@@ -1,4 +1,5 @@
-// The members of every document that state whether a table is active.
+// Writes the members that state whether a table is active. All documents of tables use this
+// function.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 
 namespace mdof::daemon {
 
-// Members of an open object; `generation` is 0 if the table is not active.
+// Adds the members to an open object. `generation`: 0 if the table is not active.
 inline void write_active(JsonWriter& json, std::int64_t generation) {
   json.field("active", generation > 0).field("generation", generation);
 }

@@ -1,6 +1,6 @@
-// Protects readers that see only the numbers of a run or a result (a controller, a rig). The same
-// rule holds for activation, export, import and separation: simulated and doubtful data pass only
-// on request; invalid data never pass.
+// Checks data before they are used where nobody reads their notices: in a controller or in a rig.
+// Activation, export, import and separation use the same rule. Simulated data and doubtful data are
+// accepted only if the user requests it. Invalid data are always rejected.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace mdof::daemon {
 
-// The requested exceptions: --simulated, --despite-warnings.
+// The data that the user accepts with the options --simulated and --despite-warnings.
 struct Consent {
   bool simulated = false, despite_warnings = false;
 };
@@ -23,37 +23,40 @@ struct Consent {
 enum class JudgedKind { run, table, squareness, separation, file };
 struct Judged {
   JudgedKind kind = JudgedKind::table;
-  std::string name;  // its number or file; empty: it is the only one
+  std::string name;  // number of the run or result, or name of the file; empty for a separation
   bool simulated = false;
-  Notices doubtful;  // notices that are doubtful or invalid
+  Notices doubtful;  // notices with the severity doubtful or invalid
 };
 
-// Removes notices that are information only.
+// Removes the notices with the severity "information".
 Notices without_information(Notices notices);
-// As without_information(). A missing datum becomes doubtful, because a controller would apply the
-// errors at wrong positions.
+// As without_information(). Before that, the notice of a missing datum gets the severity
+// "doubtful", because a controller would apply the errors at wrong positions.
 Notices doubtful_notices(Notices notices);
-// As above for the notices of these runs; partial runs are added.
+// As above, for the notices of all these runs. A partial run also gets a notice.
 Notices doubtful_notices(const std::vector<Run>& runs);
-// Notices for those runs that another run supersedes.
+// One notice for each of these runs that another run supersedes.
 Result<Notices> superseded_notices(store::Store& store, const std::vector<std::int64_t>& runs);
-// For a stored table: doubtful notices of its runs, and those that only all runs together show.
+// For a stored table: the doubtful notices of each run, and the notices that compare the runs.
 Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& table);
 Result<Judged> judged_table(store::Store& store, const CompensationTable& table);
 
 // Whether a notice states that the numbers of the run are wrong.
 bool is_invalid(const RunHeader& run);
-// The only approach of the run; "" if it has both approaches or unknown ones.
+// "forward" or "reverse" if all points of the run have this approach; otherwise "".
 const char* only_approach(const Run& run);
-// Why conformity of its figures cannot be decided, without a full stop; empty if it can. Reasons:
-// the run is invalid, incomplete or superseded, has readings that never change (notice
-// probes_dead), or a measured run lacks an approach at some targets.
+// The reason why the conformity of the figures of the run cannot be decided. Empty if the
+// conformity can be decided. The text has no full stop at its end. Possible reasons:
+//   - the run is invalid, incomplete or superseded;
+//   - the readings of a probe never change (notice probes_dead);
+//   - a measured run has only one approach, at all or at some targets.
 std::string undecidable_reason(store::Store& store, const Run& run);
 
-// `consequence`: "it is not activated". Error (conflict): states the first notice and the option
-// that allows it.
+// `consequence`: text for the message, "it is not activated". Error (conflict): the data are
+// rejected. The message states the first notice and the option that accepts such data.
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence);
-// Marks of a file, one line each: SIMULATED, DOUBTFUL.
+// The warnings at the beginning of an exported file, one line each: "SIMULATED: ..." and "DOUBTFUL:
+// ...".
 std::vector<std::string> warning_marks(const Judged& judged,
                                        words::Language language = words::Language::english);
 std::vector<std::string> warning_marks(const Run& run,

@@ -14,8 +14,9 @@ bool has_table_files(const Machine& machine);
 // The path to open for a file name in MACHINE.toml.
 using FindFile = std::function<Result<std::string>(const std::string& name)>;
 
-// Reads the files into the machine. Returns a comment line for each file, "# x.csv: sha256 …", so
-// that the stored description proves the file's content. Errors state file, line and column.
+// Reads the files into the machine. Returns a comment line with the hash of each file, "# x.csv:
+// sha256 …". The stored description of the machine contains these lines. Errors state file, line
+// and column.
 Result<std::string> read_machine_files(Machine& machine, const FindFile& find);
 
 // Finds files in the folder of MACHINE.toml.

@@ -1,4 +1,4 @@
-// Uses runs, tables and squareness of the database as the measured errors of a machine.
+// Reads the errors of a machine from runs, tables and squareness results of the database.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,32 @@
 namespace mdof::daemon {
 
 struct StoredErrors {
-  std::vector<std::int64_t> runs;  // source runs of the errors, also through tables
+  std::vector<std::int64_t> runs;  // runs of the errors, including the runs of the tables
   Notices notices;                 // notices of the tables that were built
-  Notices doubtful;                // those notices that prevent the use by a controller
+  Notices doubtful;                // those notices that check_gate() rejects
 };
 
-// Reads the runs, tables and squareness that the description names into its errors.
+// Reads the runs, tables and squareness results that the description of the machine names, and sets
+// the errors of the machine.
 //
-// Measured runs of an axis give their mean, stated at the fixture. The squareness is stated there,
-// too: the slope that is removed from a table is then the slope in the squareness. The errors hold
-// at the point holds_at_mm of the axis. Imported runs of the axis give its positioning. They
-// contain the error of the position in the controller's coordinates; the error of the body has the
-// sign of the axis' travel.
+// If the description names measured runs of an axis, the errors of this axis are the means of the
+// runs, stated at the fixture. If it names a table, the errors are stated at the reference point of
+// the table. The squareness is stated at the same points, so that the slope that is removed from a
+// table is the slope that the squareness contains. The errors hold at the point holds_at_mm of the
+// axis. The positioning of an axis is from its imported runs. These runs contain position errors in
+// the coordinates of the controller. If the travel of the axis is "-", the error of the body has
+// the opposite sign.
 //
-// Errors: a missing row; a row of another axis, chain, travel or moving side than in the
-// description; an error that the description gives, too; a table that keeps its straightness slope
-// although a squareness contains it, or that has another reference point than the squareness.
+// Errors:
+//   - a run, table or squareness is missing in the database;
+//   - it has another axis, chain, travel or moving side than the description;
+//   - the reference point of a table is the carriage or unknown;
+//   - the description states the same error a second time;
+//   - a table contains its straightness slope, and a squareness contains the same slope.
 Result<StoredErrors> read_stored_errors(store::Store& store, Machine& machine);
 
-// The squareness with this id; without an id the newest of the two axes. Error: not_found.
+// Finds the squareness with this id. Without an id, finds the newest squareness of the axes
+// `latest_of`. Error: not_found.
 Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64_t> id,
                                    AxisPair latest_of = {});
 

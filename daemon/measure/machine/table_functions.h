@@ -11,35 +11,43 @@
 
 namespace mdof::daemon {
 
-// The function has the positions where at least one approach has a value; the other approach gets
-// the same value there. An unknown u (NaN) becomes the largest of the others; if all are unknown,
-// the function has no u. The curvature is the larger one of both approaches.
+// The function contains the positions at which at least one approach has a value. If only one
+// approach has a value, both approaches get this value. An unknown u (NaN) is replaced by the
+// largest known u. If no u is known, the function has no u. The curvature is the larger curvature
+// of the two approaches.
 ErrorFunction function_of(const std::vector<double>& position, const std::vector<double>& forward,
                           const std::vector<double>& reverse, const std::vector<double>& u,
                           const std::vector<double>& u_noise);
-// Sets the curvature, which adds to u between the positions, for a function with u and at least
-// three positions. Known noise of the values is subtracted.
+// Sets the curvature of a function that has u and at least three positions. The curvature increases
+// u between the positions. The known noise of the values does not count as curvature.
 void add_curvature(ErrorFunction& f);
 void add_curvatures(Machine& machine);
-// The larger u of both approaches, so that it holds for each approach and for their mean.
+// For each position, the larger value of the two approaches. A larger u is valid for each approach
+// and for the mean of both approaches.
 std::vector<double> larger(const std::vector<double>& forward, const std::vector<double>& reverse);
-// Shifts the function so that the mean of both approaches is 0 at the position. Beyond the ends the
-// end values hold. u does not change.
+// Shifts the function so that the mean of both approaches is 0 at the position zero_m. If zero_m is
+// beyond the last position, the last values are used. u does not change. Before the first position,
+// nothing changes, because the angles of a table are 0 at its first position.
 void set_angle_zero_at(ErrorFunction& f, double zero_m);
-// Upper bound of u of such an angle, for unknown covariance between its positions.
+// Replaces u of an angle that set_angle_zero_at() has shifted by an upper bound. The bound is valid for
+// any covariance between the positions.
 void bound_angle_u(ErrorFunction& f, double zero_m);
 std::vector<double> scaled(std::vector<double> values, double by);
 
-// Index of the table's named error among the six errors of a body.
+// Index among the six errors of a body (X, Y, Z, A, B, C). `named`: index among the five errors of
+// the table.
 std::size_t body_error_index(const CompensationTable& table, std::size_t named);
-// Sets the covariance of the frame's errors and, from it, u of each error that already has a u. The
-// rows of `covariances` are those of `table`; an error may lack some of them.
+// Sets the covariance of the errors of the frame. Then calculates u of each error from the
+// covariance, if the error has a u already. The rows of `covariances` are the rows of `table`. An
+// error may have fewer positions than the table has rows.
 void set_covariance(MachineFrame& frame, const CompensationTable& table,
                     const algo::ErrorCovariances& covariances);
-// Adds a shared quantity and subtracts it from the declared covariance.
+// Adds a quantity that the probes of several axes share, and subtracts its part from the declared
+// covariance. by_row: change of the five errors for one standard uncertainty of the quantity.
 void add_shared(MachineFrame& frame, const CompensationTable& table, const std::string& name,
                 const std::vector<Errors5>& by_row);
-// Whether at_m is more than one target interval beyond the positions.
+// Whether at_m is more than one interval before the first or after the last position. The interval
+// is the interval of the two positions at this end.
 bool is_beyond(const std::vector<double>& position_m, double at_m);
 
 }  // namespace mdof::daemon

@@ -1,5 +1,5 @@
-// Calculates volumetric tables from a machine and the database, in the same way for the command
-// line and the daemon.
+// Calculates volumetric tables from the description of a machine and the database. The command line
+// and the daemon use the same functions.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct VolumetricTableRequest {
 struct BuiltVolumetric {
   VolumetricTable table;
   Notices notices;
-  Notices doubtful;  // those notices that prevent the use by a controller
+  Notices doubtful;  // those notices that check_gate() rejects
 };
 // Errors: those of read_stored_errors() and algo::build_volumetric().
 Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
@@ -33,11 +33,12 @@ Status store_volumetric(store::Store& store, VolumetricTable& table,
 Result<Notices> doubtful_notices(store::Store& store, const VolumetricTable& table);
 Result<Judged> judged_table(store::Store& store, const VolumetricTable& table);
 
-// Checks before activation. Rejects what check_gate() rejects, and every table while a table of an
-// axis is active, because a controller that applies both corrects twice.
+// Checks a volumetric table before activation. Rejects every table that check_gate() rejects. Also
+// rejects every table while a table of an axis is active, because a controller that applies both
+// tables corrects the same error twice.
 Result<store::Marks> check_volumetric_activation(store::Store& store, std::int64_t table,
                                                  const Consent& consent);
-// The check for a table of an axis. Error (conflict): a volumetric table is active.
+// Checks a table of an axis before activation. Error (conflict): a volumetric table is active.
 Status check_no_volumetric(store::Store& store);
 
 }  // namespace mdof::daemon

@@ -1,4 +1,5 @@
-// A recorded log -> the stops of its axis, not solved. Calibrations use them.
+// Finds the stops of the axis in a recorded log. The stops are not solved. Calibrations use these
+// functions.
 #pragma once
 
 #include <string>
@@ -13,16 +14,18 @@
 namespace mdof::daemon {
 
 struct LogStops {
-  std::vector<Point> stops;  // probes in the order of the rig; unusable readings are NaN
-  std::vector<Unit> units;   // units of the probes in the log
-  std::string sha256;        // SHA-256 of the log
-  std::string started_utc;   // start time of a recording, otherwise empty
+  std::vector<Point>
+      stops;  // readings in the order of the probes of the rig; an unusable reading is NaN
+  std::vector<Unit> units;  // units of the probes in the log
+  std::string sha256;       // SHA-256 of the log
+  std::string started_utc;  // start time of a recording, otherwise empty
   Notices notices;
 };
 
-// The log is of `axis`, which may differ from the rig's axis. A reading is unusable if its probe
-// has made a step, is frozen or was at the end of its range. Errors: those of the driver; a log of
-// another axis; a missing column of the encoder or of a probe; no stop that is long enough.
+// `axis`: axis of the log. The rig may be for another axis. A reading is unusable if the probe had
+// a sudden step, has a constant reading (frozen) or was at the end of its range. Errors: those of
+// the driver; the log is for another axis; the column of the encoder or of a probe is missing; no
+// stop is long enough.
 Result<LogStops> read_stops(const std::string& log, Axis axis, const Rig& rig);
 
 }  // namespace mdof::daemon

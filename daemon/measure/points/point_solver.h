@@ -1,4 +1,4 @@
-// Solves one point, and lists the probe properties that creators of points need.
+// Solves one point. Lists the ids and the ranges of the probes of a rig.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ namespace mdof::daemon {
 std::vector<std::string> probe_ids(const Rig& rig);
 std::vector<double> probe_ranges_m(const Rig& rig);
 
-// States the errors at the fixture. A point without errors gets the reason, which begins with the
-// cause in its flags.
+// Calculates the errors of the point, stated at the fixture. If the point has no errors, it gets a
+// reason. The reason begins with the cause that the flags of the point state.
 void solve_point(const algo::Solver& solver, const Rig& rig, const algo::Residuals& residuals,
                  MeasuredPoint& p);
 

@@ -1,5 +1,6 @@
-// Common part of a run with dwells (pipeline.h) and a run on the fly (replay/on_the_fly_run.h): raw
-// blocks become frames, and solved points become a run. The two differ in how they find points.
+// Common base class of Pipeline (runs with dwells) and OnTheFlyRun (replay/on_the_fly_run.h). It
+// converts raw blocks to frames, and builds a run from solved points. The two derived classes find
+// the points in different ways.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +27,14 @@ namespace mdof::daemon {
 // Solved points, stated at the fixture.
 struct SolvedPoints {
   algo::Sequence sequence;
-  const std::vector<Point>& as_read;  // averaged, not corrected
+  const std::vector<Point>& as_read;  // averaged points without corrections
   const algo::DwellDetector::Summary& summary;
   double least_dwell_s = 0;
   const algo::Residuals& residuals;
-  std::vector<double> targets_m;  // targets of a complete run
-  // Notices by their place in the run's list: at the beginning; after the notices on the run's
-  // signals; after those on corrections; at the end, as reasons why the run is partial.
+  std::vector<double> targets_m;  // requested targets; empty: targets were recognised
+  // Notices for four places in the list of the run: the beginning; after the notices about the
+  // signals; after the notices about the corrections; the end. The notices of `partial` state why
+  // the run is partial.
   Notices first = {}, notices_after_signals = {}, of_points = {}, partial = {};
 };
 
@@ -41,10 +43,10 @@ class RunBuilder {
  protected:
   RunBuilder(Rig rig, PipelineOptions options, algo::Solver solver);
 
-  // Consumes the block; the completed frames are in frames_. Error: the block cannot be calibrated,
-  // or its time decreases.
+  // Takes a block and changes its content. The frames that are complete now are in frames_. Error:
+  // the block cannot be calibrated, or its time decreases.
   Status take(SampleBlock& raw);
-  // Fills points, figures, scans, notices and state of a run.
+  // Returns a run with points, figures, scans, notices and state.
   Run build(SolvedPoints points) const;
 
   Rig rig_;

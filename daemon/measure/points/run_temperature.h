@@ -1,4 +1,4 @@
-// Temperature of a run, from the column or channel "temperature" in °C, if there is one.
+// Temperature of a run, from the column or the channel "temperature" in °C.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,12 @@ namespace mdof::daemon {
 
 class RunTemperature {
  public:
-  void push(const SampleBlock& raw);  // cells without a value are skipped
+  void push(const SampleBlock& raw);  // ignores samples without a value
   std::optional<Temperature> of_run() const;
 
  private:
-  Temperature sum_;  // mean_C contains the sum until of_run() divides it
+  Temperature
+      sum_;  // the member mean_C contains the sum of the samples; of_run() divides the sum by n_
   std::uint64_t n_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// The times at which the encoder was suspect. An encoder that was without power has lost its datum,
-// so points that were measured then have no position.
+// The times at which the quality of the encoder readings was "suspect". An encoder that was without
+// power has lost its datum. A point that was measured at such a time has no position.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,18 @@ namespace mdof::daemon {
 
 class SuspectEncoder {
  public:
-  // A shorter stretch, such as a single late reading, is ignored.
+  // An interval shorter than `shortest_s` is ignored, for example a single late reading.
   explicit SuspectEncoder(double shortest_s) : shortest_s_(shortest_s) {}
 
-  // `raw`: as the device gives it.
+  // `raw`: samples before calibration.
   void push(const SampleBlock& raw);
 
-  // Whether the encoder was suspect for all of the point; for any part of it.
+  // covers(): whether the encoder was suspect during the whole point. touches(): whether it was
+  // suspect at any time during the point.
   bool covers(const Point& point) const;
   bool touches(const Point& point) const;
-  // The notice that this number of points has no position. `from_s`: time of the first one since
-  // the beginning of the log.
+  // The notice that some points have no position. `points`: number of these points. `from_s`: time
+  // from the beginning of the log to the first of these points.
   Notice left_out(std::size_t points, double from_s) const;
 
  private:

@@ -1,4 +1,5 @@
-// Raw blocks of one axis that moves all the time -> a run. Pipeline does the same for dwells.
+// Calculates a run from the raw blocks of one axis that moves all the time. The class Pipeline does
+// the same for an axis that stops.
 #pragma once
 
 #include <cstddef>
@@ -13,26 +14,27 @@ namespace mdof::daemon {
 // Thread-bound.
 class OnTheFlyRun : RunBuilder {
  public:
-  // `options` contain on_the_fly, accepted by check_on_the_fly(). Errors: those of Pipeline.
+  // `options` must contain on_the_fly. check_on_the_fly() must have accepted it. Errors: those of
+  // Pipeline.
   static Result<OnTheFlyRun> create(const Rig& rig, const PipelineOptions& options);
 
-  // Consumes the block. Errors: those of Pipeline; a pass that is too long; more points than a run
-  // may have.
+  // Takes a block. Errors: those of Pipeline; a pass is too long; the run would have too many
+  // points.
   Status push(SampleBlock& raw);
-  // Ends the data, like Pipeline::finish(). Error: no bin was passed at a constant speed with
-  // enough scans, or no bin could be solved; the message states the reason.
+  // As Pipeline::finish(). Error: the axis passed no bin at a constant speed with enough scans, or
+  // no bin could be solved. The message states the reason.
   Result<Run> finish();
 
  private:
   OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver);
   Status check_room();
-  // Removes points during which the encoder was suspect. Error: no others are left.
+  // Removes points during which the encoder was suspect. Error: no other point exists.
   Status leave_suspect_out(algo::Sequence& sequence, Notices& notices) const;
   void correct(algo::Sequence& sequence) const;
   Status solve(algo::Sequence& sequence, const algo::Residuals& residuals) const;
 
   algo::OnTheFly fly_;
-  std::size_t passes_seen_ = 0, points_ = 0;  // counts in fly_
+  std::size_t passes_seen_ = 0, points_ = 0;  // number of passes and points in fly_
   std::optional<std::int64_t> begin_ns_;
 };
 

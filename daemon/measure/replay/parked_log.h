@@ -1,5 +1,5 @@
-// A log of a parked axis -> means of its readings over equal time steps, the input of the warm-up
-// test (algo/drift/warm_up.h).
+// Reads the log of an axis that does not move. Calculates the means of the readings over equal time
+// steps. These means are the input of the warm-up test (algo/drift/warm_up.h).
 #pragma once
 
 #include <optional>
@@ -16,23 +16,24 @@ namespace mdof::daemon {
 
 struct ParkedRequest {
   std::string log;                   // a file, or "-"
-  std::string rig_text, rig_source;  // empty source: the rig of the log
-  // Drift limit for the readings of the probes and the two straightness errors. Default: the rig's
-  // [drift] limit_um_per_h; without it there is no limit.
+  std::string rig_text, rig_source;  // empty rig_source: use the rig in the log
+  // Drift limit for the readings of the probes and for the two straightness errors. Default:
+  // limit_um_per_h in the table [drift] of the rig. If the rig has no such key, there is no limit.
   std::optional<double> limit_m_per_s;
-  std::optional<double> angle_limit_rad_per_s;  // likewise for the angles; default: no limit
-  std::optional<double> window_s;               // default: a twelfth of the log
+  std::optional<double> angle_limit_rad_per_s;  // drift limit for the angles; default: no limit
+  std::optional<double> window_s;               // default: a twelfth of the length of the log
 };
 
 struct ParkedLog {
   Axis axis = Axis::x;
   double position_m = 0, length_s = 0;
-  std::optional<double> limit_m_per_s;  // the limit that is used
+  std::optional<double> limit_m_per_s;  // the requested limit or the limit of the rig
   bool simulated = false;
-  bool declares = false;   // whether the rig declares an uncertainty
-  std::size_t probes = 0;  // number of the first series that are probes; the others are the five
-                           // errors
-  algo::ParkedReadings readings;  // of the probes, and errors of the moving body at the fixture
+  bool declares = false;  // whether the rig declares an uncertainty
+  std::size_t probes =
+      0;  // the first `probes` series are readings of probes; the other series are the five errors
+  algo::ParkedReadings
+      readings;  // readings of the probes, and errors of the moving body at the fixture
   Notices notices;
 };
 

@@ -1,4 +1,5 @@
-// Runs whose rig has a [scan] (schema/rig/scan.h) -> a height map of the scanned part.
+// Calculates the height map of a scanned workpiece from runs whose rig has a table [scan]
+// (schema/rig/scan.h).
 #pragma once
 
 #include <cstdint>
@@ -15,26 +16,32 @@ namespace mdof::daemon {
 struct RadialScan {
   SurfaceMap map;
   double pixel_m = 0;
-  std::size_t points = 0;          // number of used heights
-  std::size_t beyond_targets = 0;  // left out: before the first or after the last target of the run
-  std::size_t without_height = 0;  // left out: no value of the probe, the encoder or the angle
-  double motion_pv_m = 0;  // peak to valley of the axis motion in the readings, which was removed
-  // Standard uncertainty of a height: from the scatter of the heights around it, RMS over the map;
-  // and from the removed errors of the axis, RMS over the targets of the run with the largest
-  // value.
+  std::size_t points = 0;          // number of heights in the map
+  std::size_t beyond_targets = 0;  // number of heights before the first target or after the last
+                                   // target of the run; not in the map
+  std::size_t without_height =
+      0;  // number of heights without a value of the encoder or the angle; not in the map
+  double motion_pv_m = 0;  // peak to valley of the readings that the errors of the axis cause;
+                           // these readings were subtracted
+  // Standard uncertainties of a height. u_noise_m: from the scatter of neighbouring heights, RMS
+  // over the map. u_motion_m: from the uncertainty of the subtracted errors of the axis, RMS over
+  // the targets of a run; of several runs, the largest value.
   double u_noise_m = 0, u_motion_m = 0;
   bool simulated = false;
 };
 
-// The height is the probe reading minus the reading that the five errors of its own run cause
-// there, by the rigid model and linear between the targets. Its position is x = rho cos(angle), y =
-// -rho sin(angle); x is along the axis at the angle 0, z along `measures`, and rho is the distance
-// of the probe from the spindle's axis towards x. Encoder, angle and probe of different devices are
-// interpolated linearly in time.
+// The height is the reading of the scanning probe minus the reading that the five errors of the
+// same run cause. The rigid model calculates this reading at each target; between targets it is
+// interpolated linearly. The position of a height in the frame of the workpiece is
+//   x = rho cos(angle), y = -rho sin(angle).
+// At the angle 0, x is along the axis of the run. z is along `measures` of the scanning probe. rho
+// is the distance of the probe from the axis of the spindle, positive towards x. Encoder and angle
+// are interpolated linearly in time to the times of the probe.
 //
-// `pixel_m`: default is a hundredth of the diameter. Errors: a run without [scan] or with fewer
-// than two targets; a log that is missing, has changed, lacks a column or has it in another unit;
-// those of algo::scan_map().
+// `pixel_m`: default is a hundredth of the diameter of the scan. Errors:
+//   - the rig of a run has no [scan], or a run has fewer than two targets with errors;
+//   - a log is missing or has changed, or a column is missing or has another unit;
+//   - those of algo::scan_map().
 Result<RadialScan> radial_scan(store::Store& store, const std::vector<std::int64_t>& runs,
                                std::optional<double> pixel_m);
 

@@ -1,4 +1,5 @@
-// A recorded log -> a run with its full provenance. This is the work of `mdof replay`.
+// Calculates a run, with its full provenance, from a recorded log. `mdof replay` uses these
+// functions.
 #pragma once
 
 #include <memory>
@@ -18,12 +19,12 @@
 
 namespace mdof::daemon {
 
-// An open log of either kind, with its description of the run. Thread-bound.
+// An open log (recording or CSV) and the description of the run in the log. Thread-bound.
 class ReplayLog {
  public:
-  // A file that begins with the bytes of SQLite is a recording; every other file is CSV, plain or
-  // gzip. "-" is CSV from the standard input. Errors are those of the drivers. With open
-  // descriptors (also of a CSV file) `path` is only used in messages, and no file is opened.
+  // A file that begins with the header of SQLite is a recording. Every other file is CSV, plain or
+  // gzip. "-" is CSV from the standard input. If `opened` contains descriptors, open() opens no
+  // file, and uses `path` only in messages. Errors: those of the drivers.
   using Descriptors = drivers::RecordingLog::Descriptors;
   static Result<ReplayLog> open(const std::string& path, Descriptors opened);
   static Result<ReplayLog> open(const std::string& path) { return open(path, {}); }
@@ -34,12 +35,12 @@ class ReplayLog {
   std::string rig_text() const;       // rig of a recording, otherwise empty
   std::string started_utc() const;    // start of a recording, otherwise empty (unknown)
   std::string configuration() const;  // mdofd.toml of a recording, otherwise empty
-  // The options of the recorded run: its mdofd.toml, overridden by the request of the run. Defaults
-  // for a CSV log.
+  // The request and the options of the recorded run. The options are read from mdofd.toml of the
+  // recording; the request of the run overrides them. A CSV log has the default options.
   Result<RecordedRequest> asked_for() const;
   std::vector<std::string> comments() const;  // comments of a CSV log
-  Progress progress() const;                  // in bytes of a CSV log, in chunks of a recording
-  // Valid after the end of the log:
+  Progress progress() const;                  // in bytes (CSV log) or in chunks (recording)
+  // The following functions are valid only after the end of the log has been read.
   std::string sha256() const;
   Notices notices() const;
 
@@ -52,16 +53,18 @@ class ReplayLog {
   drivers::RecordingLog* recording_ = nullptr;
 };
 
-// Checks that the rig fits this file. Errors: a comment "axis: Y" that names another axis; a
-// missing column of the encoder or of a probe (the message lists the existing columns).
+// check_axis(): error if a comment, "axis: Y", names another axis than the rig. check_channels():
+// error if the column of the encoder or of a probe is missing. The message lists the existing
+// columns.
 Status check_axis(const std::string& source, const std::vector<std::string>& comments,
                   const Rig& rig);
 Status check_channels(const std::string& source, const std::vector<Channel>& channels,
                       const Rig& rig);
 
-// Reads the whole log through the pipeline. The run has everything but its id; it has a start time
-// only if the log has one. Errors: a rig that does not fit the log; those of the driver and the
-// pipeline; `progress`, which is called after every block, cancelled the replay.
+// Reads the whole log and calculates the run. The run has no id yet. It has a start time only if
+// the log has a start time. `progress` is called after every block and can cancel the replay.
+// Errors: the rig does not fit the log; `progress` cancelled the replay; those of the driver and of
+// the pipeline.
 Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& options,
                    const ProgressCallback& progress = {});
 

@@ -1,4 +1,4 @@
-// The document of a replayed run, for the command line and the RPC.
+// JSON documents of a replayed run, for the command line and the RPC method.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace mdof::daemon {
 
-// With the points, as `mdof replay --json` prints it.
+// The document of `mdof replay --json`. It contains the points.
 std::string replay_document(const Run& run, const StatedRun& stated);
-// Without the points, so that it fits into a reply. If it is still too long, the note, the notices
-// and the options are shortened.
+// The document of the RPC method. It does not contain the points, so that it fits into a reply. If
+// the document is still too long, the note, the notices and the options are shortened.
 std::string replay_reply(const Run& run, const StatedRun& stated);
 
 }  // namespace mdof::daemon

@@ -1,5 +1,5 @@
-// The numeric and boolean options of a replay. The command line ("--settle-s") and the RPC
-// ("settle_s") share this list, the ranges and the help.
+// The numeric and boolean options of a replay. The command line ("--settle-s") and the RPC method
+// ("settle_s") use the same list, the same ranges and the same help.
 #pragma once
 
 #include <string>
@@ -16,13 +16,13 @@ struct ReplayOption {
     each_run,
     dwells,
     motion
-  };  // dwells: only runs with dwells; motion: only runs on the fly
+  };  // dwells: the option applies only to runs with dwells; motion: only to runs on the fly
   using Number = std::optional<double> ReplayRequest::*;
   using Switch = bool ReplayRequest::*;
 
-  const char* name;  // RPC name, with its unit
+  const char* name;  // name in the RPC method; it ends in the unit
   std::variant<Number, Switch> member;
-  Range range;  // range of a number
+  Range range;  // permitted range of a number
   Of of;
   const char* meaning;  // help text, with the default in brackets
 
@@ -32,8 +32,8 @@ struct ReplayOption {
 // In the order of the help.
 const std::vector<ReplayOption>& replay_options();
 
-// Error (usage): a number that is not finite or out of range, or an option that does not apply to
-// this kind of run. The message names the option.
+// Error (usage): a number is not finite or out of range, or an option does not apply to this kind
+// of run. The message names the option.
 Status check_replay_options(const ReplayRequest& request);
 
 }  // namespace mdof::daemon

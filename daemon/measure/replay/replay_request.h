@@ -1,4 +1,4 @@
-// A request for a replay. The command line and the RPC use the same names.
+// A request for a replay, from the command line or from the RPC method.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,22 @@
 namespace mdof::daemon {
 
 struct ReplayRequest {
-  std::string log;                   // a file, or "-" for CSV from the standard input
-  ReplayLog::Descriptors opened;     // if the file is open already; open until the replay ends
-  std::string rig_text, rig_source;  // empty source: the rig of the log
-  std::string model, note;           // empty model: the model of the recording
+  std::string log;                // a file, or "-" for CSV from the standard input
+  ReplayLog::Descriptors opened;  // descriptors if the file is open already; the caller keeps them
+                                  // open during the replay
+  std::string rig_text, rig_source;  // empty rig_source: use the rig in the log
+  std::string model, note;           // empty model: use the model of the recording
   std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
   std::vector<double> targets_mm;
-  bool remove_drift = false;  // false: as recorded
-  bool on_the_fly = false;    // the axis moves all the time; the following options apply only then
+  bool remove_drift = false;  // false: use the option of the recording
+  bool on_the_fly =
+      false;  // true: the axis moves all the time; only then the following four options apply
   std::optional<double> interval_mm, bin_mm, from_mm, to_mm;
 };
 
-// Uses the options of the recording, overridden by the request. The run has everything but its id.
-// Errors: those of replay(); a CSV log without a rig; an option out of range.
+// Calculates a run with the options of the recording. Options of the request override them. The run
+// has no id yet. Errors: those of replay() in replay.h; a CSV log has no rig; an option is out of
+// range.
 Result<Run> replay(const ReplayRequest& request, const ProgressCallback& progress = {});
 
 }  // namespace mdof::daemon

@@ -1,5 +1,5 @@
-// The request of a run, as stored in the header of its recording. With it a replay without options
-// gives the same run, bit-identical.
+// The request of a run as JSON. The header of the recording contains this text. A replay without
+// options uses it, so that the run of the replay is bit-identical.
 #pragma once
 
 #include <string>
@@ -13,19 +13,20 @@ namespace mdof::daemon {
 
 struct RecordedRequest {
   std::string note;
-  Notices notices;  // known at the start of the run, stored with it
+  Notices notices;  // notices that were known at the start of the run
   PipelineOptions options;
 };
 
 // {"note", "notices", "options": as PipelineOptions::json()}
 std::string request_json(const RecordedRequest& asked);
 
-// Members that the text lacks stay as in `base`; an empty text changes nothing. Error: the text is
-// not JSON, or has a member that is unreadable, unknown or repeated (the message names it). The
-// text must be understood completely, because a replay depends on all of it.
+// Reads the text. If a member is missing in the text, the option of `base` is used. An empty text
+// means the options of `base`. Error: the text is not JSON, or has a member that is unreadable,
+// unknown or repeated. The message names this member. Unknown members are an error, because the
+// result of a replay depends on every member.
 Result<RecordedRequest> read_request_json(const std::string& text, const PipelineOptions& base);
 
-// The same for PipelineOptions::json(), which is in the provenance of a run.
+// The same for the text of PipelineOptions::json(). The provenance of a run contains this text.
 Result<PipelineOptions> read_options_json(const std::string& text, const PipelineOptions& base);
 
 }  // namespace mdof::daemon

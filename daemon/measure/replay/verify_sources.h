@@ -1,4 +1,4 @@
-// Checks that the source recordings and logs of all stored runs still exist and are unchanged.
+// Checks that the recordings and logs of all stored runs exist and have not changed.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace mdof::daemon {
 
 struct SourceCheck {
   std::vector<std::string> findings;  // one sentence for each file that is missing or has changed
-  Notices notices;  // files that cannot be checked, with the reason; these are no findings
+  Notices notices;  // files that cannot be checked, with the reason; they are not in `findings`
 };
 
-// Reads every file once, completely, in pieces. Errors: those of reading the database.
+// Reads every file completely. Error: the database cannot be read.
 Result<SourceCheck> verify_sources(store::Store& store);
 
 }  // namespace mdof::daemon

@@ -1,5 +1,5 @@
-// The change of a figure's errors at the targets. It can be large although the size of the figure
-// is the same.
+// The change of the errors at the targets from one run to another. It can be large although a
+// figure of these errors, such as a range, has not changed.
 #pragma once
 
 #include "daemon/measure/several_runs/compared_points.h"
@@ -7,10 +7,13 @@
 
 namespace mdof::daemon {
 
-// In m or rad. Straightness and ranges: the highest minus the lowest change of the error at the
-// targets (for straightness about the least-squares line of the changes), so that an inverted shape
-// gives twice its size. B: the largest change of the reversal. Slopes: the absolute change of the
-// signed slope. NaN: no target has a value in both runs.
+// The change in m or rad, for a figure of this kind:
+//   ranges: the largest minus the smallest change of the error at the targets;
+//   straightness: the same, after the least-squares line of the changes is subtracted;
+//   B: the largest change of the reversal;
+//   slopes: the absolute value of the change of the slope.
+// If the second run has the same error with the opposite sign, the change is twice the range. NaN:
+// no target has a value in both runs.
 double change_at_targets(const Budget& before, const Budget& after, const ComparedPoints& compared);
 
 }  // namespace mdof::daemon

@@ -1,5 +1,5 @@
-// Errors of an axis at its targets before and after an action on the axis, for charts. Runs of
-// positioning are included, because most controllers correct only positioning.
+// Errors of an axis at its targets before and after an action on the axis, such as a compensation.
+// Charts show them. Runs of positioning can be compared, too.
 #pragma once
 
 #include <array>
@@ -13,14 +13,15 @@
 
 namespace mdof::daemon {
 
-// In m or rad; NaN: unknown.
+// Values and expanded uncertainties U, in m or rad. NaN: unknown.
 struct ComparedValue {
   double before = 0, after = 0, U_before = 0, U_after = 0;
 };
-// forward, reverse: mean of this approach; reversal: forward - reverse.
+// forward, reverse: mean of the points with this approach. reversal: forward mean minus reverse
+// mean.
 inline constexpr std::array<const char*, 3> kComparedSides = {"forward", "reverse", "reversal"};
 struct ComparedPoint {
-  double position_m = 0;  // position of the target in the run before
+  double position_m = 0;  // position of the target in the first run ("before")
   std::array<std::vector<ComparedValue>, kComparedSides.size()> side;  // [side][error]
 };
 struct ComparedPoints {
@@ -28,19 +29,22 @@ struct ComparedPoints {
   std::vector<ComparedPoint> points;
 };
 
-// A run and the table of this run alone.
+// A run, and the compensation table that is calculated from this run alone.
 struct TabledRun {
   const Run& run;
   const CompensationTable& table;
 };
 
-// Compares the targets that both runs have within 0.1 mm. U covers 95 %: for imported readings by
-// Student's t from the repeats at the target, otherwise with k = 1.96. The uncertainty that a run
-// declares is common to both approaches, so that U of the reversal does not include it.
+// Compares those targets of the two runs whose positions differ by at most 0.1 mm. The coverage
+// probability of U is 95 %. For imported readings, the coverage factor is from Student's t
+// distribution, with the repeats at the target. For measured runs, k = 1.96. U of the reversal does
+// not include the uncertainty that a run declares, because the two approaches have it in common.
 ComparedPoints compared_points(const TabledRun& before, const TabledRun& after);
 
-// Member of an open object: "points": [{"position_mm", "forward": {"EXX_um": {"before", "after",
-// "U_before", "U_after"}}, "reverse": {...}, "reversal": {...}}]; null: unknown.
+// Writes a member of an open object. Unknown values are null.
+//   "points": [{"position_mm",
+//               "forward": {"EXX_um": {"before", "after", "U_before", "U_after"}},
+//               "reverse": {...}, "reversal": {...}}]
 void write_compared_points(JsonWriter& json, const ComparedPoints& compared);
 
 }  // namespace mdof::daemon

@@ -13,26 +13,27 @@ namespace mdof::daemon {
 enum class Effect {
   reduced,
   increased,
-  not_shown,  // the change is within its U
-  changed,    // the size did not change by more than its U, but the errors at the targets did
+  not_shown,  // the change of the figure is not larger than U of the change
+  changed,    // as not_shown, but the errors at the targets have changed by more than their U
   unknown,    // U of the change is unknown
 };
 const char* to_string(Effect effect);  // "reduced", "increased", "not shown", "changed", "unknown"
 
 struct ComparedFigure {
   Budget before, after;
-  // value: |after| - |before|; a reduction is negative whatever the sign of a slope. The two runs
-  // are assumed to be independent. Effects that they share (gain of a probe, mounting) cancel in
-  // the change, so that u is too large rather than too small. If the sign of the figure changed,
-  // shared effects add, and u is the sum of both u.
+  // Change of the absolute value: |after| - |before|. A reduction is negative, also for a negative
+  // slope. u assumes that the two runs are independent. Effects that the two runs share (gain of a
+  // probe, mounting) cancel in the change; u is then too large. If the figure changes its sign,
+  // shared effects add; u is then the sum u_before + u_after.
   Budget change;
-  // From change_at_targets(). A value above the sum of both U is not explained by noise.
+  // Result of change_at_targets(). If it is larger than U_before + U_after, noise does not explain
+  // it.
   double at_targets = kNaN;
   Effect effect = Effect::not_shown;
 };
 
 struct ComparisonRequest {
-  std::int64_t before = 0, after = 0;  // runs
+  std::int64_t before = 0, after = 0;  // numbers of the two runs
   Reference reference = Reference::fixture;
 };
 struct Comparison {
@@ -40,22 +41,25 @@ struct Comparison {
   Axis axis = Axis::x;
   StatedAt stated;
   std::vector<ComparedFigure> figures;  // figures that both runs have
-  Notices differences;                  // differences between the two runs besides the action
+  Notices differences;                  // other differences between the two runs than the action
   Notices notices;                      // notices of the runs
   bool simulated = false;
-  bool is_imported = false;  // positioning: `stated` has no meaning
+  bool is_imported = false;  // true: runs of positioning; `stated` then has no meaning
   ComparedPoints points;
   std::string no_points_reason;  // empty if `points` exist
 };
-// Compares two runs of the five probes, or two imported runs of positioning. Errors: those of
-// run_budgets(); the same run twice; runs of two axes; an imported and a measured run; an imported
-// run of another error than positioning; no common figure.
+// Compares two measured runs, or two imported runs of positioning. Errors:
+//   - those of run_budgets();
+//   - the two runs are the same run, or have different axes;
+//   - one run is imported and the other run is measured;
+//   - an imported run contains another error than positioning;
+//   - no figure has a value in both runs.
 Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& request);
 
-// The contributions that u of the changes includes.
+// The contributions that the standard uncertainty of the changes includes.
 Covers covers(const Comparison& comparison);
 
-// The document of `mdof compare --json` and the RPC.
+// The document of `mdof compare --json` and of the RPC method.
 std::string comparison_json(const Comparison& comparison);
 
 }  // namespace mdof::daemon

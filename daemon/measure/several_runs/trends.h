@@ -18,37 +18,40 @@
 namespace mdof::daemon {
 
 struct TrendRequest {
-  std::optional<Axis> axis;  // all figures of the runs of this axis; nullopt: EC0Y and the figures
-                             // of every axis
-  std::string figure;  // the only wanted figure: "EYX_straightness_um", "EC0Y_urad"; empty: all
-  std::size_t baseline = 0;  // as in algo::control_chart()
-  bool mixed = false;        // also use runs of other rigs and models
+  std::optional<Axis>
+      axis;  // figures of the runs of this axis; nullopt: figures of all axes, and the squareness
+  std::string figure;  // name of the only requested figure: "EYX_straightness_um", "EC0Y_urad";
+                       // empty: all figures
+  std::size_t baseline = 0;  // number of values; as in algo::control_chart()
+  bool mixed = false;        // also use runs with other rigs, models or options
 };
 
 struct TrendValue {
-  std::vector<std::int64_t> runs;  // one, or two for a squareness
-  std::string started_utc;         // start of the last run
-  // Without its lines. u, U and k are NaN if u cannot be calculated. The chart uses u_random, the
-  // part of noise and repeatability, because declared uncertainties are the same in all runs.
+  std::vector<std::int64_t> runs;  // one run; two runs for a squareness
+  std::string started_utc;         // start of the later run
+  // Budget of the value, without the contributors (budget lines). If u cannot be calculated, u, U
+  // and k are NaN. The chart uses only u_random (noise and repeatability), because the declared
+  // uncertainties are the same in all runs.
   Budget stated;
 };
 struct Trend {
   std::string figure;
-  std::size_t baseline = 0;           // as requested
+  std::size_t baseline = 0;           // requested number of values
   std::vector<TrendValue> values;     // values in order of time
   std::optional<algo::Chart> chart;   // nullopt: too few values
   std::vector<std::string> left_out;  // sentences: the runs that were left out, with the reason
   Notices notices;                    // notices on mixed rigs and models
-  // Contributions to u, from the budget of the newest value with noise only, otherwise of the
-  // first.
+  // Contributions to u. They are from the budget of the last value whose u contains noise only; if
+  // there is no such value, from the first value.
   Covers u_covers;
-  NoiseOnly noise_only = NoiseOnly::none;  // common value for all values of the trend
+  NoiseOnly noise_only = NoiseOnly::none;  // summary for all values of the trend
   std::vector<std::string> u_not_declared;
 };
 
-// Values are at the fixture. Uses complete, measured runs that are not superseded: the newest run
-// of each recording, with the rig and model of the newest such run. Other runs are listed in
-// left_out. Errors: unknown figure.
+// Calculates the trends. All values are stated at the fixture. A run is used if it is complete,
+// measured, valid and not simulated, if no other run supersedes it, and if it is the newest run of
+// its recording. Its rig, model and options must be those of the newest run, unless `mixed` is set.
+// `left_out` lists the other runs. Error: the figure is unknown.
 Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& request);
 
 }  // namespace mdof::daemon

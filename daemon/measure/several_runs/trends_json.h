@@ -10,10 +10,12 @@
 
 namespace mdof::daemon {
 
-// "outside", "8 on one side" or empty: the signal of value i by the rules of the chart.
+// The signal of value i according to the rules of the control chart: "outside", "8 on one side" or
+// "" (no signal).
 std::string trend_signal(const algo::Chart& chart, std::size_t i);
 
-// The members of a figure's object, in the unit of the figure's name; limits are null if unknown.
+// Writes the members of the trend of one figure. The unit is in the name of the figure. Unknown
+// limits are null.
 void write_trend(JsonWriter& json, const Trend& trend);
 
 std::string trends_json(const std::vector<Trend>& trends);

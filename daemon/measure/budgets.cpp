@@ -22,11 +22,11 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kMostCost = 250'000;  // about one second; 11 targets with all declarations
-                                            // cost 2,000
+constexpr std::size_t kMostCost = 250'000;  // takes about one second; RunBudgets::cost() of 11
+                                            // targets with all declarations is 2,000
 
-// The target with the nearest mean position. Error: `at_m` is outside the targets by more than half
-// of the largest interval.
+// The target whose mean position is nearest to at_m. Error: at_m is outside the range of the
+// targets by more than half of the largest interval between targets.
 Result<algo::TargetMean> target_near(const algo::RunBudgets& run, std::int64_t id, double at_m) {
   const auto& targets = run.means().targets;  // ascending
   if (targets.empty())
@@ -57,7 +57,7 @@ Result<std::vector<algo::Figure>> chosen_figures(std::vector<algo::Figure> all,
   return fail(ErrorCode::usage, "figure \"" + name + "\" is unknown; give one of: " + names);
 }
 
-// For a run whose rig cannot be read.
+// The uncertainty (noise only) of a run whose rig cannot be read, with the reason.
 RunUncertainty noise_of(const Run& run, const Error& error) {
   Rig nothing_declared;
   nothing_declared.axis = run.header.axis;
@@ -158,7 +158,7 @@ struct FoundSetUp {
   bool simulated = false;
 };
 
-// The set-up with the assumption that the square has no angle error.
+// Calculates the squareness of one set-up. It assumes that the square has no angle error.
 Result<FoundSetUp> square_set_up(store::Store& store, SquarenessRequest request) {
   request.given = {0.0, 0.0};
   MDOF_TRY(const SquarenessRuns of, squareness_runs(store, request));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kTargetsNamed = 6;
 
-// Number of solved points of a target.
+// Number of solved points of a target, for each approach.
 struct Visits {
   int forward = 0, reverse = 0;
 };
@@ -46,7 +46,7 @@ std::string visits_text(const Visits& missing) {
   return text;
 }
 
-// The most frequent reason of the unsolved points.
+// The most frequent reason why points were not solved.
 std::string most_frequent_reason(const std::vector<MeasuredPoint>& points) {
   std::map<std::string, int> count;
   for (const MeasuredPoint& p : points)

@@ -10,15 +10,16 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr double kMost_us = 10e6;  // ten seconds; a longer average is useless for measuring an axis
-constexpr int kDigits = 9;         // enough digits so that the suggested value is sufficient
+constexpr double kMost_us =
+    10e6;  // ten seconds; a reading with a longer delay is useless for the measurement of an axis
+constexpr int kDigits = 9;  // with fewer digits, rounding could make the suggested value too small
 
 double of(const ChannelDelays& delays, const std::string& id) {
   const auto found = delays.find(id);
   return found == delays.end() ? 0 : found->second;
 }
 
-// "": the id is a channel of the rig.
+// Returns "" if the rig has a channel with this id, otherwise the text of the error.
 std::string delay_problem(const std::string& id, const Rig& rig) {
   std::vector<std::string> known = {kEncoderChannel};
   for (const Probe& probe : rig.probes) known.push_back(probe.id);

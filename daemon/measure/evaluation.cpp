@@ -63,7 +63,7 @@ Result<Run> restated_points(store::Store& store, std::int64_t run, std::int64_t 
 
 namespace {
 
-// Notices of a table of these runs: those of the runs, and those that only all runs together show.
+// Notices of a table of these runs: the notices of each run, and the notices that compare the runs.
 Result<Notices> table_notices(const std::vector<Run>& runs) {
   Notices notices = algo::inherited_notices(algo::all_of(runs));
   if (runs.size() < 2) return notices;
@@ -73,10 +73,11 @@ Result<Notices> table_notices(const std::vector<Run>& runs) {
 }
 
 constexpr std::size_t kMostRuns = 64;
-constexpr std::int64_t kMostPoints = 200'000;  // all are in memory at the same time, about 150 MB
+constexpr std::int64_t kMostPoints =
+    200'000;  // all points are in memory at the same time (about 150 MB)
 
-// Before any point is read: rejects runs that the table would reject later or that need too much
-// memory.
+// Checks the runs before their points are read. Rejects a run that is given twice, too many runs,
+// and runs with too many points.
 Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& runs) {
   if (runs.size() > kMostRuns)
     return fail(ErrorCode::usage,
@@ -110,7 +111,7 @@ Status store_table(store::Store& store, CompensationTable& table,
 
 namespace {
 
-// For imported runs; the caller has checked that the first run is imported.
+// Builds a table from imported runs. The caller has checked that the first run is imported.
 Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& request) {
   std::vector<Run> runs;
   for (const std::int64_t id : request.runs) {
@@ -202,9 +203,9 @@ Result<store::Activation> activate_checked(store::Store& store, const Activation
   return done;
 }
 
-// If a run was measured while a table was active and the controller applied it, the run shows the
-// remaining errors. A table of this run in place of the active one would bring the corrected errors
-// back.
+// Rejects a table if one of its runs was measured while another table was active. If the controller
+// applied the active table, the run contains only the remaining errors. If the new table replaced
+// the active table, the errors that the active table corrects would return.
 Status check_measured_without(store::Store& store, const CompensationTable& table,
                               const store::ActiveTable& active, const Consent& consent) {
   if (consent.despite_warnings) return {};
@@ -265,7 +266,7 @@ Status store_squareness(store::Store& store, Squareness& squareness,
 
 namespace {
 
-// Sets the combined standard uncertainties of `s`.
+// Sets the combined standard uncertainties in `s`.
 Result<std::vector<Budget>> state_uncertainty(Squareness& s, const Run& a, const Rig& rig_a,
                                               const Run& b, const Rig& rig_b,
                                               const algo::StatedPair& at = {}) {

@@ -16,10 +16,10 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kFullRecognitionLimit = 256;  // with fewer stops every new stop restarts the
-                                                    // recognition
+constexpr std::size_t kFullRecognitionLimit =
+    256;  // below this number of stops, each new stop restarts the recognition
 
-// Copies the last instant of `frames` into `newest`.
+// Copies the last frame of `frames` into `newest`.
 void copy_last_instant(const FrameBlock& frames, FrameBlock& newest) {
   const std::size_t last = frames.size() - 1;
   newest.time_ns.assign(1, frames.time_ns[last]);
@@ -100,13 +100,13 @@ const std::vector<MeasuredPoint>& Pipeline::points() {
   return sequence_.points;
 }
 
-// Drift begins at the first stop.
+// The residuals calculate drift from the time of the first stop.
 algo::Residuals Pipeline::residuals() const {
   return {solver_, probe_ranges_m(rig_), rig_, found_.empty() ? 0 : found_.front().begin_ns};
 }
 
-// In a long run only the new point is sorted and solved. The whole sequence is recognised again
-// whenever it has grown by a quarter, and at the end.
+// Sorts and solves only the new points of a long run. The whole sequence is recognised again when
+// the number of stops has increased by a quarter, and at the end.
 void Pipeline::take_new_points() {
   const algo::Residuals residuals = this->residuals();
   std::vector<Point> fresh(found_.begin() + static_cast<std::ptrdiff_t>(taken_), found_.end());
@@ -125,8 +125,8 @@ void Pipeline::take_new_points() {
   }
 }
 
-// Recognises and solves the whole sequence, but only on request: the replay of a long log requests
-// it once.
+// Recognises and solves the whole sequence. This takes long in a long log. A replay calls it only
+// once.
 void Pipeline::take_points() {
   taken_ = found_.size();
   dwell_.mark(found_);
@@ -198,7 +198,7 @@ Status Pipeline::check_dead_probes(Notices& notices) const {
     const std::string& id = rig_.probes[k].id;
     if (const auto slow = too_slow.find(id); slow != too_slow.end()) {
       if (needed) return bad_input(words::text(slow->second));
-      continue;  // reported with the other slow channels
+      continue;  // RunBuilder::build() adds the notice of each slow channel
     }
     const bool frozen = algo::has_flag(found_.front(), Flag::frozen, id);
     const bool saturated = algo::has_flag(found_.front(), Flag::saturated, id);
@@ -207,14 +207,15 @@ Status Pipeline::check_dead_probes(Notices& notices) const {
                                       {{"range_um", to_um(rig_.probes[k].range_m)}})
                              : notice(NoticeCode::probe_dead, id);
     if (needed) return bad_input(words::text(why));
-    if (why.code != NoticeCode::probe_saturated)  // every run gets probe_beyond_range
+    if (why.code !=
+        NoticeCode::probe_saturated)  // the run gets the notice probe_beyond_range already
       notices.push_back(std::move(why));
   }
   return {};
 }
 
-// An axis that moves all the time reverses at the ends of its travel; its rest there can be long
-// enough to look like a stop.
+// An axis that moves all the time reverses at the ends of its travel. It can rest there so long
+// that the rest is recognised as a stop.
 std::optional<Notice> Pipeline::never_stops() const {
   const auto& targets_m = sequence_.targets_m;
   if (!options_.sequence.targets_m.empty() || targets_m.size() > 2) return std::nullopt;

@@ -16,13 +16,14 @@ void write_by_channel(JsonWriter& json, const char* key,
   json.end_object();
 }
 
-// In mm, rounded to the picometre below one kilometre, so that reading it gives the same number.
+// The offset in mm. Below one kilometre it is rounded to 1 pm, so that the number does not change
+// when the text is read and written again.
 double offset_mm(const EncoderDatum& datum) {
   const double whole_mm = to_mm(datum.offset_m);
   return std::abs(whole_mm) < 1e6 ? std::round(whole_mm * 1e9) / 1e9 : whole_mm;
 }
 
-// An absolute encoder has no datum to write.
+// Writes nothing for an absolute encoder, because it needs no datum.
 void write_datum(JsonWriter& json, const EncoderDatum& datum) {
   if (datum == EncoderDatum()) return;
   json.key("encoder_datum")

@@ -24,7 +24,7 @@ Status check_log(ReplayLog& log, Axis axis, const Rig& rig) {
   return check_channels(log.path(), log.driver().info().channels, rig);
 }
 
-// check_channels() has checked that all of them exist.
+// Units of the probes. check_channels() has checked that the channels of all probes exist.
 std::vector<Unit> units_of(const std::vector<Channel>& channels, const Rig& rig) {
   std::vector<Unit> units;
   for (const Probe& probe : rig.probes)

@@ -51,7 +51,7 @@ Status read_store(TomlTable& root, Config& config) {
   return {};
 }
 
-// The id of an existing group of this computer.
+// The id of the group that the key names. The group must exist on this computer.
 std::optional<gid_t> group_of(TomlTable& table, const char* key) {
   if (!table.has(key)) return std::nullopt;
   const std::string name = table.string(key);
@@ -104,7 +104,7 @@ void read_rpc(TomlTable& root, Config& config) {
   config.tcp_port = static_cast<std::uint16_t>(port);
 }
 
-// Returns whether the configuration gives the length of a gap.
+// Returns whether [measure] has the key max_gap_s.
 bool read_measure(TomlTable& root, PipelineOptions& m) {
   auto table = root.table("measure");
   if (!table) return false;
@@ -129,17 +129,18 @@ bool read_measure(TomlTable& root, PipelineOptions& m) {
   return table->has("max_gap_s");
 }
 
-// Error: the model cannot solve the rig. This check is here so that mdofd reports the error at its
-// start, not at the first run.
+// Error: the model cannot solve the rig. With this check, mdofd reports the error at its start, and
+// not at the first run.
 Result<Rig> read_rig(TomlTable& table, const std::filesystem::path& base, Model model) {
   const std::string name = table.string("rig");
-  if (name.empty()) return Rig{};  // the table has kept its own error
+  if (name.empty()) return Rig{};  // the table contains the error for the missing key
   MDOF_TRY(Rig rig, load_rig(base / name));
   MDOF_TRY(const auto solver, algo::Solver::create(rig, model));
   return rig;
 }
 
-// [axis.device] of an axis with one device, [[axis.device]] of one with several.
+// Tables of the devices: [axis.device] if the axis has one device, [[axis.device]] if it has
+// several devices.
 std::vector<TomlTable> device_tables(TomlTable& axis) {
   if (axis.is_array("device")) return axis.tables("device");
   std::vector<TomlTable> one;
@@ -147,7 +148,7 @@ std::vector<TomlTable> device_tables(TomlTable& axis) {
   return one;
 }
 
-// Takes over whether the log is simulated. Error: a log of another axis.
+// Sets device.simulated if the log is simulated. Error: the log is for another axis than the rig.
 Status check_log(drivers::DriverSpec& device, const Rig& rig) {
   MDOF_TRY(ReplayLog log, ReplayLog::open(device.source_path));
   MDOF_CHECK(check_axis(device.source_path, log.comments(), rig));
@@ -155,8 +156,8 @@ Status check_log(drivers::DriverSpec& device, const Rig& rig) {
   return {};
 }
 
-// Checks that the rig can convert the units of the device to lengths (volts need a scale), as far
-// as the units are known before the device is opened.
+// Checks that the rig can convert the units of the channels to lengths. Volts need a scale in the
+// rig, for example. A unit that is unknown before the device is opened is not checked.
 Status check_units(const TomlTable& table, const drivers::DriverSpec& device, const Rig& rig) {
   if (!device.live || device.simulated) return {};
   MDOF_TRY(const auto driver, device.make());
@@ -186,7 +187,7 @@ Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem:
   return device;
 }
 
-// If readings are interpolated, each device must sample often enough.
+// If readings are interpolated, the sampling rate of each device must be high enough.
 Status check_rates(const TomlTable& table, const AxisConfig& axis, const Config& config) {
   const auto options = with_delays(config.measure, axis.rig, axis.delays);
   if (axis.devices.size() < 2 && options.align.delay_s.empty()) return {};
@@ -198,7 +199,8 @@ Status check_rates(const TomlTable& table, const AxisConfig& axis, const Config&
   return {};
 }
 
-// Each channel must have one source among the devices of an axis. A replay must be the only device.
+// Exactly one device of an axis must provide each channel of the rig. If a device is a replay or
+// simulated, it must be the only device of the axis.
 Status check_together(TomlTable& table, const AxisConfig& axis) {
   std::map<std::string, std::string> source;
   for (const auto& device : axis.devices) {
@@ -247,7 +249,8 @@ Status check_names(TomlTable& table, const AxisConfig& axis, const Config& confi
   return {};
 }
 
-// Uses the machine of the rig or of the configuration. If both give one, they must be equal.
+// Sets the machine of the rig to the machine of the configuration. If the rig states a machine,
+// too, the two machines must be equal.
 void set_machine(TomlTable& table, const Chain& machine, Rig& rig) {
   if (!machine.known()) return;
   const std::string axis(1, letter(rig.axis));
@@ -281,7 +284,7 @@ Result<std::vector<AxisTables>> read_axes(TomlTable& root, const std::filesystem
   return axes;
 }
 
-// `later`: the axes after this one.
+// `later`: the axes that follow this axis in the configuration.
 Status read_axis(AxisTables tables, const std::filesystem::path& base,
                  std::vector<AxisTables>& later, Config& config) {
   TomlTable& table = tables.table;

@@ -5,7 +5,7 @@
 namespace mdof::daemon {
 namespace {
 
-// The ids of the channels that the table itself gives.
+// The ids of the channels in the table.
 std::vector<std::string> given(TomlTable& device) {
   std::vector<std::string> ids;
   for (TomlTable& channel : device.tables("channel")) ids.push_back(channel.string("id"));
@@ -35,8 +35,8 @@ Result<Source> source_of(TomlTable& table, const std::vector<AxisConfig>& above)
                    "\"; devices above: " + (known.empty() ? "none" : known));
 }
 
-// Error: the samples of the device cannot serve two axes. Only hardware whose channels are known
-// before it is opened can.
+// Error: two axes cannot use the samples of this device. They can use only hardware whose channels
+// are known before the device is opened.
 Status check_source(const TomlTable& table, const drivers::DriverSpec& device) {
   if (device.live && device.recorded && !device.simulated && !device.part.empty()) return {};
   return bad_input(table.where("same_as") + ": \"" + device.name + "\" (" + device.driver +

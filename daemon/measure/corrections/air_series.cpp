@@ -7,8 +7,9 @@
 
 namespace mdof::daemon {
 
-// A column temperature_C is the channel "temperature" in °C. The units of the other quantities are
-// not in Unit, so that their channels have the names of the columns.
+// The column temperature_C is read as the channel "temperature" in °C. The enumeration Unit does
+// not contain the units of the other quantities, so the channels of these quantities have the names
+// of the columns.
 bool has_air_quantity(const Channel& channel, std::size_t quantity) {
   const AirQuantity& of = air_quantities()[quantity];
   if (channel.unit == Unit::deg_c) return quantity == 0 && channel.id == of.name;
@@ -27,7 +28,8 @@ void AirSeries::push(const SampleBlock& raw) {
 
 void AirSeries::add(std::size_t quantity, std::int64_t time_ns, double value) {
   const AirQuantity& of = air_quantities()[quantity];
-  if (!(value >= of.least && value <= of.most)) return;  // NaN, or a sensor that failed
+  if (!(value >= of.least && value <= of.most))
+    return;  // ignores NaN and values of a sensor that failed
   if (!begin_ns_) begin_ns_ = time_ns;
   const std::int64_t since_ns = time_ns - *begin_ns_, index = since_ns / kNsPerS;
   auto& seconds = read_[quantity];

@@ -17,14 +17,14 @@ bool tilts_everywhere(const RigPhysics& physics) {
                      [](const ProbePhysics& p) { return p.tilts(); });
 }
 
-// The channel of the first flag of this kind.
+// The channel of the first flag of this kind, or nullopt.
 std::optional<std::string> channel_of(const Point& point, Flag flag) {
   for (const PointFlag& of : point.flags)
     if (of.flag == flag) return of.channel;
   return std::nullopt;
 }
 
-// The points of `before` that became points of the run.
+// The points of `before` that are in the run.
 std::vector<const Point*> kept(const std::vector<Point>& before, const Run& run) {
   std::set<std::int64_t> begins_ns;
   for (const MeasuredPoint& p : run.points) begins_ns.insert(p.point.begin_ns);
@@ -34,8 +34,8 @@ std::vector<const Point*> kept(const std::vector<Point>& before, const Run& run)
   return points;
 }
 
-// c(t) along `measures`, m, at a displacement that includes c(t) (`includes_linearity`) or does not
-// yet include it.
+// Linearity error c(t) along `measures`, in m. `includes_linearity`: whether the displacement
+// contains c(t) already.
 double linearity_correction_m(const Calibration& c, double displacement_m,
                               bool includes_linearity) {
   const double sign = c.reads_gap ? -1 : 1;
@@ -158,7 +158,8 @@ void PointCorrections::report(const algo::Solver& solver, const std::vector<Poin
   report_failures(run);
 }
 
-// States the conditions at the first and the last point, because they may change.
+// The notice contains the ambient conditions at the first and at the last point, because they can
+// change during the run.
 void PointCorrections::report_air(Run& run) const {
   if (!known_.dielectric || run.points.empty()) return;
   const auto first = air_at(run.points.front().point), last = air_at(run.points.back().point);
@@ -187,7 +188,8 @@ void PointCorrections::report_failures(Run& run) const {
     run.header.notices.push_back(notice(NoticeCode::air_unknown, "", {{"points", without_air}}));
 }
 
-// The flags give the cause, because the solver only knows that a reading is missing.
+// The cause is from the flags of the point. The reason from the solver states only that a reading
+// is missing.
 std::string cause_of(const Point& point) {
   if (const auto frozen = channel_of(point, Flag::frozen))
     return "probe " + *frozen + " no longer changes; ";

@@ -158,7 +158,7 @@ std::vector<std::string> warning_marks(const Judged& judged, Language language) 
     marks.push_back(doubtful + (german ? "und " : "and ") + std::to_string(more) +
                     (german ? (more == 1 ? " weiterer Hinweis" : " weitere Hinweise")
                             : (more == 1 ? " more notice" : " more notices")));
-  for (std::string& mark : marks)  // quoted text must not begin a new line
+  for (std::string& mark : marks)  // quoted text must not contain a line break
     for (char& c : mark)
       if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
   return marks;

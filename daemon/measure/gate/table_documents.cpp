@@ -11,7 +11,8 @@
 namespace mdof::daemon {
 namespace {
 
-// "offset" and "points" of an open object with `total` points.
+// Writes the members "offset" and "points" of an open object. `total`: number of points of the
+// table.
 template <class Write>
 void write_points(JsonWriter& json, std::size_t total, const DocumentPage& page, Write write) {
   json.field("offset", page.offset).key("points").begin_array();
@@ -45,7 +46,7 @@ void write_list(JsonWriter& json, const char* key, const std::vector<std::string
   json.end_array();
 }
 
-// The number of entries of each list that fit; at least one.
+// The number of items of each list that fit into the page; at least one.
 std::size_t entries_that_fit(const std::vector<std::string>& a, const std::vector<std::string>& b,
                              std::size_t most_bytes) {
   const std::size_t longest = std::max(a.size(), b.size());

@@ -66,11 +66,12 @@ MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targ
   return p;
 }
 
-// If all deviations are smaller, they are probably millimetres read as micrometres.
+// If all deviations are smaller than this, they are probably values in mm that were read as µm.
 constexpr double kSmallest_m = 0.1e-6;
 
-// The unit is probably wrong if a deviation is as large as the interval between two targets, or if
-// no deviation exceeds 0.1 µm.
+// The unit of the deviations is probably wrong in two cases: a deviation is as large as the
+// smallest interval between two targets, or all deviations are smaller than 0.1 µm. The notice
+// states the case.
 Notices import_notices(const ImportedSeries& series, const ImportedError& error,
                        const std::vector<double>& targets) {
   double largest = 0, step = std::numeric_limits<double>::infinity();
@@ -86,7 +87,7 @@ Notices import_notices(const ImportedSeries& series, const ImportedError& error,
                  {{"deviation_um", to_um(largest)}, {"interval_mm", to_mm(step)}})};
 }
 
-// Checks each reading, and the slopes between target means, as for a table.
+// Checks each reading, and the slopes between the means of targets, with the limits for tables.
 Status check_readings(const ImportedSeries& series, const ImportRequest& request,
                       const ImportedError& error, const std::vector<double>& targets) {
   for (const ImportedReading& r : series.readings)
@@ -108,7 +109,7 @@ Status check_readings(const ImportedSeries& series, const ImportRequest& request
   return {};
 }
 
-// Standard uncertainty of a deviation, m or rad.
+// Standard uncertainty of each deviation, in m or rad.
 Result<std::optional<double>> standard_uncertainty(const ImportRequest& request,
                                                    const ImportedError& error) {
   if (error.angle ? request.u_um : request.u_urad)

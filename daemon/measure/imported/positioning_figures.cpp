@@ -16,14 +16,14 @@
 namespace mdof::daemon {
 namespace {
 
-// Mean of the readings of one target by one approach.
+// Mean of the readings of one target with one approach.
 struct ReadingsMean {
   int target = 0;
   double value = 0, u_random = kNaN, freedom = 0;
 };
 
-// NaN: the repeatability is unknown. Equal readings only show that their spread is smaller than the
-// resolution of the instrument, which the file does not state.
+// Standard uncertainty of the mean. NaN if all readings are equal: their scatter is then smaller
+// than the resolution of the instrument, and the file does not state the resolution.
 double u_of_mean(const std::vector<double>& readings, double mean) {
   const auto [low, high] = std::minmax_element(readings.begin(), readings.end());
   if (*low == *high) return kNaN;
@@ -47,7 +47,8 @@ std::vector<ReadingsMean> means_of(const Run& run, int direction) {
   return means;
 }
 
-// NaN: the import did not declare an uncertainty; 0 is a declaration.
+// The declared standard uncertainty of a deviation. NaN: no uncertainty was declared. 0 is a
+// declared uncertainty.
 double declared_u(const Run& run) {
   double largest = kNaN;
   for (const MeasuredPoint& p : run.points) largest = std::fmax(largest, deviation_uncertainty(p));
@@ -92,7 +93,7 @@ Budget range_of(const std::string& figure, const std::vector<ReadingsMean>& mean
   return budget;
 }
 
-// Both approaches have the same targets.
+// `forward` and `reverse` must have the same targets.
 Budget reversal_of(const std::string& figure, const std::vector<ReadingsMean>& forward,
                    const std::vector<ReadingsMean>& reverse) {
   std::size_t largest = 0;
@@ -118,7 +119,7 @@ void add_figures(const Run& run, StatedFigures& stated) {
   const std::string name = positioning_name(run.header.axis);
   const double u = declared_u(run);
   const auto forward = means_of(run, 1), reverse = means_of(run, -1);
-  std::map<int, int> approaches;  // number of approaches by target
+  std::map<int, int> approaches;  // number of approaches (1 or 2) of each target
   for (const auto* means : {&forward, &reverse})
     for (const ReadingsMean& mean : *means) ++approaches[mean.target];
   if (forward.size() == approaches.size() && reverse.size() == approaches.size()) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
-// µm to m, or µrad to rad: the factor is the same.
+// Converts µm to m, or µrad to rad. The factor is the same.
 std::vector<double> from_key_unit(const std::vector<double>& values) {
   std::vector<double> si;
   for (const double v : values) si.push_back(from_um(v));
@@ -32,18 +32,18 @@ std::string position_column(const MachineFrame& frame) {
   return std::string("position_") + position_unit(frame);
 }
 
-// Whether the error is that of a linear axis along itself.
+// Whether error k is the error of a linear axis along its own direction.
 bool is_positioning(const MachineFrame& frame, std::size_t k) {
   return frame.kind == FrameKind::linear && k == frame.direction;
 }
 
-// If the file has no standard uncertainty, that of MACHINE.toml holds.
+// If the file has no standard uncertainty, the value in MACHINE.toml is used for all positions.
 Status complete(ErrorFunction& f, std::size_t k, const std::string& where) {
   if (f.u.size() == 1 && f.position.size() != 1) f.u.assign(f.position.size(), f.u.front());
   return check_function(f, k, where);
 }
 
-// An opened file: its name in MACHINE.toml, its path, and the comment line with its hash.
+// An opened file: name in MACHINE.toml, path, and the comment line with the hash of the file.
 struct OpenedFile {
   std::string name, path, line;
 
@@ -65,8 +65,9 @@ Result<OpenedFile> open_named(const FindFile& find, const std::string& name) {
   return file;
 }
 
-// Reads the sense of the error along the axis, if the file has this error. A file without a sense
-// is rejected if the two senses differ.
+// Reads the sense of the positioning error. `sense`: values of the sense column; empty if the file
+// has no such column. Error: the sense is unknown and the axis has travel "-". With travel "+",
+// both senses have the same sign.
 Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
                   const std::vector<double>& sense) {
   const std::string name = csv.source + ":" + std::to_string(csv.header_line) + ": " +
@@ -112,8 +113,9 @@ Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
   return complete(f, k, csv.source + ": " + error_name(frame, k));
 }
 
-// Up to six columns for each error. The file may lack some errors, but not all. A column without
-// values counts as missing. An error with one approach has the same values for the other approach.
+// Reads a file with up to six columns for each error. The file must contain at least one error. A
+// column without values is treated as missing. If an error has values for one approach only, these
+// values are used for the other approach, too.
 Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string& path) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < kBodyErrors; ++k) {

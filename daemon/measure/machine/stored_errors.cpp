@@ -32,7 +32,7 @@ Status take(MachineFrame& frame, std::size_t k, ErrorFunction function) {
   return {};
 }
 
-// If the description differs from the rigs of a table, signs would be wrong.
+// If the description of the machine differs from the rigs of the table, signs would be wrong.
 Status check_set_up(const Machine& machine, const MachineFrame& frame,
                     const CompensationTable& table) {
   const std::string of = axis_of(frame);
@@ -55,7 +55,7 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
   return {};
 }
 
-// Reference point and slope of the straightness of an axis that was measured with probes.
+// Reference point of the straightness of a measured axis, and whether its slope is removed.
 struct StatedStraightness {
   std::string axis;
   StatedAt at = kAtFixture;
@@ -63,7 +63,8 @@ struct StatedStraightness {
 };
 using StatedAxes = std::vector<StatedStraightness>;
 
-// The point at which the squareness of the axis must be stated: the point of its table.
+// The reference point for the squareness of an axis. It is the reference point of the table of the
+// axis.
 Result<StatedAt> point_of_slope(const MachineFrame& frame, const StatedAxes& stated) {
   StatedAt at = kAtFixture;
   for (const StatedStraightness& s : stated) {
@@ -78,7 +79,7 @@ Result<StatedAt> point_of_slope(const MachineFrame& frame, const StatedAxes& sta
   return at;
 }
 
-// The tables of five errors that a machine uses.
+// The tables of measured runs that a machine uses.
 struct UsedTables {
   std::vector<MachineFrame*> frames;
   std::vector<algo::BuiltFrom> built_from;
@@ -86,8 +87,8 @@ struct UsedTables {
   Notices doubtful;
 };
 
-// Sets the covariance of the table's errors from the runs of the table. The angles are 0 at the
-// position of the axis during the measurement of the other axes.
+// Calculates the covariance of the errors of the table from the runs of the table. zero_m: position
+// of the axis during the measurement of the other axes. The angles are 0 at this position.
 Status set_table_covariance(store::Store& store, MachineFrame& frame,
                             const CompensationTable& table, double zero_m, UsedTables& taken) {
   algo::BuiltFrom of{{}, {}, {}, {table.slope_removed, true, table.stated, table.machine, zero_m}};
@@ -100,7 +101,7 @@ Status set_table_covariance(store::Store& store, MachineFrame& frame,
   MDOF_TRY(of.table, algo::build_table(of.runs, of.options));
   const auto all = algo::error_covariances(of.table, of.rigs, of.runs, of.options);
   if (!all || of.table.position_m != table.position_m) {
-    // The notices of the table state the cause.
+    // The notices of the table state why the covariance is unknown.
     for (std::size_t k = 3; k < kBodyErrors; ++k) bound_angle_u(frame.error[k], zero_m);
     return {};
   }
@@ -113,7 +114,7 @@ Status set_table_covariance(store::Store& store, MachineFrame& frame,
 // Adds the quantities that the probes of several axes share.
 void add_shared_quantities(const UsedTables& taken) {
   const auto parts = algo::shared_quantities(taken.built_from);
-  if (!parts) return;  // the notices of the table state the cause
+  if (!parts) return;  // the notices of the table state why they are unknown
   for (const algo::SharedQuantity& part : *parts)
     for (std::size_t t = 0; t < taken.frames.size(); ++t)
       add_shared(*taken.frames[t], taken.built_from[t].table, contributor_text(part.name),
@@ -133,8 +134,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
     std::vector<double> u;
     for (std::size_t i = 0; i < noise.size(); ++i)
       u.push_back(std::fmax(table.positioning_u_at(true, i), table.positioning_u_at(false, i)));
-    // The table contains errors in the controller's coordinates; errors of the body are positive
-    // along +.
+    // The table is in controller coordinates. Errors of the body are positive in the + direction.
     const double body = frame.against_command ? -1 : 1;
     ErrorFunction function = function_of(table.position_m, scaled(along.forward, body),
                                          scaled(along.reverse, body), u, noise);
@@ -168,7 +168,7 @@ void add_new(const std::vector<std::int64_t>& from, std::vector<std::int64_t>& t
     if (std::find(to.begin(), to.end(), id) == to.end()) to.push_back(id);
 }
 
-// The newest finished run of five errors and the newest imported positioning.
+// The newest complete measured run, and the newest complete imported run of positioning.
 Result<std::vector<std::int64_t>> latest_runs(store::Store& store, const MachineFrame& frame) {
   const auto axis = axis_from(frame.id);
   std::optional<std::int64_t> measured, positioning;
@@ -256,8 +256,8 @@ std::string no_axes(AxisPair axes) {
          " and a run of axis " + letter(axes.b);
 }
 
-// The newest squareness of each pair of axes, from runs that the axes name. If no axis names runs,
-// from any runs.
+// The newest squareness of each pair of axes. If axes of the description name runs, only a
+// squareness from these runs is used.
 Result<std::vector<Squareness>> latest_squareness(store::Store& store, const Machine& machine,
                                                   const std::vector<std::int64_t>& runs) {
   std::vector<Squareness> all;
@@ -303,8 +303,8 @@ Status use_stored_squareness(store::Store& store, Machine& machine, const Square
                              const StatedAxes& stated, StoredErrors& all) {
   MDOF_TRY(MachineFrame* const a, frame_of(machine, stored.axes, stored.axes.a));
   MDOF_TRY(MachineFrame* const b, frame_of(machine, stored.axes, stored.axes.b));
-  const std::size_t about = 6 - a->direction - b->direction;  // index among the six errors: A, B or
-                                                              // C of the third axis
+  const std::size_t about =
+      6 - a->direction - b->direction;  // index of A, B or C about the third axis
   if (a->location[about].value || b->location[about].value)
     return bad_input("squareness of the machine: " +
                      with_unit(location_name(b->location[about].value ? *b : *a, about), about) +
@@ -347,7 +347,8 @@ Status use_stored_squareness(store::Store& store, Machine& machine, const Stated
   return {};
 }
 
-// A slope in a table is the squareness that a key of an axis also gives; it would count twice.
+// Error: a table contains its straightness slope, and a key of an axis states the squareness that
+// contains the same slope. The slope would count twice.
 Status check_slopes(const Machine& machine, const StatedAxes& stated) {
   for (const StatedStraightness& s : stated) {
     if (s.slope_removed) continue;

@@ -111,7 +111,8 @@ void set_covariance(MachineFrame& frame, const CompensationTable& table,
     ErrorFunction& f = frame.error[k];
     std::size_t row = 0;
     for (std::size_t i = 0; all.has[k] && i < f.position.size(); ++i) {
-      while (all.position[row] < f.position[i]) ++row;  // an error may lack rows of the table
+      while (all.position[row] < f.position[i])
+        ++row;  // an error may have fewer positions than the table
       f.u_independent[i] = std::sqrt(all.noise[row][k][k]);
       f.u[i] = std::sqrt(all.noise[row][k][k] + all.declared[row][k][k]);
     }
@@ -130,7 +131,7 @@ void add_shared(MachineFrame& frame, const CompensationTable& table, const std::
       if (all.has[of[k]]) at[of[k]] = by_row[row][k];
     for (std::size_t k = 0; k < kBodyErrors; ++k)
       for (std::size_t l = 0; l < kBodyErrors; ++l) all.declared[row][k][l] -= at[k] * at[l];
-    for (std::size_t k = 0; k < kBodyErrors; ++k)  // rounding can give values below 0
+    for (std::size_t k = 0; k < kBodyErrors; ++k)  // rounding errors can make a variance negative
       all.declared[row][k][k] = std::fmax(all.declared[row][k][k], 0);
   }
 }

@@ -17,7 +17,7 @@
 namespace mdof::daemon {
 namespace {
 
-// Smaller steps are irrelevant, because a corrected command is rounded to this step.
+// A corrected command is rounded to this step, so smaller errors have no effect.
 constexpr double kStepOfTables_m = 1e-9;
 
 std::string names_of(const std::vector<std::string>& names) {
@@ -26,9 +26,10 @@ std::string names_of(const std::vector<std::string>& names) {
   return text;
 }
 
-// Notices on the residual error of one command, from the two approaches and from interpolation
-// between nodes. A notice is doubtful if the self-test of an export would reject the sum of both
-// errors: then the larger one, and the other one if it alone is too large.
+// Notices about the residual error of one command. The residual error has two parts: the reversal
+// error and the interpolation error between nodes. The limit is the limit of the self-test of an
+// export. If the sum of the two parts exceeds the limit, the larger part gets a doubtful notice.
+// The smaller part gets a doubtful notice if it alone exceeds the limit.
 Notices residual_notices(const VolumetricTable& table, std::size_t k) {
   const std::string command(1, "XYZ"[k]);
   const double reversal = table.reversal_m[k], between = table.interpolation_m[k];
@@ -55,8 +56,8 @@ Notices residual_notices(const VolumetricTable& table, std::size_t k) {
   return left;
 }
 
-// Text of a direction: "Z", "0.866 X + 0.5 Z". Its sense is irrelevant, so the first number is
-// positive.
+// Text of a direction: "Z", "0.866 X + 0.5 Z". The sign of the direction has no meaning, so the
+// first number is always positive.
 std::string direction_text(const Eigen::Vector3d& d) {
   std::string text;
   double sense = 0;
@@ -70,10 +71,10 @@ std::string direction_text(const Eigen::Vector3d& d) {
   return text;
 }
 
-// A direction of the work in which no axis moves the tool, because two linear axes are parallel at
-// the positions of the rotary axes. The notice is doubtful by the same limit as for one command. It
-// is expected if the machine has no third axis; the residual error is then stated as for every
-// table.
+// Notice if no axis can move the tool in some direction of the workpiece, because two linear axes
+// are parallel at these positions of the rotary axes. The limit is the same as for the residual
+// error of one command. A machine with fewer than three linear axes gets no notice for the
+// directions that it never can move in.
 Notices fixed_direction_notices(const VolumetricTable& table) {
   double largest = 0;
   for (std::size_t k = 0; k < 3; ++k)
@@ -97,7 +98,7 @@ Notices fixed_direction_notices(const VolumetricTable& table) {
                   {"limit_um", to_um(limit)}})};
 }
 
-// Notices of the table on its own errors.
+// Notices about the errors of the table, without the notices of its runs.
 Notices own_notices(const VolumetricTable& table) {
   Notices own;
   if (!table.not_measured.empty())
@@ -119,11 +120,12 @@ Result<std::vector<Run>> runs_of(store::Store& store, const VolumetricTable& tab
   return runs;
 }
 
-// Axes whose targets were all approached from one side, which is not the approach of the table. The
-// table then uses the errors of this side for its own approach, so it contains no reversal error.
+// Notices for axes whose targets were all measured with one approach, but the approach of the table
+// is the other one. The table then uses the errors of the measured approach, and the reversal error
+// is unknown.
 Notices one_sided(const VolumetricTable& table, const std::vector<Run>& runs) {
-  std::map<std::pair<Axis, bool>, std::set<std::string>> seen;  // positioning is a separate
-                                                                // measurement
+  std::map<std::pair<Axis, bool>, std::set<std::string>>
+      seen;  // key: axis, and whether the run is imported (positioning)
   for (const Run& run : runs)
     for (const MeasuredPoint& p : run.points)
       if (p.point.direction != 0)

@@ -42,7 +42,7 @@ RunHeader RunBuilder::head(const algo::DwellDetector::Summary& summary) const {
   return header;
 }
 
-// Adds the plausibility of the whole run and its doubtful notices.
+// Calculates the plausibility of the whole run, and adds the notices about it.
 void RunBuilder::add_plausibility(const SolvedPoints& points, Run& run) const {
   const bool given = !options_.sequence.targets_m.empty();
   const algo::RunToJudge whole{rig_,  points.sequence, points.summary,
@@ -71,7 +71,7 @@ Run RunBuilder::build(SolvedPoints points) const {
     notices.push_back(std::move(*contradiction));
   append(notices, algo::repeat_notices(rig_, run.points));
   treat_drift(rig_, options_.remove_drift, run);
-  // A run is complete if it has everything that was requested.
+  // A run is complete if no requested point is missing.
   Notices missing = missing_notices(points.targets_m, options_.repeats, run.points);
   append(missing, std::move(points.partial));
   run.header.state = missing.empty() ? RunState::complete : RunState::partial;

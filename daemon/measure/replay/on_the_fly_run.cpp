@@ -39,7 +39,8 @@ Status OnTheFlyRun::check_room() {
                    Remedy::larger_interval);
 }
 
-// The position of a bin depends on each of its scans; that of a stop does not.
+// Each scan in a bin contributes to the position of the bin. A point is therefore removed if the
+// encoder was suspect at any time during the bin.
 Status OnTheFlyRun::leave_suspect_out(algo::Sequence& sequence, Notices& notices) const {
   auto& points = sequence.points;
   const auto suspect = [this](const MeasuredPoint& p) { return suspect_.touches(p.point); };

@@ -16,7 +16,8 @@ namespace mdof::daemon {
 namespace {
 
 constexpr double kShortStep_s = 0.1, kWindowsOfLog = 12;
-constexpr double kMostTravel_m = 50e-6;  // if the means differ by more, the axis moved
+constexpr double kMostTravel_m =
+    50e-6;  // if the mean positions differ by more than this, the axis moved
 constexpr std::chrono::milliseconds kParkedTimeout{1000};
 
 // Sums of a channel over short steps of time.
@@ -33,7 +34,7 @@ class Steps {
     n_[step] += 1;
   }
   std::size_t size() const { return sum_.size(); }
-  // Means over `together` steps each; NaN without readings.
+  // Means of groups of `together` steps. NaN if a group has no readings.
   std::vector<double> means(std::size_t together, std::size_t count) const {
     std::vector<double> out;
     for (std::size_t k = 0; k < count; ++k) {
@@ -130,7 +131,7 @@ Status check_parked(const std::string& path, const std::vector<double>& encoder_
                    Remedy::park_axis);
 }
 
-// Calculates the five errors of the moving body at each step.
+// Calculates the five errors of the moving body at each time step.
 void add_errors(const algo::Solver& solver, const Rig& rig, const std::vector<double>& encoder_m,
                 algo::ParkedReadings& readings) {
   const std::size_t probes = readings.series.size();
@@ -178,8 +179,9 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   parked.notices = log.notices();
   const double per_step =
       request.window_s.value_or(parked.length_s / kWindowsOfLog) / algo::kStepsOfWindow;
-  // Rounded down, so that a log contains a twelfth of itself twelve times. The upper limit exceeds
-  // the log, so that a window longer than the log gives no window.
+  // The number of steps is rounded down, so that a log contains twelve windows of a twelfth of its
+  // length. A window that is longer than the log is limited to more steps than the log has; the log
+  // then contains no window.
   const auto together =
       static_cast<std::size_t>(std::clamp(std::floor(per_step / kShortStep_s + 1e-9), 1.0,
                                           static_cast<double>(reader.encoder.size() + 1)));

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kScanTimeout{1000};
 constexpr std::int64_t kMostGap_ns =
-    50'000'000;  // longest gap that is interpolated, of an encoder or angle
+    50'000'000;  // longest gap of the encoder or the angle that is interpolated
 constexpr std::size_t kMostScanPoints = 50'000'000;
 constexpr double kDefaultPixels = 100, kTurn_deg = 360;
 
@@ -47,7 +47,8 @@ struct Series {
         static_cast<double>(t - time_ns[i - 1]) / static_cast<double>(time_ns[i] - time_ns[i - 1]);
     return value[i - 1] + part * (value[i] - value[i - 1]);
   }
-  // Makes an angle continuous over 360 degrees, so that interpolation between 359 and 1 works.
+  // Removes the steps of 360 degrees from an angle. Interpolation between 359 and 1 degrees is then
+  // correct.
   void make_continuous() {
     for (std::size_t i = 1; i < value.size(); ++i)
       value[i] = value[i - 1] + std::remainder(value[i] - value[i - 1], kTurn_deg);
@@ -114,10 +115,10 @@ Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan
   return columns;
 }
 
-// Readings that the axis motion alone causes at the scanning probe, at the targets of its run.
+// Readings of the scanning probe that the errors of the axis cause, at the targets of the run.
 struct Motion {
   std::vector<double> position_m, reading_m;
-  double u_m = 0;  // RMS over the targets
+  double u_m = 0;  // standard uncertainty of reading_m, RMS over the targets
 
   bool holds(double at_m) const { return at_m >= position_m.front() && at_m <= position_m.back(); }
   double at(double at_m) const {
@@ -129,8 +130,8 @@ struct Motion {
   }
 };
 
-// The rig with the scanning probe alone. Without planes, the probe measures a plane perpendicular
-// to its direction.
+// The rig with the scanning probe as its only probe. The rig has no planes, so the probe measures a
+// plane that is perpendicular to the direction of the probe.
 Rig with_scanning_probe(Rig rig, const RigScan& scan) {
   rig.planes.clear();
   rig.probes.assign(1, {});
@@ -140,8 +141,8 @@ Rig with_scanning_probe(Rig rig, const RigScan& scan) {
   return rig;
 }
 
-// Variance of the reading from the covariance of the five errors. The reading is linear in the
-// errors.
+// Variance of the reading from the covariance of the five errors. The reading is a linear function
+// of the errors.
 double reading_variance(const drivers::ForwardModel& model, double travel_m,
                         const AxisErrors& errors) {
   std::array<double, 5> slope{};
@@ -210,7 +211,8 @@ void add_points(const Columns& columns, const Motion& motion, const Rig& rig, co
       ++out.beyond_targets;
       continue;
     }
-    // If the target moves towards +, the probe is on the - side of the spindle's axis.
+    // When the target moves towards +, the probe moves towards - relative to the axis of the
+    // spindle.
     const double rho_m = centre_m - rig.sides.target_travel_m(encoder_m);
     const double angle = scan.sense * angle_deg * std::numbers::pi / 180;
     points.x_m.push_back(rho_m * std::cos(angle));

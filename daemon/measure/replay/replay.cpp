@@ -43,7 +43,7 @@ Status check_unit(const std::string& source, const std::vector<Channel>& channel
   return {};
 }
 
-// An encoder in volts gives no position unless the rig declares its scale.
+// Error: the encoder is in volts, and the rig does not declare its scale.
 Status check_encoder(const std::string& source, const std::vector<Channel>& channels,
                      const Rig& rig) {
   for (const Channel& c : channels) {
@@ -56,8 +56,8 @@ Status check_encoder(const std::string& source, const std::vector<Channel>& chan
   return {};
 }
 
-// Checks that the log has the ambient quantities that a correction needs and the rig does not
-// declare.
+// Checks the ambient quantities that a correction needs. If the rig does not declare a quantity,
+// the log must contain it.
 Status check_air(const std::string& source, const std::vector<Channel>& channels, const Rig& rig) {
   const auto columns = air_columns(rig);
   for (std::size_t q = 0; q < kAirQuantities; ++q) {
@@ -74,7 +74,7 @@ Status check_air(const std::string& source, const std::vector<Channel>& channels
   return {};
 }
 
-// "X" from "axis: X"; empty if no comment states the axis.
+// Returns "X" if a comment is "axis: X". Returns "" if no comment states the axis.
 std::string stated_axis(const std::vector<std::string>& comments) {
   constexpr std::string_view kKey = "axis:";
   for (const std::string& comment : comments) {

@@ -8,7 +8,7 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kMostVisits = 1500;  // maximum count of n_ij in one reply
+constexpr std::size_t kMostVisits = 1500;  // largest number of values n_ij in one reply
 
 std::string document(const RunMembers& members) {
   JsonWriter json;

@@ -12,7 +12,8 @@
 namespace mdof::daemon {
 namespace {
 
-// The command line does not check requests of the RPC.
+// Checks the request here, too, because requests of RPC clients do not pass the checks of the
+// command line.
 Status check_request(const ReplayRequest& request) {
   MDOF_CHECK(check_replay_options(request));
   Model model{};
@@ -26,7 +27,8 @@ Status check_request(const ReplayRequest& request) {
   return {};
 }
 
-// Keeps the given or recorded targets of the run unless an interval is requested.
+// If the request contains an interval, removes the given or recorded targets. Otherwise the targets
+// stay.
 Status set_on_the_fly_options(const ReplayRequest& request, PipelineOptions& options) {
   if (!request.on_the_fly) return {};
   algo::OnTheFlyOptions& to = options.on_the_fly.emplace();
@@ -63,7 +65,7 @@ Result<PipelineOptions> options_of(const ReplayRequest& request, const ReplayLog
   return options;
 }
 
-// Sets the delays of the given rig, which replaces a recorded rig or belongs to a CSV log.
+// Replaces the delays of the recorded rig by the delays of `rig`. A CSV log has no recorded rig.
 Result<PipelineOptions> delayed(PipelineOptions options, const ReplayRequest& request,
                                 const ReplayLog& log, const Rig& rig) {
   const std::string recorded = log.rig_text();

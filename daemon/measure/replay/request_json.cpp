@@ -17,16 +17,16 @@ using simdjson::dom::element;
 
 constexpr double kMostDelay_s = 10;  // as in delays.cpp
 
-// Reads the members of an object into variables; the first member of another type is the error. An
-// absent or null member does not change its variable.
+// Reads the members of an object into variables. The error is the first member with a wrong type.
+// If a member is missing or null, its variable does not change.
 class Members {
  public:
   // `path`: path of the object, with a dot at its end, for messages.
   explicit Members(element object, std::string path = "")
       : object_(object), path_(std::move(path)) {}
 
-  // Call it after all members were taken. Error: an unknown member, because its effect is unknown;
-  // a repeated member, because one of the two would be ignored.
+  // Call done() after take() of all known members. Error: a member is unknown, so that its effect
+  // is unknown, or a member occurs twice, so that one of the two values would be ignored.
   Status done() {
     std::set<std::string_view> seen;
     for (const auto member : object_.get_object()) {
@@ -101,7 +101,7 @@ void read_by_channel(Members& members, const char* key, std::map<std::string, do
                      bool (*good)(double)) {
   const auto found = members.object(key);
   simdjson::dom::object channels;
-  if (!found || found->get(channels)) return;  // object() has checked that it is an object
+  if (!found || found->get(channels)) return;  // object() reports the error if it is not an object
   to.clear();
   for (const auto member : channels) {
     double x = 0;
@@ -147,14 +147,14 @@ void read_targets(Members& members, PipelineOptions& options) {
     return true;
   });
   members.take_not_negative("target_window_mm", options.sequence.target_window_m, from_mm);
-  // Runs of older versions have no such member: they ran until stopped.
+  // Runs of older versions have no member "repeats". A user ended these runs.
   std::int64_t repeats = options.repeats;
   members.take("repeats", repeats);
   if (repeats < 0 || repeats > std::numeric_limits<int>::max()) members.reject("repeats");
   options.repeats = static_cast<int>(repeats);
 }
 
-// The kind is always required: without it the datum would look like that of an absolute encoder.
+// The member "kind" is required. The default kind would be the kind of an absolute encoder.
 Status read_datum(element object, EncoderDatum& datum) {
   Members members(object, "options.encoder_datum.");
   datum = {};
@@ -226,7 +226,8 @@ Result<RecordedRequest> read_request_json(const std::string& text, const Pipelin
   MDOF_TRY(const element root, parsed(parser, text));
   Members members(root);
   members.take("note", asked.note);
-  for (const char* key : {"warnings", "notices"}) {  // "warnings": sentences in older recordings
+  for (const char* key :
+       {"warnings", "notices"}) {  // older recordings have the member "warnings", with sentences
     const auto list = members.find(key);
     if (!list) continue;
     auto notices = read_notices(simdjson::minify(*list));

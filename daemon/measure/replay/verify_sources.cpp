@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kPage = 500;
 
-// A file with its stored hash, and the runs that were made from it.
+// Path and stored hash of a file. Each file has a list of the runs that were calculated from it.
 using Source = std::pair<std::string, std::string>;  // path, sha256
 using Sources = std::map<Source, std::vector<std::int64_t>>;
 

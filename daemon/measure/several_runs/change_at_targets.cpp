@@ -12,10 +12,10 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kForward = 0, kReverse = 1, kReversal = 2;  // as kComparedSides
+constexpr std::size_t kForward = 0, kReverse = 1, kReversal = 2;  // indices of kComparedSides
 
 struct Changes {
-  std::vector<double> x, y;  // m; m or rad
+  std::vector<double> x, y;  // x: positions, m; y: changes, m or rad
   void add(double at_m, double change) {
     if (!std::isfinite(change)) return;
     x.push_back(at_m);
@@ -27,7 +27,7 @@ double change_of(const ComparedValue& value) {
   return value.after - value.before;
 }
 
-// Mean change of both approaches, or of the only approach that both runs have.
+// Mean of the changes of both approaches. If one change is unknown, the other change.
 double mean_change(const ComparedPoint& point, std::size_t error) {
   const double forward = change_of(point.side[kForward][error]),
                reverse = change_of(point.side[kReverse][error]);

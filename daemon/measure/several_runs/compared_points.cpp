@@ -19,7 +19,7 @@ namespace {
 constexpr double kSameTarget_m = 1e-4;
 constexpr double kManyReadings = std::numeric_limits<double>::infinity();
 
-// The mean of one approach at a target.
+// Mean of the points of one target with one approach.
 struct ApproachMean {
   double value = kNaN, u_random = kNaN;
   double freedom = kManyReadings;  // degrees of freedom of u_random
@@ -31,10 +31,11 @@ double at_row(const std::vector<double>& values, std::size_t row, double none) {
   return values.empty() ? none : values[row];
 }
 
-// Number of readings by target and approach. Readings without an approach count for both.
+// Number of readings for each target and approach. A reading without an approach counts for both
+// approaches.
 struct Counts {
   std::vector<double> forward, reverse;  // [row]
-  bool no_reversal = false;              // an imported run that has readings without an approach
+  bool no_reversal = false;  // true: an imported run with readings that have no approach
 };
 
 Counts counts_of(const TabledRun& of) {
@@ -67,7 +68,7 @@ double expanded(double u, std::initializer_list<algo::UncertaintyPart> parts) {
   return std::isnan(u) ? kNaN : u * algo::coverage_factor(algo::effective_freedom(parts));
 }
 
-// The value and its U for each of kComparedSides.
+// The value and U of the value, for each item of kComparedSides.
 std::array<std::pair<double, double>, 3> sides_at(const TabledRun& of, const Counts& counts,
                                                   std::size_t error, std::size_t row) {
   const ApproachMean f = mean_at(of, counts, error, row, 1),

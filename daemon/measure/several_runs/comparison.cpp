@@ -25,7 +25,8 @@ namespace {
 
 constexpr double kSameEnd_m = 1e-4;
 
-// Effects that both runs share add if the sign has changed, so that u is the sum of both u.
+// For a figure that has changed its sign: the effects that both runs share add. u of the change
+// becomes the sum u_before + u_after.
 void add_shared(Budget& change, double u_before, double u_after) {
   const double freedom = change.freedom, k = change.coverage_factor;
   BudgetLine shared;
@@ -34,7 +35,7 @@ void add_shared(Budget& change, double u_before, double u_after) {
   shared.contribution = std::sqrt(2 * u_before * u_after);
   change.lines.push_back(shared);
   algo::complete(change);
-  change.freedom = freedom;  // degrees of freedom of the two runs
+  change.freedom = freedom;  // as before the shared effects were added
   change.coverage_factor = k;
   change.U = k * change.u;
 }
@@ -68,7 +69,8 @@ ComparedFigure compared(const Budget& before, const Budget& after) {
   }
   algo::complete(change);
   if (before.value * after.value < 0) add_shared(change, before.u, after.u);
-  // A range of noisy means is biased upwards; the first-order calculation does not include this.
+  // Noise of the means makes a range too large on average. Only the calculation by trials includes
+  // this bias, so U is at least the value from both U by trials.
   if (before.U_by_trials || after.U_by_trials) {
     change.U = std::max(change.U, std::hypot(before.U, after.U));
     change.U_by_trials = true;
@@ -89,13 +91,15 @@ std::pair<double, double> travel_of(const Run& run) {
   return ends;
 }
 
-// Whether started_utc is the time of the measurement; otherwise it is that of the evaluation.
+// Whether started_utc is the time of the measurement. Otherwise started_utc is the time of the
+// evaluation.
 bool has_time(const RunHeader& header) {
   const std::string& kind = header.provenance.recording_kind;
   return kind == "live" || kind == "recording";
 }
 
-// Differences that influence the figures, and a notice if the runs are in reverse order.
+// Notices about differences that influence the figures. Also a notice if the run "after" was
+// measured before the run "before".
 Notices differences(const Run& before, const Run& after) {
   Notices found;
   const std::string &began = before.header.started_utc, &other = after.header.started_utc;
@@ -138,7 +142,7 @@ void add_change_at_targets(Comparison& found) {
   }
 }
 
-// Error: a run that is not imported, or is of another error than positioning.
+// Error: a run is not imported, or contains another error than positioning.
 Status check_positioning(const Run& before, const Run& after) {
   for (const Run* run : {&before, &after}) {
     const std::string name = "run " + std::to_string(run->header.id);
@@ -179,7 +183,8 @@ Result<Comparison> compare_positioning(store::Store& store, const Run& before, c
   return found;
 }
 
-// Calculates a table of each run. The comparison is valid without these tables.
+// Calculates a table of each run, for the comparison at the targets. If no table can be calculated,
+// the figures are still compared.
 void add_points(store::Store& store, const Run& before, const Run& after, Reference reference,
                 Comparison& found) {
   TableRequest request;

@@ -26,7 +26,7 @@ std::string figure_of(AxisPair axes) {
   return std::string(squareness_name(axes)) + "_urad";
 }
 
-// Runs of one chart must agree in this text.
+// Text of model, options and rig. All runs of one chart must have the same text.
 std::string kind_of(const RunHeader& run) {
   const RunOptions options = run_options(run);
   return run.provenance.model + (options.remove_drift ? " without drift " : " ") +
@@ -54,8 +54,9 @@ struct Chosen {
   Notices notices;
 };
 
-// The newest run. If its kind has too few values for a chart, the newest run of the same rig whose
-// kind has enough: a single run on the fly or with another model does not remove the chart.
+// Among the runs with the rig of the newest run: the newest run whose kind has enough runs for a
+// chart. If no kind has enough runs: the newest run. The chart therefore does not disappear after a
+// single run on the fly, or a single run with another model.
 const RunHeader& newest_charted_run(const std::vector<RunHeader>& runs) {
   std::map<std::string, std::size_t> count;
   for (const RunHeader& run : runs) ++count[kind_of(run)];
@@ -66,7 +67,7 @@ const RunHeader& newest_charted_run(const std::vector<RunHeader>& runs) {
   return runs.back();
 }
 
-// Keeps the runs of one kind, unless `mixed` is set.
+// Removes the runs of other kinds, unless `mixed` is true.
 void choose_kind(Chosen& chosen, bool mixed) {
   if (chosen.runs.empty()) return;
   const RunHeader newest_of_kind = newest_charted_run(chosen.runs);
@@ -97,7 +98,8 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
     for (const RunHeader& run : page) {
       MDOF_TRY(const auto by, store.superseded_by(run.id));
       std::string recording = run.provenance.recording_sha256;
-      // One run for each recording and kind; if `mixed`, one for each recording.
+      // Use one run for each recording and kind. If `mixed` is true, use one run for each
+      // recording.
       if (!recording.empty() && !mixed) recording += kind_of(run);
       if (is_imported(run))
         imported.push_back(run.id);
@@ -133,7 +135,7 @@ void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& 
   Budget& stated = trend.values.back().stated;
   stated.lines.clear();
   if (!u_is_known) stated.u = stated.U = stated.freedom = stated.coverage_factor = std::nan("");
-  // The chart does not include a contribution that one value does not include.
+  // u_covers contains only contributions that u of every value includes.
   const bool is_first = trend.values.size() == 1;
   if (is_first || budget.noise_only) trend.u_covers = covers(budget);
   const NoiseOnly own = noise_only_if(budget.noise_only);
@@ -144,7 +146,7 @@ void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& 
       trend.u_not_declared.push_back(key);
 }
 
-// Adds the values of all wanted figures, so that the run is read once.
+// Adds the values of all requested figures of one run. The run is read only once.
 Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>& trends,
                const std::vector<algo::Figure>& figures) {
   MDOF_TRY(const Run run, restated_run(store, header.id, Reference::fixture));
@@ -184,7 +186,7 @@ Status add_axis(store::Store& store, Axis axis, const TrendRequest& request,
   return {};
 }
 
-// Uses the newest fit of each pair of runs that a chart may contain.
+// Uses the newest squareness fit of each pair of runs that a chart may contain.
 Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& request,
                       std::vector<Trend>& out) {
   MDOF_TRY(const Chosen a, choose(store, axes.a, request.mixed));

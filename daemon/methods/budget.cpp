@@ -13,9 +13,9 @@ namespace {
 using rpc::Params;
 using rpc::ParamType;
 
-constexpr std::int64_t kMostPoints = 5'000;  // about 0.2 s; 110 points: 0.02 s
+constexpr std::int64_t kMostPoints = 5'000;  // calculation time about 0.2 s; with 110 points 0.02 s
 
-// Limits the time of a call on the thread "query", because other clients wait for it.
+// Limits the time of a call on the thread "query", because other clients wait for this thread.
 Status check_size(store::Store& store, std::int64_t run) {
   MDOF_TRY(const std::int64_t points, store.count_points(run));
   if (points <= kMostPoints) return {};

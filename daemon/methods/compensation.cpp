@@ -1,4 +1,4 @@
-// compensation.build, activate, deactivate, status, grid, at.
+// The methods compensation.build, .activate, .deactivate, .status, .grid and .at.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -121,7 +121,8 @@ std::string status(const Methods& m) {
   return json.take();
 }
 
-// Rejects parameters of the other kind of table. Ignoring them would mislead the sender.
+// Rejects parameters that apply only to the other kind of table. If they were ignored, the client
+// would believe that they have an effect.
 Status refuse(const Params& params, std::initializer_list<const char*> keys, const char* why) {
   for (const char* key : keys)
     if (params.has(key)) return fail(ErrorCode::usage, std::string(key) + why);
@@ -167,8 +168,8 @@ void write_values(JsonWriter& json, const char* key, Axis axis, const Errors5& v
   json.end_object();
 }
 
-// null without a chain; a component that no axis of the chain can correct is null. Each reason is
-// stated once.
+// Writes the correction; null if the chain is unknown. A component is null if no axis of the chain
+// can correct it. Each reason is written only once.
 void write_correction(JsonWriter& json, const CompensationTable& table, const Errors5& error) {
   const CorrectionSigns signs =
       correction_signs(table.machine, table.axis, table.sides, table.stated.reference);
@@ -213,7 +214,8 @@ Result<std::string> at(const Methods& m, const Params& params) {
   const double position_mm = params.number("position_mm");
   const CompensationTable& table = active->table;
   algo::TableValue value = algo::table_at(table, from_mm(position_mm), side);
-  if (!value.inside) {  // value of another position or approach; its u does not hold here
+  if (!value.inside) {  // outside, the value is from another position or approach, so its u is not
+                        // valid
     value.u.fill(std::nan(""));
     value.u_interpolation.fill(std::nan(""));
   }

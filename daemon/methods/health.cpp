@@ -10,14 +10,14 @@ namespace {
 namespace fs = std::filesystem;
 using rpc::Params;
 
-// null if the file system does not report the value.
+// Writes null if the file system does not report the value.
 void write_bytes(JsonWriter& json, const char* key, std::uintmax_t bytes,
                  const std::error_code& ec) {
   json.key(key);
   ec ? void(json.null()) : void(json.value(static_cast<std::uint64_t>(bytes)));
 }
 
-// The newest recorded run shows the folder of the recordings and the size of one.
+// Writes the number of the newest recorded run and the size of its recording.
 void write_newest_recording(JsonWriter& json, const RunHeader& newest) {
   std::error_code ec;
   const auto bytes = fs::file_size(newest.provenance.recording_path, ec);

@@ -18,7 +18,8 @@ using rpc::ParamType;
 constexpr std::string_view kLetters = "XYZABC";
 constexpr const char* kComponents[] = {"x_um", "y_um", "z_um", "a_urad", "b_urad", "c_urad"};
 
-// Rejects machines with files, because this method is called at each command and reads no files.
+// Rejects a machine file that refers to other files. Clients call this method for each commanded
+// position, so it reads no files.
 Status check_no_files(const Machine& machine) {
   if (!has_table_files(machine)) return {};
   return bad_input(
@@ -41,7 +42,7 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
   json.begin_object().field("machine", machine.name).field("simulated", machine.simulated);
   write_error(json, "error", error.exact);
   json.key("u").begin_object();
-  // 0: no source and no error with a known u affects the component.
+  // u is 0 if no error with a known u, and no other source of uncertainty, affects the component.
   for (int k = 0; k < 3; ++k) json.field(kComponents[k], u[k] > 0 ? to_um(u[k]) : kNaN);
   json.end_object();
   if (!(u.minCoeff() > 0))

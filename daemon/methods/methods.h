@@ -1,4 +1,5 @@
-// The RPC methods of mdof, grouped by noun: one file and one row of methods.inc for each noun.
+// The RPC methods of mdofd. A method name is NOUN.VERB. Each noun has one file, and one line in
+// methods.inc.
 #pragma once
 
 #include <array>
@@ -24,37 +25,39 @@
 
 namespace mdof::daemon {
 
-inline constexpr const char* kLiveTopic = "live.update";  // newest value wins
-inline constexpr const char* kRunTopic = "run.event";     // no message replaces another one
+inline constexpr const char* kLiveTopic =
+    "live.update";  // a new message replaces an older message that is still pending
+inline constexpr const char* kRunTopic = "run.event";  // each message is sent
 
-// The active tables, on the main thread. Each activation replaces the whole struct.
+// The active tables. Used on the main thread only. Each activation replaces the whole struct.
 struct ActiveTables {
   std::array<std::shared_ptr<const store::ActiveTable>, 3> axes;
   std::shared_ptr<const store::ActiveVolumetric> volume;
 };
 
-// Addresses of the web page.
+// Address of the web page, and path of the token file.
 struct Page {
   std::string url, token_file;
 };
 
-// The objects that the methods use. Lives as long as the server, on the main thread.
+// The objects that the methods use. Exists as long as the server. Used on the main thread only.
 struct Methods {
   rpc::EventLoop& loop;
-  Storekeeper& keeper;   // for all writing
-  store::Store& reader;  // read-only, for short work on the main thread
-  QueryThread& query;    // for all other reading and calculation
+  Storekeeper& keeper;   // writes the database
+  store::Store& reader;  // read-only; for short reading on the main thread
+  QueryThread& query;    // for all longer reading and calculation
   std::vector<std::unique_ptr<Station>>& stations;
   ActiveTables& active;
   std::string database;
   std::string started_utc;
   std::chrono::steady_clock::time_point started;
-  std::int64_t generation = 0;    // generation of the active tables; rises with each change
+  std::int64_t generation =
+      0;  // generation of the active tables; each activation and deactivation increases it
   Replayer* replayer = nullptr;   // nullptr: run.replay is rejected
   std::optional<Page> page = {};  // nullopt: the page is not served
-  std::function<void(std::int64_t generation)> announce = {};  // announces a change of the active
-                                                               // tables
-  std::function<std::vector<std::string>()> clients = {};      // connected clients
+  std::function<void(std::int64_t generation)> announce =
+      {};  // sends the message that the active tables have changed
+  std::function<std::vector<std::string>()> clients = {};  // lists the connected clients
 };
 
 #define METHODS(noun) void add_##noun##_methods(rpc::MethodTable& table, Methods& m);
@@ -67,29 +70,29 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 #undef METHODS
 }
 
-// Shared by all nouns.
-HistoryEntry caller_action(const rpc::Params& params, std::string name);  // by the caller, at the
-                                                                          // present time
+// Functions that several nouns use.
+HistoryEntry caller_action(const rpc::Params& params,
+                           std::string name);  // the user is the caller; the time is now
 // As caller_action(), with the parameter "reason".
 HistoryEntry action_with_reason(const rpc::Params& params, std::string name);
 Result<Axis> axis_param(const rpc::Params& params);
-// Parameters for the limits of a deviation or correction.
+// Parameters for the largest allowed deviation or correction.
 std::vector<rpc::Param> limit_params();
 Result<algo::TableLimits> limits_param(const rpc::Params& params);
 Result<Reference> reference_param(const rpc::Params& params);  // default: the fixture
-// MACHINE.toml as text, and the commands of its axes, for machine.at and everything that is
-// calculated from a machine. The files that it names are not yet read.
+// Parameters for methods that calculate from a machine: the text of MACHINE.toml, and the commanded
+// positions of the axes. machine_param() does not read the files that MACHINE.toml names.
 std::vector<rpc::Param> machine_params();
 Result<Machine> machine_param(const rpc::Params& params);
 std::string machine_source(const rpc::Params& params);
 std::vector<rpc::Param> command_params(const char* what);
 Result<algo::Command> command_of(const rpc::Params& params, const Machine& machine);
-// The runs along two axes: two of run_x, run_y and run_z.
+// Parameters for two runs along different axes: two of run_x, run_y and run_z.
 std::vector<rpc::Param> squareness_params(std::vector<rpc::Param> more = {});
 Result<SquarenessRequest> squareness_param(const rpc::Params& params);
 Result<Station*> find_station(Methods& m, Axis axis);
-// A handler in two steps: `read`(m, params) takes the parameters on the event loop and returns the
-// work, which makes the answer on the thread "query".
+// A handler in two steps. First, read(m, params) reads the parameters on the event loop and returns
+// a function. Then this function calculates the answer on the thread "query".
 template <class Read>
 rpc::AsyncHandler on_query(Methods& m, Read read) {
   return [&m, read](const rpc::Params& params, rpc::Reply reply) {
@@ -98,15 +101,15 @@ rpc::AsyncHandler on_query(Methods& m, Read read) {
     m.query.answer(std::move(reply), std::move(*work));
   };
 }
-// A change that is calculated on the thread "query" and then written with the writable store on the
-// storekeeper's thread. The query thread waits for the writing, so that the storekeeper's queue,
-// which the measurement needs, contains one such change at most.
+// A change of the database. The thread "query" calculates the change. The thread of the storekeeper
+// writes it. The thread "query" waits until the change is written. The queue of the storekeeper
+// therefore contains at most one such change, and the measurement can use the queue.
 using Change = std::function<Result<std::string>(store::Store&)>;
 void answer_with_change(Methods& m, rpc::Reply reply,
                         std::function<Result<Change>(store::Store& reader)> calculate);
 Result<ActiveTables> load_active(store::Store& store);
-// Stores a change of the active tables, then replaces m.active on the main thread. The answer
-// (`reply_members` with the generation) is sent after that.
+// Stores a change of the active tables, then replaces m.active on the main thread, then sends the
+// answer. The answer contains `reply_members` and the new generation.
 Change change_active(Methods& m, std::string reply_members,
                      std::function<Result<store::Activation>(store::Store&)> change);
 

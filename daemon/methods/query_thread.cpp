@@ -48,8 +48,8 @@ void QueryThread::answer(rpc::Reply reply, Work work) {
   if (!served_) deliver();
 }
 
-// Removes disconnected clients before a new one is added, so that the map never has more clients
-// than connections.
+// Adds a client. Removes disconnected clients before, so that the map never has more clients than
+// connections exist.
 void QueryThread::admit(const Key& client) {
   order_.remove_if([](const Key& key) { return key.expired(); });
   std::erase_if(clients_, [this](const auto& entry) {
@@ -57,12 +57,13 @@ void QueryThread::admit(const Key& client) {
         served_ && !served_->owner_before(entry.first) && !entry.first.owner_before(*served_);
     return entry.first.expired() && !served;
   });
-  order_.charge(clients_[client].share, kNewClientCost);  // a client that reconnects for each call
-                                                          // does not always come first
+  order_.charge(
+      clients_[client].share,
+      kNewClientCost);  // so a client that connects again for each call is not always served first
 }
 
-// Gives the next call to the thread. The call stays at the front of its client's calls until
-// done(), so that answer() does not add the client to order_ a second time.
+// Gives the next call to the thread. The call stays in the list of its client until done().
+// Otherwise answer() would add the client to order_ a second time.
 void QueryThread::deliver() {
   while (!order_.empty()) {
     const Key key = order_.take();
@@ -87,7 +88,7 @@ void QueryThread::done(Cost cost, std::string damage) {
   const Key key = *std::exchange(served_, std::nullopt);
   Client& client = clients_.at(key);
   order_.charge(client.share, cost);
-  client.calls.pop_front();  // the moved-from call
+  client.calls.pop_front();  // the call that deliver() has moved to the thread
   if (!client.calls.empty()) order_.add(key, client.share);
   deliver();
 }

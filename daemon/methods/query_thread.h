@@ -1,5 +1,5 @@
-// Answers calls that read the database or calculate for a long time, on the thread "query", so that
-// they do not block the event loop.
+// Answers calls that take long (reading of the database, calculation) on the thread "query", so
+// that these calls do not block the event loop.
 #pragma once
 
 #include <chrono>
@@ -24,25 +24,27 @@
 
 namespace mdof::daemon {
 
-// Serves one call at a time; the next call is that of the client that has used the least time of
-// the thread. Calls of disconnected clients are dropped. Pending calls stay on the event loop, and
-// the thread gets them one by one: the thread has a lower priority than the measurement, so the
-// event loop must not wait for a lock that the thread holds.
+// The thread serves one call at a time. The next call is from the client that has used the least
+// time of the thread. Calls of disconnected clients are removed. The event loop keeps the pending
+// calls and gives them to the thread one by one. The thread has a lower priority than the
+// measurement; therefore the event loop must not wait for a lock that the thread has locked.
 class QueryThread {
  public:
-  // `store`: a read-only connection to `database`. The thread owns it from here on.
+  // `store`: a read-only connection to `database`. Only the thread uses it after this call.
   QueryThread(std::shared_ptr<rpc::Executor> loop, std::filesystem::path database,
               store::Store store);
-  ~QueryThread();  // finishes the present call; the others get no answer
+  ~QueryThread();  // finishes the current call; the pending calls get no answer
 
-  // Thread-bound from here on: call it on the event loop.
+  // Call the following functions on the event loop only.
   using Work = std::function<Result<std::string>(store::Store&)>;
-  // Replies with `conflict` at once if the client has too many pending calls.
+  // Adds a call. If the client has too many pending calls, answer() replies with `conflict` at
+  // once.
   void answer(rpc::Reply reply, Work work);
-  // The thread opens the database again before the next call.
+  // Before the next call, the thread opens the database again.
   void open_again() { open_again_ = true; }
   std::uint64_t refused() const { return refused_; }
-  // The SQLite message on a damaged file in a call since the last query; empty: no damage.
+  // The message of SQLite about a damaged file, if a call has found damage since the last
+  // take_damage(). Empty: no damage.
   std::string take_damage() { return std::exchange(damage_, {}); }
 
  private:
@@ -61,7 +63,7 @@ class QueryThread {
   void admit(const Key& client);
   void deliver();
   void done(Cost cost, std::string damage);
-  // On the thread "query":
+  // The following functions run on the thread "query".
   void work();
   void serve(Call call);
 
@@ -69,15 +71,15 @@ class QueryThread {
 
   const std::shared_ptr<rpc::Executor> loop_;
   const std::filesystem::path database_;
-  // On the event loop:
+  // The following members are used on the event loop only.
   std::map<Key, Client, std::owner_less<>> clients_;
   FairOrder<Key> order_;
-  std::optional<Key> served_;  // client of the present call
+  std::optional<Key> served_;  // client of the current call
   bool open_again_ = false;
   std::uint64_t refused_ = 0;
   std::string damage_;
-  const std::shared_ptr<QueryThread*> self_;  // for messages of the thread, which may arrive after
-                                              // the destruction
+  const std::shared_ptr<QueryThread*>
+      self_;  // messages of the thread use it, because they can arrive after the destruction
 
   store::Store store_;  // used by the thread
   std::mutex mutex_;    // protects next_ and stopping_

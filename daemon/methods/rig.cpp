@@ -16,7 +16,7 @@ using rpc::ParamType;
 
 void write_vector(JsonWriter& json, const char* key, const Vec3& v, double unit = 1) {
   json.key(key).begin_array();
-  for (const double x : v) json.value(x * unit + 0.0);  // converts -0 to 0
+  for (const double x : v) json.value(x * unit + 0.0);  // + 0.0 converts -0 to 0
   json.end_array();
 }
 

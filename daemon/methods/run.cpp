@@ -34,12 +34,13 @@ using rpc::ParamType;
 using rpc::Reply;
 
 constexpr std::int64_t kMaxPointsPage = 100;
-constexpr std::size_t kMaxVisits = 1500;  // maximum count of n_ij in one reply
+constexpr std::size_t kMaxVisits = 1500;  // largest number of values n_ij in one reply
 constexpr std::int64_t kMaxRunsPage = 100;
-constexpr std::int64_t kMaxRunPoints = 100'000;  // the figures need all points; about 0.3 s
-constexpr std::size_t kMaxTargets = 1500;        // the reply lists all of them in one line
+constexpr std::int64_t kMaxRunPoints =
+    100'000;  // all points are read for the figures; this takes about 0.3 s
+constexpr std::size_t kMaxTargets = 1500;  // the reply contains all targets in one line
 
-// Reads a list of targets, or equal intervals.
+// Reads the targets: a list of positions, or equal intervals.
 Result<std::vector<double>> read_targets(const Params& params) {
   if (!params.has("from_mm") && !params.has("to_mm") && !params.has("interval_mm")) {
     for (const char* key : {"jitter_mm", "seed"})
@@ -79,8 +80,8 @@ Result<RunRequest> read_run_request(const Params& params) {
     if (!request.targets_m.empty() && from_mm(target_mm) <= request.targets_m.back()) {
       return fail(ErrorCode::usage, "targets_mm must be in ascending order");
     }
-    request.targets_m.push_back(from_mm(target_mm) + 0.0);  // converts -0 to 0, as a replay reads
-                                                            // it
+    request.targets_m.push_back(from_mm(target_mm) +
+                                0.0);  // + 0.0 converts -0 to 0; a replay reads 0
   }
   if (request.repeats > 0 && request.targets_m.empty()) {
     return fail(ErrorCode::usage,
@@ -91,7 +92,8 @@ Result<RunRequest> read_run_request(const Params& params) {
   return request;
 }
 
-// Notices on devices whose clock drift is not yet known, if there are several clocks.
+// If the station has several devices: one notice for each device whose clock drift is not known
+// yet.
 Notices unsettled_clock_notices(const Station& station) {
   const auto devices = station.devices();
   Notices found;
@@ -102,7 +104,8 @@ Notices unsettled_clock_notices(const Station& station) {
   return found;
 }
 
-// Notices on trouble before the start of the run. Trouble during the run is added at its end.
+// Notices about troubles of devices at the start of the run. The notices about later troubles are
+// added at the end of the run.
 Notices present_troubles(const Station& station) {
   Notices found;
   for (const auto& device : station.devices())
@@ -112,7 +115,7 @@ Notices present_troubles(const Station& station) {
   return found;
 }
 
-// Notices on settings of devices that change their readings, such as filters.
+// Notices about settings of devices that affect the readings, such as filters.
 Notices device_setting_notices(const Station& station) {
   Notices found;
   for (const auto& device : station.devices())
@@ -121,14 +124,15 @@ Notices device_setting_notices(const Station& station) {
   return found;
 }
 
-// Error: the run has ended, but its end is not yet stored.
+// Error: the run has ended, but the end is not stored yet.
 Status check_end_is_stored(const Methods& m, std::int64_t run) {
   const std::string why = m.keeper.still_open_reason(run);
   if (why.empty()) return {};
   return fail(ErrorCode::conflict, "run " + std::to_string(run) + " has ended; " + why);
 }
 
-// Error: several axes share the probes, and another axis uses them in a run.
+// Error: this axis shares its probes with another axis, and a run of the other axis uses the probes
+// now.
 Status check_probes_free(const Methods& m, const Station& station) {
   for (const auto& other : m.stations) {
     const std::int64_t run = other->run();
@@ -148,11 +152,12 @@ Status check_probes_free(const Methods& m, const Station& station) {
 
 void begin_run(const Methods& m, Station& station, RunRequest request, Reply reply) {
   if (auto free = check_probes_free(m, station); !free) return reply(tl::unexpected(free.error()));
-  // A resumed run has some of these notices already.
+  // If the run is resumed, request.notices contains some of these notices already.
   append_new(request.notices, present_troubles(station));
   append_new(request.notices, unsettled_clock_notices(station));
   append_new(request.notices, device_setting_notices(station));
-  // The stored run has its datum among its options, so that it does not need this notice.
+  // The reply contains the notice that the datum is missing. The stored run does not need this
+  // notice, because its options contain the datum.
   RunRequest told = request;
   if (auto missing = station.encoder().notice) told.notices.push_back(std::move(*missing));
   auto done = answer_with_run(std::move(reply), station.config().rig.axis, told);
@@ -196,7 +201,8 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
                                        " is not under way; server.info lists the runs under way"));
 }
 
-// A run that is stored as open although it is not measured gets the state `ended` and the reason.
+// If the stored state is `open` but the run is not measured any more, sets the state to `ended` and
+// adds the reason.
 void explain(const Methods& m, RunHeader& header) {
   if (header.state != RunState::open) return;
   std::string why = m.keeper.still_open_reason(header.id);
@@ -218,10 +224,11 @@ Result<QueryThread::Work> list_runs(Methods& m, const Params& params) {
   };
 }
 
-// Limits the time of a call, because other clients wait: for a long run no figures with uncertainty
-// are calculated.
+// Limits the time of a call, because other clients wait. For a run with too many points, no figures
+// with uncertainty are calculated.
 StatedRun limited_stated_run(const Run& run) {
-  constexpr std::size_t kMostStated = 5'000;  // some 0.2 s; 110 points: 0.02 s
+  constexpr std::size_t kMostStated =
+      5'000;  // calculation time about 0.2 s; with 110 points 0.02 s
   if (run.points.size() <= kMostStated) return stated_run(run);
   Run beginning = run;
   beginning.points.resize(1);

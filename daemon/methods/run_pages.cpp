@@ -14,10 +14,10 @@ namespace mdof::daemon {
 
 namespace {
 
-constexpr std::size_t kAfterFirst = 1;  // restated_points() returns the run's first point before
-                                        // the page
+constexpr std::size_t kAfterFirst =
+    1;  // restated_points() returns the first point of the run, then the page
 
-// `run`: as from restated_points().
+// `run`: result of restated_points().
 std::string imported_page(const Run& run, std::int64_t total, std::int64_t offset) {
   const std::string key = imported_run_error(run.header).key();
   JsonWriter json;

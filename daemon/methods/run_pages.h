@@ -1,4 +1,4 @@
-// The points of a run in pages, for run.points.
+// Reads the points of a run in pages, for the method run.points.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace mdof::daemon {
 
-// Runs on the thread "query". u of a point needs all points of its run, so u of the run of the last
-// call is kept.
+// Used on the thread "query" only. u of a point depends on all points of the run. The object
+// therefore keeps u of the run that was requested last.
 class RunPages {
  public:
   Result<std::string> points(store::Store& store, std::int64_t id, rpc::ListPage page,

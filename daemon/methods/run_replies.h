@@ -1,4 +1,5 @@
-// The replies of run.start, run.resume and run.stop. Private header of methods/run.cpp.
+// The replies of the methods run.start, run.resume and run.stop. Only methods/run.cpp includes this
+// header.
 #pragma once
 
 #include <memory>
@@ -25,7 +26,8 @@ inline std::string run_reply(std::int64_t id, Axis axis, const RunRequest& reque
   return json.take();
 }
 
-// Answers the callback of a station, which runs on another thread.
+// Returns a callback for a station. The callback sends the reply. It runs on the thread of the
+// station.
 inline RunDone answer_with_run(rpc::Reply reply, Axis axis, const RunRequest& request) {
   auto shared = std::make_shared<rpc::Reply>(std::move(reply));
   return [shared, axis, request](const Result<std::int64_t>& id) {
@@ -33,8 +35,8 @@ inline RunDone answer_with_run(rpc::Reply reply, Axis axis, const RunRequest& re
   };
 }
 
-// The reply for a run that has ended, from the database. Unreadable members are null, because the
-// run has ended in any case.
+// The reply for a run that has ended. The database contains its members. If the run cannot be read,
+// these members are null; the reply is no error, because the run has ended.
 inline std::string ended_reply(store::Store& reader, std::int64_t id, Axis axis) {
   auto stored = reader.run_header(id);
   JsonWriter json;
@@ -52,7 +54,8 @@ inline std::string ended_reply(store::Store& reader, std::int64_t id, Axis axis)
   return json.take();
 }
 
-// Reads the run on the event loop, after its end was stored.
+// Returns a callback for a station. When the end of the run is stored, the event loop reads the run
+// and sends the reply.
 inline RunDone answer_with_end(Methods& m, rpc::Reply reply, Axis axis) {
   auto shared = std::make_shared<rpc::Reply>(std::move(reply));
   return [&m, shared, axis](const Result<std::int64_t>& id) {

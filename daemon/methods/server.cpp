@@ -1,4 +1,5 @@
-// server.info, device.list, live.subscribe, live.unsubscribe; and functions that all nouns share.
+// The methods server.info, device.list, live.subscribe and live.unsubscribe, and functions that
+// several nouns use.
 #include <cstdio>
 #include <filesystem>
 
@@ -30,7 +31,7 @@ void write_encoder(JsonWriter& json, const EncoderState& encoder) {
 
 std::string server_info(const Methods& m) {
   const auto up = std::chrono::steady_clock::now() - m.started;
-  std::error_code ec;  // absolute, because the client's folder differs
+  std::error_code ec;  // the path is absolute, because the client has another working folder
   const auto database = std::filesystem::absolute(m.database, ec);
   JsonWriter json;
   json.begin_object()
@@ -86,7 +87,7 @@ std::string device_list(const Methods& m) {
   json.begin_object().key("devices").begin_array();
   for (const auto& station : m.stations) {
     for (const auto& status : station->devices()) {
-      // The JSON object of the device, with the axis as its first member.
+      // The JSON object of the device. The axis is its first member.
       json.raw(std::string("{\"axis\":\"") + letter(station->config().rig.axis) + "\"," +
                device_json(status).substr(1));
     }
@@ -193,10 +194,11 @@ Result<ActiveTables> load_active(store::Store& store) {
       continue;
     }
     if (active) {
-      // A table with unreadable runs is doubtful, too.
+      // If runs of the table cannot be read, the table is doubtful, too.
       const auto doubtful = doubtful_notices(store, active->table);
       active->doubtful = !doubtful || !doubtful->empty();
-      algo::add_curvatures(active->table);  // compensation.at is called often
+      algo::add_curvatures(
+          active->table);  // calculated once, because compensation.at is called often
       tables.axes[static_cast<std::size_t>(axis)] =
           std::make_shared<const store::ActiveTable>(std::move(*active));
     } else if (active.error().code != ErrorCode::not_found) {

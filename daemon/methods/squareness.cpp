@@ -16,7 +16,7 @@ void squareness(Methods& m, const Params& params, Reply reply) {
   SquarenessRequest request = std::move(*asked);
   if (params.has("artefact_angle_error_urad"))
     request.given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
-  // Earlier versions used the second name.
+  // Clients of earlier versions use the second name.
   for (const char* key : {"u_artefact_angle_urad", "u_artefact_urad"})
     if (params.has(key)) request.given.u_rad = from_urad(params.number(key));
   request.action = caller_action(params, "squareness.fit");
@@ -33,7 +33,7 @@ void squareness(Methods& m, const Params& params, Reply reply) {
 
 constexpr std::array kRunKeys = {"run_x", "run_y", "run_z"};
 
-// run_a and run_b: their axes follow from the runs.
+// The request with run_a and run_b. The axes are read from the runs.
 Result<SquarenessRequest> runs_in_order(const Params& params, bool named_by_axis) {
   if (named_by_axis || !params.has("run_a") || !params.has("run_b"))
     return fail(ErrorCode::usage,

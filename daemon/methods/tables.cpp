@@ -15,7 +15,7 @@ using rpc::ParamType;
 constexpr std::int64_t kMaxTablesPage = 20;
 constexpr std::int64_t kMaxRowsPage = 1000;
 
-// The generation of an active table, otherwise 0.
+// The generation of the table if it is active; otherwise 0.
 std::int64_t generation_of(const ActiveTables& active, const CompensationTable& table) {
   const auto& of_axis = active.axes[static_cast<std::size_t>(table.axis)];
   return of_axis && of_axis->table.id == table.id ? of_axis->generation : 0;
@@ -25,8 +25,8 @@ std::int64_t generation_of(const ActiveTables& active, const VolumetricTable& ta
   return active.volume && active.volume->table.id == table.id ? active.volume->generation : 0;
 }
 
-// Tables of axes and of volumes are two lists. If only tables of one axis or only volumes are
-// requested, "tables" contains them.
+// The kinds of tables in the document. `both`: two lists, axis tables and volumetric tables. `axis`
+// and `volumes`: only the list "tables", with the requested kind.
 enum class Listed { both, axis, volumes };
 
 struct TablesRequest {

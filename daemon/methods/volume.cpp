@@ -76,10 +76,10 @@ std::string built_json(const BuiltVolumetric& built) {
   return with_notices(document, built.notices, words::text);
 }
 
-// Files in the folder of MACHINE.toml, opened with the permissions of the client.
+// Opens files in the folder of MACHINE.toml with the permissions of the client.
 struct ClientFiles {
   std::string source;
-  std::optional<FileUser> user;  // nullopt: the client is not on the Unix socket
+  std::optional<FileUser> user;  // nullopt: the client is not connected through the Unix socket
 
   Status read(VolumetricTableRequest& request) const {
     if (!has_table_files(request.machine)) return {};
@@ -199,7 +199,8 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
   json.begin_object().field("axis", "volume");
   for (std::size_t k = 0; k < 3; ++k) {
     const std::string key = std::string(1, kAxes[k]) + "_mm";
-    const bool stands = table.command_m[k].size() == 1;  // its only position is the default
+    const bool stands =
+        table.command_m[k].size() == 1;  // the grid has only one position of this axis: the default
     if (!params.has(key) && !stands)
       return fail(ErrorCode::usage, key + " is missing; give the commanded position of " +
                                         kAxes[k] + ", which is an axis of the grid");
@@ -208,7 +209,7 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
   }
   write_rotary(json, table);
   algo::VolumetricValue value = algo::volumetric_at(table, command_m);
-  if (!value.inside)  // value of another position; its u does not hold here
+  if (!value.inside)  // outside, the value is from another position, so its u is not valid
     for (Vec3* u : {&value.u_m, &value.u_common_m, &value.u_independent_m}) u->fill(std::nan(""));
   write_um(json, "correction", value.correction_m);
   write_um(json, "u", value.u_m);

@@ -1,4 +1,4 @@
-// The methods compensation.* for volumetric tables. Private header of methods/.
+// The methods compensation.* for volumetric tables. Only files of methods/ include this header.
 #pragma once
 
 #include "daemon/methods/methods.h"
@@ -6,15 +6,16 @@
 
 namespace mdof::daemon {
 
-// Maximum number of nodes in a page; the limit of bytes may allow fewer.
+// Largest number of nodes in a page. The limit of bytes can make a page shorter.
 inline constexpr std::int64_t kMaxNodesPage = 1000;
 
-// Parameter of activate and deactivate; nullopt if not given.
+// Optional parameter of compensation.activate and compensation.deactivate.
 std::optional<std::int64_t> expected_generation_param(const rpc::Params& params);
-// {"axis": "volume"}
+// Whether the parameters contain {"axis": "volume"}.
 bool is_volume(const rpc::Params& params);
 void deactivate_volume(Methods& m, const rpc::Params& params, rpc::Reply reply);
-void write_volume_status(JsonWriter& json, const Methods& m);  // null: none is active
+void write_volume_status(JsonWriter& json,
+                         const Methods& m);  // null: no volumetric table is active
 Result<std::string> volume_grid(const Methods& m, const rpc::Params& params);
 Result<std::string> volume_at(const Methods& m, const rpc::Params& params);
 

@@ -20,8 +20,9 @@ bool is_member(const FileUser& user, gid_t group) {
   return user.gid == group || std::find(further.begin(), further.end(), group) != further.end();
 }
 
-// mdofd reads on behalf of the caller, so it must not read what the caller may not read. Exception:
-// users of the socket may read logs of mdofd's own group.
+// Whether the user has the permission to read the file. mdofd must not read other files for the
+// user. Exception: users of the socket may read files of the group of mdofd if this group may read
+// them.
 bool may_read(const FileUser& user, const struct stat& file) {
   if (user.uid == 0 || user.uid == ::geteuid()) return true;
   if (user.uid == file.st_uid) return (file.st_mode & S_IRUSR) != 0;
@@ -30,7 +31,8 @@ bool may_read(const FileUser& user, const struct stat& file) {
   return (file.st_mode & S_IROTH) != 0;
 }
 
-// Errors that the path causes are mistakes of the caller, as if `mdof` opened the file itself.
+// Whether the path causes the error. Such an error is bad_input (a mistake of the caller), as when
+// the command line opens a file.
 bool is_path_error(int why) {
   return why == ENOENT || why == ENOTDIR || why == EACCES || why == ELOOP || why == ENAMETOOLONG;
 }
@@ -57,9 +59,10 @@ Status check_file(const FileUser& user, const std::string& path, int place) {
   return bad_input(path + ": you have no permission to read this file; check its owner and mode");
 }
 
-// Opens the path with O_PATH first, which reads nothing, does not block and does not affect locks
-// on the file (closing a normal descriptor would release locks of mdofd itself). After the check,
-// exactly this file is opened for reading, even if its name now refers to another file.
+// Opens the path with O_PATH first. Such a descriptor reads nothing, does not block and does not
+// affect locks on the file. A normal descriptor would release locks of mdofd when it is closed.
+// After the check, the same file is opened for reading, even if the path refers to another file
+// now.
 Result<Descriptor> open_checked(const FileUser& user, const std::string& path) {
   const Descriptor place(::open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
   if (place.get() < 0) return cannot_open(path, errno);

@@ -1,5 +1,5 @@
-// Opens a file that a client names. All such files are opened here: once, with the permissions
-// checked on the open file, and then read only through its descriptor.
+// Opens the files that clients name. mdofd opens each file only once and then checks the
+// permissions of the open file. It reads the file only through the descriptor.
 #pragma once
 
 #include <sys/types.h>
@@ -12,7 +12,7 @@
 
 namespace mdof::daemon {
 
-// The requesting user: uid and groups as the kernel reports them.
+// The user that sends the request. The kernel reports uid and groups.
 struct FileUser {
   uid_t uid = 0;
   gid_t gid = 0;
@@ -21,14 +21,15 @@ struct FileUser {
 
 struct ClientFile {
   rpc::Descriptor file;
-  rpc::Descriptor wal;  // the WAL file of a recording whose changes are not yet in the file; -1:
-                        // none
+  rpc::Descriptor wal;  // the WAL file of a recording: it contains changes that are not in the file
+                        // yet; -1: no WAL file
 };
 
-// Opens the file for reading. A terminal does not become the controlling terminal of mdofd; a pipe
-// without writer does not block. Errors: a path that is not absolute or is a link; no regular file;
-// a file that the user or mdofd may not read. May block on the file system, so do not call it on
-// the event loop.
+// Opens the file for reading. If the path is a terminal, it does not become the controlling
+// terminal of mdofd. If the path is a pipe without a writer, the function does not block. Errors:
+// the path is not absolute, or is a link; the file is not a regular file; mdofd is writing the
+// file; the user or mdofd has no permission to read the file. Do not call the function on the event
+// loop, because the file system can block it.
 Result<ClientFile> open_for(const FileUser& user, const std::string& path);
 
 }  // namespace mdof::daemon

@@ -1,4 +1,4 @@
-// run.replay, run.import: runs from clients' files.
+// The methods run.replay and run.import: runs from files of clients.
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/imported/import.h"
 #include "daemon/measure/replay/replay_document.h"
@@ -40,7 +40,7 @@ Result<std::optional<PositioningSense>> sense_param(const Params& params) {
   return fail(ErrorCode::usage, "sense \"" + text + "\" must be \"command\" or \"body\"");
 }
 
-// Whether the body moves towards - while the command increases.
+// Parameter "travel". True ("-"): the body moves towards - when the command increases.
 Result<std::optional<bool>> travel_param(const Params& params) {
   if (!params.has("travel")) return std::nullopt;
   const std::string text(params.string("travel"));
@@ -91,7 +91,7 @@ Result<Replayer::Made> imported(ImportRequest request, const FileUser& user,
 template <class Request>
 using MakeRun = Result<Replayer::Made> (*)(Request, const FileUser&, const ProgressCallback&);
 
-// Opens the file with the permissions of the client, on the replayer's thread.
+// Opens the file with the permissions of the client. Runs on the thread "replay".
 template <class Request>
 void store_run(Methods& m, const Params& params, Result<Request> request, MakeRun<Request> make,
                const char* method, Reply reply) {

@@ -30,8 +30,8 @@ struct Replayer::Shared {
   std::mutex mutex;  // protects ended and working
   std::condition_variable ended;
   bool working = false;
-  Storekeeper& keeper;  // use only under the mutex and before `stopping`, because it is destroyed
-                        // after that
+  Storekeeper&
+      keeper;  // use it only with the mutex locked and `stopping` false; later it is destroyed
 };
 
 void Replayer::Shared::work(const Make& make, const HistoryEntry& action, const Done& done) {
@@ -40,7 +40,8 @@ void Replayer::Shared::work(const Make& make, const HistoryEntry& action, const 
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
   auto made = make([this](const Progress&) { return !stopping; });
   const std::lock_guard lock(mutex);
-  busy = false;  // before the reply, because its receiver may send the next request
+  busy = false;  // set before the reply is sent, because the client may then send the next request
+                 // at once
   if (!stopping) store(std::move(made), action, done);
   working = false;
   ended.notify_all();
@@ -82,7 +83,8 @@ void Replayer::start(Make make, const HistoryEntry& action, Done done) {
     return done(
         fail(ErrorCode::conflict,
              "mdofd is replaying or importing another file; try again when mdofd has finished"));
-  if (thread_.joinable()) thread_.join();  // the thread has finished, or is about to finish
+  if (thread_.joinable())
+    thread_.join();  // waits only briefly: `busy` was false, so the thread is at its end
   {
     const std::lock_guard lock(shared_->mutex);
     shared_->working = true;

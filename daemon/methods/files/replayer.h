@@ -1,6 +1,6 @@
-// Calculates runs from clients' files, one at a time, on the thread "replay". A client cannot write
-// the database while this daemon does; the daemon reads the file itself, so that it stores only its
-// own results.
+// Calculates runs from files of clients, one file at a time, on the thread "replay". Only mdofd may
+// write its database. mdofd reads the file itself, so that it stores only results that it has
+// calculated.
 #pragma once
 
 #include <functional>
@@ -15,31 +15,33 @@
 
 namespace mdof::daemon {
 
-// Call it from the main thread only. The storekeeper must outlive it.
+// Use this class on the main thread only. The storekeeper must exist longer than the Replayer.
 class Replayer {
  public:
   explicit Replayer(Storekeeper& keeper);
-  // Cancels the present file. If its file system does not respond, the thread is abandoned after a
-  // while. was_abandoned() is then true, and the process must exit without waiting for threads.
+  // Cancels the current file. If the file system does not respond within two seconds, the
+  // destructor abandons the thread. was_abandoned() then returns true, and the process must exit
+  // without waiting for threads.
   ~Replayer();
   static bool was_abandoned();
 
-  // A run, its uncertainty for SQL users, and a function that makes the reply from the stored run.
-  // The function runs on the thread that stores the run, so it must be short.
+  // A calculated run. `uncertainty`: stored with the run, for users who read the database with SQL.
+  // `document`: writes the reply from the stored run. It runs on the thread that stores the run, so
+  // it must be short.
   struct Made {
     std::shared_ptr<Run> run;
     RunUncertainty uncertainty;
     std::function<std::string(const Run&)> document;
   };
-  // `make` runs on the thread and ends soon after its callback has returned false. `done` gets the
-  // document of the stored run or the error, on another thread; if another file is in progress, it
-  // gets `conflict` at once.
+  // `make` runs on the thread "replay". It must end soon after its callback has returned false.
+  // `done` receives the document of the stored run, or the error; it can be called on another
+  // thread. If another file is in progress, `done` receives the error `conflict` at once.
   using Make = std::function<Result<Made>(const ProgressCallback&)>;
   using Done = std::function<void(Result<std::string>)>;
   void start(Make make, const HistoryEntry& action, Done done);
 
  private:
-  struct Shared;  // shared with the thread, which may outlive this object
+  struct Shared;  // shared with the thread; the thread can exist longer than this object
   std::shared_ptr<Shared> shared_;
   std::thread thread_;
 };

@@ -1,5 +1,5 @@
-// Checks whether mdofd can start with a valid configuration, before anything is opened. Errors
-// state file, line, key and remedy.
+// Checks, before mdofd opens any file or device, whether it can start with a valid configuration.
+// Errors state file, line, key and remedy.
 #pragma once
 
 #include <string>
@@ -9,15 +9,19 @@
 
 namespace mdof::daemon {
 
-// Errors: folders of the database, the recordings or the socket that are missing and cannot be
-// created, or are not writable; other files with these paths; two entries for the same device.
+// Errors:
+//   - a folder (database, recordings, socket, token file) is missing and cannot be created;
+//   - a folder or file is not writable;
+//   - the path of the socket is another kind of file;
+//   - two tables of the configuration state the same device.
 Status check_start(const Config& config);
 
-// Creates the folder of the socket and its parents, searchable by all and writable by the owner. An
-// existing folder does not change.
+// Creates the folder of the socket and its parent folders. All users can enter these folders, and
+// only the owner can write in them. A folder that exists does not change.
 Status make_socket_folder(const std::string& socket);
 
-// The message if `file` does not exist. It contains a first configuration with the simulator.
+// The message if the configuration `file` does not exist. It contains an example configuration with
+// the simulator.
 std::string first_configuration(const std::string& file);
 
 }  // namespace mdof::daemon

@@ -1,5 +1,5 @@
-// Detects changes of the time of day. Measurements have monotonic times and are not affected, but
-// the displayed times jump, so the change is reported.
+// Detects that the UTC clock of the computer was set. Measurements use the monotonic clock, so they
+// are not affected. mdofd reports the change, because displayed times jump.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace mdof::daemon {
 
-// Pure: the caller reads both clocks at the same moment.
+// Does not read clocks. The caller reads both clocks at the same moment.
 class ClockWatch {
  public:
-  // The change of the time of day since the previous call; nullopt if it was not set. Slower
-  // changes are normal clock discipline.
+  // The step of the UTC clock since the previous call, ns. nullopt if the step is 50 ms or less:
+  // time synchronisation makes such small changes.
   std::optional<std::int64_t> look(std::int64_t utc_ns, std::int64_t boot_ns) {
     const std::int64_t offset = utc_ns - boot_ns;
     const std::int64_t step = offset - std::exchange(offset_ns_, offset).value_or(offset);

@@ -12,11 +12,11 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr int kDigits = 9;        // digits of a metre in nanometres
-constexpr double kRest_m = 5e-6;  // an axis at rest may vibrate by this
+constexpr int kDigits = 9;        // digits of a length of 1 m in nm
+constexpr double kRest_m = 5e-6;  // largest vibration of an axis at rest
 constexpr std::int64_t kRest_ns = 200'000'000, kStale_ns = 1'000'000'000;
 
-// Notice that the last setting is no longer valid.
+// The notice that the axis position that a user set last is no longer valid.
 Notice position_lost(const DatumSetting& said, bool since_start, const EncoderDatum& now) {
   return notice(NoticeCode::position_lost, std::string(1, letter(said.axis)),
                 {{"position_mm", to_mm(said.position_m)},
@@ -81,7 +81,7 @@ std::string EncoderZero::device() const {
   return device_;
 }
 
-// Factor from raw values of this unit to metres.
+// Factor from raw values in this unit to metres.
 double EncoderZero::metres_per(Unit unit) const {
   switch (unit) {
     case Unit::um:
@@ -93,7 +93,7 @@ double EncoderZero::metres_per(Unit unit) const {
     case Unit::volt:
       return from_um(um_per_V_.value_or(0));
     default:
-      return 0;  // no length; the calibration reports it
+      return 0;  // the unit is no length; the calibration reports this error
   }
 }
 
@@ -178,7 +178,8 @@ void EncoderZero::lose(const std::string& device) {
   runs_.clear();
   counts_ = true;
   found_ = false;
-  if (datum_.kind == EncoderDatum::Kind::index) datum_.offset_m = 0;  // belonged to the mark
+  if (datum_.kind == EncoderDatum::Kind::index)
+    datum_.offset_m = 0;  // the offset was valid only for the mark
   datum_.kind = EncoderDatum::Kind::none;
   datum_.device = device;
   datum_.utc = datum_.by = "";
@@ -189,7 +190,7 @@ bool EncoderZero::pass_mark(const std::string& device, const std::string& utc) {
   if (!index_m_ || (!device_.empty() && device != device_)) return false;
   datum_ = {EncoderDatum::Kind::index, *index_m_, device, utc, ""};
   found_ = false;
-  count_ = 0;  // the readings at rest had another origin
+  count_ = 0;  // the collected readings have another origin
   return true;
 }
 

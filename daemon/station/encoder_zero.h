@@ -1,6 +1,6 @@
-// Converts the readings of an axis' encoder to positions of the machine before they are recorded or
-// measured. An incremental encoder starts at 0 at any position of the axis, so a user must set the
-// position.
+// Converts the readings of the encoder of an axis to machine positions. This is done before the
+// samples are recorded and measured. After power-on, an incremental encoder reads 0 at any axis
+// position. Therefore a user must set the axis position.
 #pragma once
 
 #include <cstdint>
@@ -17,46 +17,50 @@
 
 namespace mdof::daemon {
 
-// The present datum, and a notice if it is missing or was lost. `note` is the text of the notice,
-// otherwise the text of the setting; "": neither.
+// The current datum of the encoder. `notice`: the datum is missing or was lost. `note`: the text of
+// the notice; without a notice, a text that states who set the position and when; "" if no position
+// was set.
 struct EncoderState {
   EncoderDatum datum;
   std::optional<Notice> notice;
   std::string note;
 };
 
-// datum(), state() and device() are thread-safe. Call all others from the measure thread.
+// datum(), state() and device() are thread-safe. Call all other functions on the measure thread.
 class EncoderZero {
  public:
-  // `um_per_V`: for an encoder in volts. `before`: the last setting before this program started,
-  // which is no longer valid.
+  // `before`: the last position that was set before this program started. It is no longer valid.
+  // `um_per_V`: scale of an encoder whose readings are in volts.
   explicit EncoderZero(const std::vector<drivers::DriverSpec>& devices,
                        std::optional<DatumSetting> before = std::nullopt,
                        std::optional<double> um_per_V = std::nullopt);
 
-  // Adds the offset to the encoder's values in `block`, if any, and keeps the readings.
+  // Adds the offset of the datum to the encoder values in `block`. Also updates the mean position
+  // at rest.
   void apply(SampleBlock& block);
-  // The setting for an axis that is now at `position_m`; it is not yet applied. Error (conflict):
-  // the axis has not been at rest for 0.2 s, or its encoder has sent nothing for 1 s.
+  // Calculates the setting of the datum so that the current axis position becomes `position_m`. The
+  // setting is not applied yet. Error (conflict): the axis was not at rest during the last 0.2 s,
+  // or the encoder has sent no sample for 1 s.
   Result<DatumSetting> find(Axis axis, double position_m, const std::string& utc);
-  // Applies the setting. Error (conflict): the device has lost power, or its reference mark was
-  // passed, since find().
+  // Applies the setting from find(). Error (conflict): after find(), the device lost power or the
+  // encoder passed its reference mark.
   Result<EncoderDatum> put(const DatumSetting& setting, const std::string& by);
-  // The device's count has a new, unknown origin.
+  // The device has lost its count. The count now has a new, unknown origin.
   void lose(const std::string& device);
-  // From now on the device counts from its reference mark; this replaces any other datum. False:
-  // the device does not give the encoder, or the configuration uses no mark.
+  // From now, the device counts from its reference mark. This replaces any other datum. Returns
+  // false if the encoder belongs to another device, or if the configuration states no position of
+  // the mark.
   bool pass_mark(const std::string& device, const std::string& utc);
 
   EncoderDatum datum() const;
   EncoderState state() const;
-  // A run begins.
+  // Notes that a run begins.
   void begins(std::int64_t run);
-  // Whether the encoder has counted from the same origin since the run began. False if unknown: the
-  // run began before this program, or before its device lost power. Always true for an encoder that
-  // does not count.
+  // Whether the origin of the count is the same as at the beginning of the run. False if the run
+  // began before this program started, or before the device lost power: the origin is then unknown.
+  // Always true for an absolute encoder.
   bool has_counted_since(std::int64_t run) const;
-  // The device that gives the encoder; "": unknown before its first sample.
+  // The device that provides the encoder. It can be unknown ("") before the first sample.
   std::string device() const;
 
  private:
@@ -66,17 +70,19 @@ class EncoderZero {
 
   const std::optional<double> um_per_V_;
   mutable std::mutex mutex_;
-  EncoderDatum datum_;             // protected by mutex_
-  bool counts_ = false;            // protected by mutex_
-  std::set<std::int64_t> runs_;    // since the present origin of the count; protected by mutex_
-  std::string device_;             // protected by mutex_
-  std::optional<double> index_m_;  // axis position at the encoder's reference mark
-  // The last setting, before or since the start of this program. Protected by mutex_.
+  EncoderDatum datum_;   // protected by mutex_
+  bool counts_ = false;  // protected by mutex_
+  std::set<std::int64_t>
+      runs_;            // runs that began with the current origin of the count; protected by mutex_
+  std::string device_;  // protected by mutex_
+  std::optional<double> index_m_;  // axis position at the reference mark of the encoder
+  // The last setting. since_start_: whether it was made after this program started. Protected by
+  // mutex_.
   std::optional<DatumSetting> last_;
   bool since_start_ = false;
   bool found_ = false;  // set by find(), reset when the count gets a new origin
 
-  // Statistics of the values with their offset since the axis stopped.
+  // Statistics of the positions (with offset) since the axis stopped.
   double rest_m_ = 0, sum_m_ = 0;
   std::uint64_t count_ = 0;
   std::int64_t since_ns_ = 0, last_ns_ = 0;

@@ -1,4 +1,4 @@
-// JSON of the live state: devices and the newest instant.
+// Writes the live state as JSON: the devices, and the newest readings.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,28 @@
 
 namespace mdof::daemon {
 
-// {"drift_ppm", "jitter_ms", "settled", "steps"}, or null.
+// Writes {"drift_ppm", "jitter_ms", "settled", "steps"}, or null without a clock.
 void write_clock(JsonWriter& json, const std::optional<drivers::ClockState>& clock);
-// One device as in device.list, without its axis. "rate_hz": the stated rate, otherwise the
-// measured one, or null if unknown.
+// One device as in the reply of device.list, without the member "axis". "rate_hz" is the rate that
+// the device states. If the device states no rate, it is the measured rate, or null if unknown.
 std::string device_json(const DeviceStatus& status);
 // An array of devices.
 std::string devices_json(const std::vector<DeviceStatus>& devices);
 
 struct LiveState {
   bool simulated = false;
-  bool stale = false;    // no newer instant within the stale time: no value is shown as good
-  std::int64_t run = 0;  // 0: none
-  std::vector<std::string> trouble = {};  // present troubles of the axis' devices
+  bool stale =
+      false;  // the newest readings are older than stale_s, so no reading has the quality "good"
+  std::int64_t run = 0;                   // 0: no run
+  std::vector<std::string> trouble = {};  // current troubles of the devices of the axis
 };
 
-// The value of live.update: {"axis", "time_ns", "encoder_mm", "still", "simulated", "stale",
-// "waiting_for", "probes": [{"id", "um", "low_um", "high_um", "quality", "range_um"}], "errors":
-// {...} | null, "run": id | null, "trouble": [...]}. Errors are null while stale. low_um and
-// high_um are the extremes of the last second, so that a spike between two updates is visible.
+// The value of the topic live.update:
+//   {"axis", "time_ns", "encoder_mm", "still", "simulated", "stale", "waiting_for",
+//    "probes": [{"id", "um", "low_um", "high_um", "quality", "range_um"}],
+//    "errors": {...} | null, "run": id | null, "trouble": [...]}
+// "errors" is null if the readings are stale. low_um and high_um are the smallest and the largest
+// reading of the last second, so that a spike between two messages is visible.
 std::string live_json(const Rig& rig, const Pipeline& pipeline, const RecentRange& recent,
                       const LiveState& state);
 

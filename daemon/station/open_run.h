@@ -1,4 +1,4 @@
-// A run in progress. The measure thread owns it. Private to station*.cpp.
+// A run in progress. Only the measure thread uses it. Only station*.cpp include this header.
 #pragma once
 
 #include <optional>
@@ -15,23 +15,24 @@ struct Station::OpenRun {
   std::int64_t id;
   RunRequest request;
   Pipeline pipeline;
-  std::vector<MeasuredPoint> stored;               // as sent to the store
-  std::optional<Continuation> continues;           // the recording of another run
-  Unrecorded unrecorded;                           // not yet sent to the store
-  std::chrono::steady_clock::time_point recorded;  // last time of sending
-  std::uint64_t blocks_not_recorded = 0;  // number of blocks for which the store's queue had no
-                                          // space
-  std::optional<std::int64_t> left_out_ns = {};  // begin of the last reported stop that was left
-                                                 // out
-  TroubleLog troubles = {};                      // troubles of the devices since the run began
-  EncoderDatum datum = {};                       // datum of its positions
+  std::vector<MeasuredPoint> stored;      // points that were sent to the store
+  std::optional<Continuation> continues;  // set if the run continues another run
+  Unrecorded unrecorded;                  // samples that were not sent to the store yet
+  std::chrono::steady_clock::time_point
+      recorded;  // time at which samples were sent to the store last
+  std::uint64_t blocks_not_recorded =
+      0;  // number of blocks for which the queue of the store had no space
+  std::optional<std::int64_t> left_out_ns =
+      {};                    // begin of the last stop that was reported as left out
+  TroubleLog troubles = {};  // troubles of the devices after the run began
+  EncoderDatum datum = {};   // datum of the positions
   Model model = Model::rigid;
 };
 
-// The initial state of a run that continues another one.
+// The initial state of a run that continues another run.
 struct Station::Beginning {
   Pipeline pipeline;
-  std::int64_t end_ns;  // time of the last scan
+  std::int64_t end_ns;  // time of the last scan of the other run
 };
 
 }  // namespace mdof::daemon

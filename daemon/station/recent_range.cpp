@@ -8,12 +8,13 @@ namespace {
 
 void widen(RecentRange::Range& range, const double* begin, const double* end) {
   for (const double* reading = begin; reading != end; ++reading) {
-    range.low_m = std::fmin(range.low_m, *reading);  // fmin returns the number if one is NaN
+    range.low_m =
+        std::fmin(range.low_m, *reading);  // if one value is NaN, fmin returns the other value
     range.high_m = std::fmax(range.high_m, *reading);
   }
 }
 
-// Rounds down, because a log may begin before 0 s.
+// Division that rounds down, also for the negative times of some logs.
 std::int64_t quotient(std::int64_t x, std::int64_t by) {
   return x / by - (x % by < 0 ? 1 : 0);
 }

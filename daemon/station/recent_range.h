@@ -1,5 +1,5 @@
-// Minimum and maximum reading of each probe over the last second, for a view that shows few
-// instants.
+// Smallest and largest reading of each probe during the last second. The live view uses them,
+// because it shows only few of the frames.
 #pragma once
 
 #include <array>
@@ -11,15 +11,16 @@
 
 namespace mdof::daemon {
 
-// Thread-bound. Uses the time of the instants, so that the same samples give the same ranges.
+// Thread-bound. Uses the times of the frames and no clock. The result therefore depends only on the
+// samples.
 class RecentRange {
  public:
   struct Range {
     double low_m = kNaN, high_m = kNaN;  // NaN: no reading
   };
-  // NaN readings are ignored. If the time decreases (another pass of a file), it starts again.
+  // Ignores NaN. If the time decreases (a file is read again), all older readings are removed.
   void add(const FrameBlock& frames);
-  // Range over the last 0.9 to 1 s up to and including the newest instant.
+  // The range during the last 0.9 s to 1 s, including the newest frame.
   Range of(std::size_t probe) const;
 
  private:
@@ -30,7 +31,7 @@ class RecentRange {
     std::vector<Range> probes = {};  // empty: no readings
   };
   std::array<Part, kParts> parts_;
-  std::int64_t newest_ = 0;  // part number; 0 before the first
+  std::int64_t newest_ = 0;  // number of the newest part; 0 before the first frame
 };
 
 }  // namespace mdof::daemon

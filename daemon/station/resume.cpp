@@ -10,7 +10,8 @@ namespace mdof::daemon {
 namespace {
 
 constexpr std::chrono::milliseconds kLogTimeout{1000};
-// Pause between the two parts; longer than the time differences between the devices of an axis.
+// Pause between the two parts of the run. It is longer than the differences between the times of
+// the devices of an axis.
 constexpr std::int64_t kPause_ns = 5'000'000'000;
 constexpr int kBlocksPerCommit = 64;
 
@@ -38,8 +39,8 @@ Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisCon
   return {};
 }
 
-// Whether a notice concerns samples or targets that the new run keeps, and cannot be found again
-// from the samples.
+// Whether the new run keeps this notice of the old run. It is kept if the new run cannot calculate
+// it again from the samples.
 bool stays(const Notice& of_run) {
   using enum NoticeCode;
   const std::initializer_list<NoticeCode> kept = {run_goes_on,         device_trouble,
@@ -115,7 +116,8 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
                    "present positions is not the zero of the run; start a new run");
   }
   const bool in_machine = of_run.kind == Kind::set || of_run.kind == Kind::configured;
-  if (in_machine && now.kind == Kind::set) return {};  // both are positions in the machine
+  if (in_machine && now.kind == Kind::set)
+    return {};  // the positions of both parts are machine positions
   if (alike && counts_on) return {};
   if (of_run.kind == Kind::none)
     return refused(cut_off.id,

@@ -1,5 +1,6 @@
-// Continues a run that was cut off or stopped early as a new run that supersedes it. Its recording
-// is recorded and measured again; then the samples of the devices follow.
+// Continues a run that ended early. The continued run is a new run that supersedes the old run.
+// mdofd first copies and measures the recording of the old run, and then measures the samples of
+// the devices.
 #pragma once
 
 #include <atomic>
@@ -18,38 +19,42 @@
 
 namespace mdof::daemon {
 
-// The request of the run, with the run itself as the start. Errors: not_found; conflict, if the run
-// is complete, in progress, not recorded here, superseded, of another rig, or if only one of the
-// run and the axis is simulated.
+// The request for a run that continues `run`. Errors: not_found; conflict if the old run
+//   - is complete, in progress or superseded,
+//   - was not recorded by mdofd,
+//   - has another rig than the axis has now, or
+//   - was simulated and the axis is not, or the other way round.
 Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
                                      const AxisConfig& axis);
 
-// A run is evaluated with the same settings throughout. Error (conflict): these settings would
-// change its first part.
+// Both parts of a run must be evaluated with the same settings. Error (conflict): `now` differs
+// from the settings of the old run.
 Status check_same_settings(const CutOffRun& cut_off, const PipelineOptions& now);
 
-// A run has one datum. Error (conflict): equal positions in the run and `now` are, or may be,
-// different places. `counts_on`: as from EncoderZero::has_counted_since() for the run.
+// Both parts of a run must have the same datum. Error (conflict): the datum `now` is, or may be,
+// different from the datum of the old run. `counts_on`: result of EncoderZero::has_counted_since()
+// for the old run.
 Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool counts_on);
 
-// Reads the recording of `cut_off` into `pipeline` and, block by block, into `run.begun`, which it
-// creates. Returns the time of the last scan. Errors: those of reading or writing a recording; io
-// if `wanted` becomes false. Takes as long as a replay.
+// Reads the recording of `cut_off`. Pushes each block into `pipeline`, and writes it to the new
+// recording `run.begun`. Returns the time of the last scan. Errors: those of reading or writing a
+// recording; io if `wanted` becomes false. Takes as long as a replay.
 Result<std::int64_t> record_again(const CutOffRun& cut_off, const Storekeeper& keeper, NewRun& run,
                                   Pipeline& pipeline, const std::atomic<bool>& wanted);
 
-// Shifts the samples of the devices to the time line of the continued recording.
+// Shifts the times of new samples so that they follow the times of the old recording.
 class Continuation {
  public:
   explicit Continuation(std::int64_t after_ns) : after_ns_(after_ns) {}
-  // The machine's clock may have restarted since. The first block of each device states lost scans,
-  // because the axis was not measured before it.
+  // The shift is at least 0. It is needed because the clock of the computer may have restarted
+  // after the old run. The first block of each device states lost scans, because the axis was not
+  // measured between the two parts.
   void shift(SampleBlock& block);
 
  private:
   std::int64_t after_ns_;
   std::optional<std::int64_t> shift_ns_;
-  std::set<std::string> seen_;  // devices
+  std::set<std::string> seen_;  // devices that have sent a block
 };
 
 }  // namespace mdof::daemon

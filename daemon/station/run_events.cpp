@@ -11,7 +11,8 @@
 namespace mdof::daemon {
 namespace {
 
-// The new points, after the run's first point, at which its drift begins.
+// A run with the first point and then the new points. The drift of the run begins at the first
+// point.
 Run first_and_new(std::int64_t run, const Rig& rig, Model model,
                   const std::vector<MeasuredPoint>& points, std::size_t first_row) {
   Run part;
@@ -26,8 +27,8 @@ Run first_and_new(std::int64_t run, const Rig& rig, Model model,
   return part;
 }
 
-// Writes as many points as a line can contain, from the index `next` on, and advances `next`. Index
-// 0 is the run's first point.
+// Writes the points from index `next`, as many as a line can contain, and increases `next` by their
+// number. Index 0 is the first point of the run.
 std::string points_json(const Run& part, const RunUncertainty& uncertainty, std::size_t first_row,
                         std::size_t& next) {
   JsonWriter json;

@@ -10,16 +10,16 @@
 
 namespace mdof::daemon {
 
-// Messages for run.event with the points from `first_row` on: {"type": "points", "run", "axis",
-// "offset", "reference", "u_covers", "points"}. There are several messages if one line cannot
-// contain all points: a continued run begins with many. `points` are all points of the run so far,
-// stated at the fixture.
+// Messages for the topic run.event with the points from index `first_row`:
+//   {"type": "points", "run", "axis", "offset", "reference", "u_covers", "points"}
+// If one line cannot contain all points, several messages are returned. A continued run begins with
+// many points. `points`: all points of the run until now, stated at the fixture.
 std::vector<std::string> points_messages(std::int64_t run, const Rig& rig, Model model,
                                          const std::vector<MeasuredPoint>& points,
                                          std::size_t first_row);
 
-// {"type": "left_out", "run", "axis", "position_mm", "code", "text"}: a stop that is not near any
-// target.
+// Message for a stop that is not near any target:
+//   {"type": "left_out", "run", "axis", "position_mm", "code", "text"}
 std::string left_out_message(std::int64_t run, Axis axis, double position_m);
 
 }  // namespace mdof::daemon

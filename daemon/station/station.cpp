@@ -66,12 +66,12 @@ Station::~Station() {
   acquisitions_.clear();
 }
 
-// The functions with which the devices' threads deliver samples.
+// The functions that the threads of the devices call.
 DeviceSink Station::sink() {
   DeviceSink sink;
   sink.samples = [this](SampleBlock& block, std::uint64_t pass, milliseconds wait) {
-    // Frames are on the encoder's time line, so only the device of the encoder wakes the measure
-    // thread.
+    // Frames have the times of the encoder samples. Therefore only blocks with encoder samples wake
+    // the measure thread.
     const auto wake = has_encoder(block) ? Queue::Wake::yes : Queue::Wake::no;
     SampleBlock spare = shared_->spare.take(block.device);
     Item item(Samples{std::move(block), pass});
@@ -84,8 +84,8 @@ DeviceSink Station::sink() {
     shared_->post([=](Station& s) { s.source_ended(pass, reason, source); });
   };
   sink.trouble = [this](const Trouble& trouble) {
-    // Posted first, so that a client that hears of the trouble and stops the run finds it in the
-    // run.
+    // The trouble is added to the run first. A client that receives the trouble and then stops the
+    // run finds the trouble in the run.
     shared_->post([=](Station& s) { s.take_trouble(trouble); });
     shared_->events.trouble(config_.rig.axis, run(), trouble);
   };
@@ -105,8 +105,8 @@ PipelineOptions Station::options_for(const RunRequest& request) const {
   return options;
 }
 
-// Adds the delays of the channels, and the present rates of the devices: some devices state their
-// rate only when open, or never.
+// Adds the delays of the channels and the current sampling rates of the devices. Some devices state
+// their rate only when they are open; for others the measured rate is used.
 PipelineOptions Station::with_devices(PipelineOptions options) const {
   options = with_delays(std::move(options), config_.rig, config_.delays);
   std::vector<drivers::DeviceInfo> infos;

@@ -1,11 +1,11 @@
-// One axis: its devices, each with its thread (device/acquisition.h; for devices shared with other
-// axes, device/shared_device.h), and its thread "measure-X".
+// A station measures one axis. Each of its devices has a thread (device/acquisition.h, or
+// device/shared_device.h for devices that several axes share). The thread "measure-X" processes the
+// samples.
 //
 //   devices -> queue      measure: queue -> recording (store thread) -> pipeline -> points
-//
-// Live devices are read from the start, for the view; a replay is read only during a run. The
-// thread "resume-X" prepares a run that continues another one; the measure thread then continues
-// it.
+// Live devices are read from the start of mdofd, for the live view. A replay is read only during a
+// run. If a run continues another run, the thread "resume-X" measures the recording of the other
+// run first. Then the measure thread measures the new samples.
 #pragma once
 
 #include <atomic>
@@ -32,46 +32,47 @@
 
 namespace mdof::daemon {
 
-// Called on threads of the station or the store; the receiver posts to its own thread.
+// Functions that the station calls, on threads of the station or of the store.
 struct StationEvents {
-  std::function<void(std::string json)> live;       // newest instant, for live.update
-  std::function<void(std::string json)> run_event;  // for run.event
-  // Trouble of a device; `run`: the run in progress, 0: none.
+  std::function<void(std::string json)> live;       // message for the topic live.update
+  std::function<void(std::string json)> run_event;  // message for the topic run.event
+  // A trouble of a device. `run`: the run in progress; 0: no run.
   std::function<void(Axis axis, std::int64_t run, const Trouble&)> trouble;
 };
 
-// Called with the id of a run after it is on the disk, or with the error; on a thread of the store
-// or the station.
+// Called with the id of a run when the run is on the disk, or with the error. Runs on a thread of
+// the store or of the station.
 using RunDone = std::function<void(Result<std::int64_t>)>;
 
-// Call it from the main thread only. encoder() and run() are thread-safe.
+// Use this class on the main thread only. encoder() and run() are thread-safe.
 class Station {
  public:
-  // `before`: the last set position of the axis, from before this program started. `shared`: the
-  // devices that this axis shares with other stations.
+  // `before`: the axis position that a user set last, before this program started. `shared`: the
+  // devices that this axis shares with other axes.
   Station(AxisConfig config, PipelineOptions options, std::string configuration,
           std::filesystem::path recordings, Storekeeper& keeper, StationEvents events,
           std::optional<DatumSetting> before = std::nullopt, SharedDevices* shared = nullptr);
-  ~Station();  // an open run ends as aborted
-  // Asks the devices to stop without waiting, so that all stations stop at the same time.
+  ~Station();  // a run in progress gets the state "aborted"
+  // Asks the devices to stop and does not wait. All stations can then stop at the same time.
   void begin_stopping();
 
   void start_run(const RunRequest& request, const RunDone& done);
-  // `done`: the id of the run to read (see Storekeeper::end_run), after it is on the disk.
+  // When the run is on the disk, calls `done` with the id of the run to read (see
+  // Storekeeper::end_run).
   void stop_run(bool abort, const HistoryEntry& action, RunDone done);
-  // Sets the present position of the axis. It is valid after it was stored with its user. Errors
-  // (conflict): a run is in progress, the axis moves, the encoder sends nothing, or the encoder is
-  // that of a log. Other errors: it could not be stored.
+  // Sets the current position of the axis. The position becomes valid when it is stored, with the
+  // user who set it. Errors (conflict): a run is in progress, the axis moves, the encoder sends no
+  // samples, or the axis is read from a log. Other errors: the position could not be stored.
   using DatumDone = std::function<void(Result<EncoderDatum>)>;
   void set_encoder(double position_m, const HistoryEntry& action, DatumDone done);
   EncoderState encoder() const { return zero_.state(); }
-  // The run in progress; 0: none; -1: a run is about to begin.
+  // The run in progress. 0: no run. -1: a run is about to begin, or the position is being stored.
   std::int64_t run() const { return shared_->run.load(); }
-  // The store can no longer keep this run.
+  // Ends this run as failed, because the store cannot store its data.
   void storage_failed(std::int64_t run, const Error& error);
 
-  void wake_devices();  // call it when a device was plugged in
-  // The interval of live() events; nullopt: none are wanted.
+  void wake_devices();  // call this function when a device was plugged in
+  // The interval between two live() events. nullopt: no live events are sent.
   void watch(std::optional<std::chrono::milliseconds> every) {
     live_every_.store(every.value_or(kNever));
   }
@@ -82,16 +83,16 @@ class Station {
 
  private:
   struct Beginning;
-  // An item for the measure thread, in order: samples or another job.
+  // An item in the queue of the measure thread: samples or a job. Items are processed in order.
   struct Samples {
     SampleBlock block;
-    std::uint64_t pass;  // number of the reading of a source that is read once per run
+    std::uint64_t pass;  // as in DeviceSink
   };
   using Job = std::function<void(Station&)>;
   using Item = std::variant<Samples, Job>;
   using Queue = BoundedQueue<Item>;
   struct OpenRun;
-  // Data that callbacks of the store may still use after the station was destroyed.
+  // Data that callbacks of the store can still use after the station is destroyed.
   struct Shared {
     explicit Shared(StationEvents e) : events(std::move(e)), queue(kQueuedBlocks) {}
     StationEvents events;
@@ -102,14 +103,14 @@ class Station {
   };
   static constexpr std::size_t kQueuedBlocks = 1024;
 
-  // Why nothing can begin on the axis, for a value of shared_->run that is not 0.
+  // The reason why no run can begin on the axis. `run`: value of shared_->run, not 0.
   std::string occupied_reason(std::int64_t run) const;
   DeviceSink sink();
   NewRun describe_run(const RunRequest& request, const PipelineOptions& options) const;
   PipelineOptions options_for(const RunRequest& request) const;
   PipelineOptions with_devices(PipelineOptions options) const;
-  // `options`: the same for the description and the measurement, so that a replay measures the
-  // same.
+  // The description of the run and its measurement use the same options object. A replay therefore
+  // uses the options of the measurement.
   using Options = std::shared_ptr<const PipelineOptions>;
   void begin_run(NewRun description, const RunRequest& request, const Options& options,
                  std::shared_ptr<Beginning> beginning, const RunDone& done);
@@ -159,12 +160,12 @@ class Station {
   std::atomic<std::chrono::milliseconds> live_every_{kNever};
   std::atomic<std::chrono::steady_clock::time_point> measure_turn_;
 
-  EncoderZero zero_;               // changed only by the measure thread
+  EncoderZero zero_;               // only the measure thread changes it
   std::unique_ptr<OpenRun> open_;  // measure thread only
-  std::optional<Pipeline> view_;   // measure thread only: between runs
-  RecentRange recent_;             // readings of the present pipeline
+  std::optional<Pipeline> view_;   // live view between runs; measure thread only
+  RecentRange recent_;             // readings of the current pipeline
   std::chrono::steady_clock::time_point last_live_{};
-  std::int64_t newest_ns_ = 0;  // time of the newest instant, which arrived at newest_since_
+  std::int64_t newest_ns_ = 0;  // time of the newest frame; it arrived at newest_since_
   std::chrono::steady_clock::time_point newest_since_{};
   std::vector<std::unique_ptr<DeviceReader>> acquisitions_;
   std::thread measure_thread_;

@@ -1,5 +1,6 @@
-// Station: set positions of an axis, which the measure thread finds and the store keeps before they
-// are valid; no run can begin meanwhile. Also the reference marks of encoders.
+// Functions of Station that set the axis position. The measure thread calculates the setting. The
+// setting becomes valid when the store has stored it; until then no run can begin. Also the
+// functions for the reference mark of an encoder.
 #include "daemon/history.h"
 #include "daemon/paths.h"
 #include "daemon/station/open_run.h"
@@ -22,7 +23,7 @@ void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDo
   });
 }
 
-// ---- measure thread; set_encoder() has made sure that no run is in progress ----
+// ---- measure thread; set_encoder() has checked that no run is in progress ----
 
 void Station::take_datum(double position_m, const HistoryEntry& action, const DatumDone& done) {
   const auto found = zero_.find(config_.rig.axis, position_m, action.utc);
@@ -44,7 +45,8 @@ void Station::store_datum(const DatumSetting& setting, const HistoryEntry& actio
   if (!posted) put(io_error("too many writes to the database are pending; try again"));
 }
 
-// The live view restarts, because the axis itself does not jump.
+// The live view starts again. Otherwise the change of the position would look like a motion of the
+// axis.
 void Station::put_datum(const Result<DatumSetting>& stored, const HistoryEntry& action,
                         const DatumDone& done) {
   const auto set = stored ? zero_.put(*stored, actor_text(action.by))
@@ -58,16 +60,17 @@ void Station::put_datum(const Result<DatumSetting>& stored, const HistoryEntry& 
   done(set);
 }
 
-// The live view restarts, because the axis itself does not jump. A run cannot continue: its
-// positions had another origin, and the difference is only known to the distance between two
-// readings.
+// The live view starts again, as in put_datum(). A run cannot continue, because its positions have
+// another origin. The difference of the two origins is not known well enough: its uncertainty is
+// the distance between two readings.
 void Station::take_mark(const std::string& device) {
   if (!zero_.pass_mark(device, utc_now())) return;
   view_.reset();
   if (open_) end_unless_from_mark();
 }
 
-// A run that was counted from the mark before its device lost power continues.
+// Ends the run, unless its positions are counted from the mark, too. Such a run continues, for
+// example after the device lost power.
 void Station::end_unless_from_mark() {
   if (zero_.datum().kind != EncoderDatum::Kind::index ||
       open_->datum.kind == EncoderDatum::Kind::index)

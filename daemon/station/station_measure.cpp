@@ -1,4 +1,4 @@
-// The thread "measure-X" of a station: processes samples to points.
+// The functions of the thread "measure-X" of a station. The thread calculates points from samples.
 
 #include <algorithm>
 #include <deque>
@@ -33,14 +33,14 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kPopTimeout{100};
-constexpr milliseconds kRecordInterval{20};  // each call wakes the store's thread
+constexpr milliseconds kRecordInterval{20};  // each call of record() wakes the thread of the store
 
 PipelineOptions without_points(PipelineOptions options) {
   options.keep_points = false;
   return options;
 }
 
-// Whether the rows that the store has acknowledged are bit-identical with the result.
+// Whether the points that were sent to the store are bit-identical with the result.
 bool same_points(const std::vector<MeasuredPoint>& stored,
                  const std::vector<MeasuredPoint>& result) {
   store::ResultHash a, b;
@@ -49,13 +49,14 @@ bool same_points(const std::vector<MeasuredPoint>& stored,
   return a.hex() == b.hex();
 }
 
-// Whether the next motion will show the approach of this point; until then it is not stored.
+// Whether the approach of this point is only assumed. The next motion of the axis shows the
+// approach; the point is not stored before.
 bool approach_assumed(const MeasuredPoint& p) {
   return algo::has_flag(p.point, Flag::approach_assumed);
 }
 
-// Number of requested points that are done: solved, each target at most `repeats` times from each
-// side.
+// Number of requested points that are measured. Only solved points count, and at most `repeats`
+// points for each target and approach.
 std::size_t done(const RunRequest& request, const std::vector<MeasuredPoint>& points) {
   std::vector<int> ways(2 * request.targets_m.size());
   std::size_t done = 0;
@@ -67,7 +68,8 @@ std::size_t done(const RunRequest& request, const std::vector<MeasuredPoint>& po
   return done;
 }
 
-// The expected next target: onward in the direction of the last point, and back at an end.
+// The index of the expected next target: the neighbour in the direction of the last motion. At the
+// end of the travel, the same target is expected again.
 std::optional<std::size_t> expected_target(const RunRequest& request,
                                            const std::vector<MeasuredPoint>& points) {
   if (request.targets_m.empty()) return std::nullopt;
@@ -96,7 +98,7 @@ std::string event_json(const char* type, std::int64_t run, Axis axis) {
   return json.take();
 }
 
-// The run to read, and its state.
+// Message that a run has ended. It states the run to read and the state of this run.
 std::string ended_json(std::int64_t run, Axis axis, RunState state) {
   JsonWriter json;
   json.begin_object()
@@ -108,8 +110,9 @@ std::string ended_json(std::int64_t run, Axis axis, RunState state) {
   return json.take();
 }
 
-// Point k of n, and the expected next target. n is unknown without repeats, the next target without
-// targets.
+// Message about progress: number of points, number of requested points, expected next target.
+// Without repeats, the number of requested points is null. Without targets, the expected target is
+// null.
 std::string progress_json(std::int64_t run, Axis axis, const RunRequest& request,
                           const std::vector<MeasuredPoint>& points) {
   JsonWriter json;
@@ -144,8 +147,7 @@ void Station::measure() {
       measure_turn_ = steady_clock::now();
     }
     note_newest();
-    show_live();  // after all available samples; without samples the view shows that they have
-                  // stopped
+    show_live();  // after all available samples; if no samples arrive, the view shows them as stale
   }
   if (open_) finish(RunState::aborted, {notice(NoticeCode::daemon_stopped)});
 }
@@ -156,8 +158,8 @@ void Station::handle(Samples& samples) {
   shared_->spare.put(std::move(samples.block));
 }
 
-// A replay is read once per run; samples of an earlier reading in the queue do not belong to this
-// run.
+// A replay is read once for each run. The queue can contain samples of an earlier reading; they do
+// not belong to this run.
 bool Station::is_this_pass(std::uint64_t pass) const {
   return config_.live() || pass == acquisitions_.front()->pass();
 }
@@ -188,7 +190,7 @@ void Station::attach(std::int64_t run, const RunRequest& request, const Options&
   std::optional<Continuation> continues;
   auto pipeline =
       beginning ? std::move(beginning->pipeline) : Pipeline::create(config_.rig, *options);
-  if (!pipeline) {  // the configuration was checked with the same rig; only the targets differ
+  if (!pipeline) {  // hardly possible: the rig was checked at the start; only the targets are new
     shared_->run = 0;
     return done(tl::unexpected(pipeline.error()));
   }
@@ -198,13 +200,13 @@ void Station::attach(std::int64_t run, const RunRequest& request, const Options&
   watch_range(open_->pipeline);
   open_->datum = options->datum;
   open_->model = options->model;
-  if (beginning) open_->left_out_ns = beginning->end_ns;  // earlier ones were reported in that run
+  if (beginning) open_->left_out_ns = beginning->end_ns;  // the old run has reported its stops
   zero_.begins(run);
   shared_->run = run;
   shared_->events.run_event(event_json("started", run, config_.rig.axis));
   done(run);
   if (!config_.live()) acquisitions_.front()->start();
-  // The mark may have been passed since the check.
+  // The encoder may have passed its reference mark after the check in start_run().
   end_unless_from_mark();
 }
 
@@ -213,11 +215,11 @@ void Station::take_samples(SampleBlock& block) {
   if (!open_) {
     if (!view_) {
       auto view = Pipeline::create(config_.rig, without_points(with_devices(options_)));
-      if (!view) return;  // checked with the configuration
+      if (!view) return;  // not possible: the rig was checked at the start
       view_.emplace(std::move(*view));
       watch_range(*view_);
     }
-    // After an error the view restarts with the next block.
+    // After an error, the live view starts again with the next block.
     if (!view_->push(block)) view_.reset();
     return;
   }
@@ -269,7 +271,7 @@ void Station::report_unsolved(const std::vector<MeasuredPoint>& points) {
   }
 }
 
-// Informs clients that wait for the next point why this stop gives none.
+// Clients wait for the next point. Reports to them why a stop did not become a point.
 void Station::report_left_out() {
   for (const StopLeftOut& stop : open_->pipeline.left_out()) {
     if (stop.reason != to_string(NoticeCode::stop_near_no_target)) continue;
@@ -279,7 +281,7 @@ void Station::report_left_out() {
   }
 }
 
-// Sends the points that the store does not have yet, after the samples from which they come.
+// Sends new points to the store. The samples of these points are sent before.
 void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   const std::size_t first = open_->stored.size();
   if (points.size() <= first) return;
@@ -291,7 +293,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   const std::int64_t run = open_->id;
   auto messages = points_messages(run, config_.rig, open_->model, open_->stored, first);
   std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
-  // Clients hear of the points after they are on the disk.
+  // Clients receive the points when the points are on the disk.
   keeper_.append_points(run, std::move(fresh),
                         [shared = shared_, messages = std::move(messages),
                          progress = std::move(progress)](const Status& kept) {
@@ -304,9 +306,9 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
 void Station::finish(RunState state, Notices why, const drivers::SourceInfo& source, RunDone done,
                      const std::optional<HistoryEntry>& action) {
   if (!config_.live())
-    acquisitions_.front()->request_stop();  // samples that still arrive belong to this pass
+    acquisitions_.front()->request_stop();  // samples that arrive later have the same pass number
   auto result = open_->pipeline.finish();
-  // The stop at which the run ended becomes a point only now.
+  // The last stop becomes a point only when the pipeline is finished.
   record();
   if (result && begins_with(result->points, open_->stored)) keep_new_points(result->points);
   const std::unique_ptr<OpenRun> open = std::move(open_);
@@ -317,7 +319,7 @@ void Station::finish(RunState state, Notices why, const drivers::SourceInfo& sou
     append(run.header.notices, failure(words::text(result.error())));
     if (state == RunState::complete) state = RunState::failed;
   }
-  // Otherwise the state of the result: complete or partial.
+  // If `state` is complete, the state of the result is kept: complete or partial.
   if (state != RunState::complete) run.header.state = state;
   Notices& notices = run.header.notices;
   if (run.header.state == RunState::partial && config_.recorded())
@@ -355,7 +357,7 @@ const Pipeline* Station::pipeline() const {
   return open_ ? &open_->pipeline : view_ ? &*view_ : nullptr;
 }
 
-// Always updated, so that the first viewer sees the age.
+// Called also without a live view, so that the first live message states the correct age.
 void Station::note_newest() {
   const Pipeline* from = pipeline();
   if (!from || from->newest().size() == 0 || from->newest().time_ns[0] == newest_ns_) return;

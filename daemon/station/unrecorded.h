@@ -1,5 +1,5 @@
-// Samples of a run that are not yet sent to the store. They are combined into a few large blocks,
-// which need less work than many small ones.
+// Samples of a run that were not sent to the store yet. They are combined into large blocks,
+// because a few large blocks need less work than many small blocks.
 #pragma once
 
 #include <utility>
@@ -14,8 +14,8 @@ class Unrecorded {
  public:
   void add(const SampleBlock& block);
   bool empty() const { return blocks_.empty(); }
-  // Removes and returns all blocks: one for each device, and another one after lost scans or a
-  // change of channels.
+  // Removes and returns all blocks. Each device has one block. After lost scans or a change of
+  // channels, a device has a further block.
   std::vector<SampleBlock> take() { return std::exchange(blocks_, {}); }
 
  private:

@@ -20,11 +20,12 @@ using std::chrono::steady_clock;
 constexpr milliseconds kReadTimeout{100};
 constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{250};
 constexpr milliseconds kFullQueueSleep{10}, kRefresh{1000};
-// Some devices need seconds for opening and set-up; this is no hang-up.
+// Largest time for opening and set-up. Some devices need seconds; the watchdog must not end mdofd
+// then.
 constexpr milliseconds kOpening{20'000};
 
-// The rate is checked over this time. A device is slow below kSlowShare of its rate, and no longer
-// slow above kRecoveredShare.
+// The sampling rate is checked over kWindow. A device becomes slow below kSlowShare of its nominal
+// rate. It is no longer slow above kRecoveredShare of this rate.
 constexpr std::chrono::seconds kWindow{5};
 constexpr double kSlowShare = 0.8, kRecoveredShare = 0.95;
 
@@ -34,8 +35,8 @@ std::string with_one_decimal(double x) {
   return text;
 }
 
-// 3/4 to all of the waiting time, so that devices that failed together are not opened together
-// again.
+// Returns 3/4 to 4/4 of the waiting time. Devices that failed at the same time are then not opened
+// at the same time.
 milliseconds jittered(milliseconds pause, const std::string& device, std::uint64_t attempt) {
   const std::size_t hash = std::hash<std::string>{}(device + std::to_string(attempt));
   return pause * 3 / 4 + pause * (hash % 256) / 1024;
@@ -87,13 +88,13 @@ void Acquisition::fail(const std::string& error) {
   }
   if (lost_since_) return;  // already reported
   lost_since_ = steady_clock::now();
-  // The trouble already names the device.
+  // The trouble contains the name of the device already.
   const std::string who = "device \"" + spec_.name + "\"";
   const std::size_t begin = error.starts_with(who) ? error.find_first_not_of(": ", who.size()) : 0;
   report(Trouble::Kind::lost, begin == std::string::npos ? error : error.substr(begin));
 }
 
-// Present troubles are also in the status, for clients that connect later.
+// Also adds the trouble to the status, for clients that connect later.
 void Acquisition::report(Trouble::Kind kind, const std::string& text, const std::string& channel) {
   const Trouble trouble{kind, spec_.name, text, utc_now(), channel};
   {
@@ -133,7 +134,7 @@ void Acquisition::acquire(std::uint64_t pass) {
       return sink_.ended(pass, "", spec_.source_info(**driver));
     }
     if (!acquiring_) break;
-    if (!spec_.live) {  // an unreadable replay cannot recover
+    if (!spec_.live) {  // a file that cannot be read cannot recover
       const std::string why = status().error;
       set_state("ended");
       return sink_.ended(pass, why, {});
@@ -143,7 +144,7 @@ void Acquisition::acquire(std::uint64_t pass) {
   set_state("closed");
 }
 
-// True: the source has ended. False: an error (kept in the status), or the device is stopping.
+// True: the source has ended. False: an error (the status contains it), or the thread must stop.
 bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
   turn_ = steady_clock::now() + kOpening;
   const Status opened = driver.open();
@@ -172,7 +173,7 @@ void Acquisition::forget_suspicion(const std::string& encoder) {
   });
 }
 
-// Reported before the first block that is counted from the mark.
+// Reports that the reference mark was passed, before the first block that is counted from the mark.
 void Acquisition::watch_mark(const drivers::Driver& driver) {
   const int marks = driver.marks_passed();
   if (std::exchange(marks_passed_, marks) == marks) return;
@@ -197,7 +198,7 @@ void Acquisition::trust_counts(drivers::Driver& driver) {
   }
 }
 
-// Information of the device that changes with time, such as its clock.
+// Updates information of the device that changes with time, such as the state of its clock.
 void Acquisition::refresh_info(const drivers::Driver& driver) {
   next_refresh_ = steady_clock::now() + kRefresh;
   const drivers::DeviceInfo info = driver.info();
@@ -209,7 +210,7 @@ void Acquisition::refresh_info(const drivers::Driver& driver) {
   watch_datum(info);
 }
 
-// A lost datum stays lost, so it is reported once.
+// Reports a lost datum only once, because it stays lost.
 void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
   std::map<std::string, std::string> lost = info.further_datum_lost;
   lost[kEncoderChannel] = info.datum_lost;
@@ -222,8 +223,8 @@ void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
   }
 }
 
-// While the time of the samples is uncertain, their position is unknown. They are marked as
-// suspect, also in the recording.
+// If the time of samples is uncertain, the axis position of these samples is unknown. The samples
+// get the quality "suspect", also in the recording.
 void Acquisition::watch_clock(const drivers::Driver& driver, SampleBlock& block) {
   if (!spec_.live) return;
   const drivers::DeviceClock* clock = driver.clock();
@@ -264,7 +265,7 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
       return false;
     }
     if (block.scans() > 0) {
-      backoff_ = kFirstBackoff;  // it works; opening alone does not prove this
+      backoff_ = kFirstBackoff;  // samples arrive, so the device works
       watch_mark(driver);
       if (steady_clock::now() > next_refresh_) refresh_info(driver);
       note_loss(block);
@@ -280,8 +281,8 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
   return false;
 }
 
-// Called with the first samples, because opening alone does not prove that the device works.
-// Returns whether it was lost.
+// Called with each block of samples. A device can be opened and still not work; samples prove that
+// it works. Returns whether the device was lost before.
 bool Acquisition::recover(const SampleBlock& block) {
   if (!lost_since_) return false;
   const std::chrono::duration<double> away = steady_clock::now() - *lost_since_;
@@ -298,7 +299,7 @@ bool Acquisition::recover(const SampleBlock& block) {
   return true;
 }
 
-// Reports fewer scans than the device states, or lost scans.
+// Reports that the rate is lower than the nominal rate of the device, or that scans were lost.
 void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
   scans_in_window_ += scans;
   lost_in_window_ += lost;
@@ -324,8 +325,8 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
   scans_in_window_ = lost_in_window_ = 0;
 }
 
-// Adds dropped scans, and scans that were lost while the device was away: at least one, if the
-// device cannot count them itself.
+// Adds to block.lost the dropped scans, and the scans that were lost while the device was not open.
+// If the device does not count the latter, at least one lost scan is added.
 void Acquisition::note_loss(SampleBlock& block) {
   const std::lock_guard lock(status_mutex_);
   measure_rate(block);
@@ -340,7 +341,7 @@ void Acquisition::note_loss(SampleBlock& block) {
   status_.scans += block.scans();
 }
 
-// Measures the rate, for devices that do not state it. The caller holds status_mutex_.
+// Measures the sampling rate, for devices that do not state it. status_mutex_ must be locked.
 void Acquisition::measure_rate(const SampleBlock& block) {
   if (just_opened_) {
     opened_ns_ = block.time_ns.front();

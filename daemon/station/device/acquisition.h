@@ -1,6 +1,7 @@
-// Reads one device. The thread "acq-<device>" creates the driver, opens it, reads it, and opens it
-// again after an error, with increasing waiting times. Lost scans are reported with the next block;
-// that a device is lost, back, suspect or slow is reported at once.
+// Reads one device. The thread "acq-<device>" creates the driver, opens the device and reads it.
+// After an error, the thread waits and opens the device again; the waiting time increases with each
+// error. The next block states the number of lost scans. A change of the state of the device (lost,
+// back, suspect, slow) is reported at once.
 #pragma once
 
 #include <atomic>
@@ -28,7 +29,7 @@ class Acquisition final : public DeviceReader {
   ~Acquisition() override;
 
   void start() override;
-  void stop() override;  // joins the thread, after at most a read timeout and an open
+  void stop() override;  // joins the thread; this takes at most the time of one read and one open
   void request_stop() override { acquiring_ = false; }
   void trust_count() override { trust_encoder_count(kEncoderChannel); }
   // `encoder`: a channel of the device.
@@ -55,7 +56,7 @@ class Acquisition final : public DeviceReader {
   void watch_rate(std::uint64_t scans, std::uint64_t lost);
   void watch_datum(const drivers::DeviceInfo& info);
   void watch_mark(const drivers::Driver& driver);
-  void forget_suspicion(const std::string& encoder);  // with status_mutex_ locked
+  void forget_suspicion(const std::string& encoder);  // status_mutex_ must be locked
   void watch_clock(const drivers::Driver& driver, SampleBlock& block);
   void report_clock(const drivers::ClockState& clock);
   void report(Trouble::Kind kind, const std::string& text, const std::string& channel = "");
@@ -67,17 +68,17 @@ class Acquisition final : public DeviceReader {
   std::atomic<std::chrono::steady_clock::time_point> turn_;
   mutable std::mutex status_mutex_;
   DeviceStatus status_;            // protected by status_mutex_
-  std::set<std::string> trusted_;  // encoders that the driver does not yet know as trusted;
-                                   // protected by status_mutex_
+  std::set<std::string> trusted_;  // encoders for which the thread must still call trust_count() of
+                                   // the driver; protected by status_mutex_
 
   // Used by the acquisition thread only.
   std::chrono::milliseconds backoff_{0};
   std::optional<std::int64_t> last_ns_;  // time of the last scan that was read
-  bool just_opened_ = false;             // no block since opening
-  std::int64_t opened_ns_ = 0;           // time of the first scan since opening
+  bool just_opened_ = false;             // true until the first block after the device was opened
+  std::int64_t opened_ns_ = 0;           // time of the first scan after the device was opened
   std::uint64_t scans_since_opened_ = 0;
   std::chrono::steady_clock::time_point next_refresh_;
-  std::uint64_t dropped_scans_ = 0;  // reported with the next block
+  std::uint64_t dropped_scans_ = 0;  // number; the next block reports it
   std::optional<std::chrono::steady_clock::time_point> lost_since_;
   std::set<std::string> datum_lost_;  // encoders with a lost datum
   int marks_passed_ = 0;
@@ -86,7 +87,7 @@ class Acquisition final : public DeviceReader {
   std::chrono::steady_clock::time_point window_end_;  // end of the window of watch_rate()
   std::uint64_t scans_in_window_ = 0, lost_in_window_ = 0;
 
-  std::uint64_t pass_ = 0;  // changed by the caller of start()
+  std::uint64_t pass_ = 0;  // only start() changes it
   std::thread thread_;
 };
 

@@ -1,5 +1,5 @@
-// A device as seen by the station of an axis: its own device (acquisition.h), or its part of a
-// device that several axes share (shared_device.h).
+// Interface between the station of an axis and a device. The device belongs to this axis alone
+// (acquisition.h), or several axes share it (shared_device.h).
 #pragma once
 
 #include <chrono>
@@ -16,45 +16,47 @@ namespace mdof::daemon {
 
 struct DeviceStatus {
   std::string state = "closed";  // "open", "closed", "failed: reopening", "ended"
-  std::string error;             // text of the present failure; "": no failure
-  std::string last_error;        // text of the last failure that is over; it ended at recovered_utc
+  std::string error;             // text of the current error; "": no error
+  std::string
+      last_error;  // text of the last error from which the device has recovered, at recovered_utc
   std::string recovered_utc;
-  std::vector<Trouble> standing;  // present troubles
+  std::vector<Trouble> standing;  // current troubles
   drivers::DeviceInfo info;
-  double measured_hz = 0;      // scans per second since opening; 0: unknown
-  std::uint64_t scans = 0;     // number of scans since the start
-  std::uint64_t lost = 0;      // scans known to be lost
-  std::uint64_t dropped = 0;   // blocks for which the queue of the measure thread had no space
-  std::uint64_t reopened = 0;  // number of reopenings
+  double measured_hz = 0;   // scans per second since the device was opened; 0: unknown
+  std::uint64_t scans = 0;  // number of scans since start()
+  std::uint64_t lost = 0;   // number of scans that are known to be lost
+  std::uint64_t dropped =
+      0;  // number of blocks for which the queue of the measure thread had no space
+  std::uint64_t reopened = 0;  // how often the device was opened again
 };
 
-// Receiver of the samples; all calls are on the acquisition thread. `pass` counts the readings of a
-// source that is read once per run.
+// Receives the samples. All functions are called on the acquisition thread. `pass`: a replay is
+// read once for each run; this is the number of the reading.
 struct DeviceSink {
-  // True: the block was taken, and `block` is now another, used block whose memory can be reused.
-  // False: there was no space within `wait`; the block did not change.
+  // True: the receiver has taken the block. `block` is then an older block, so that its memory can
+  // be used again. False: the queue had no space within the time `wait`; `block` did not change.
   std::function<bool(SampleBlock& block, std::uint64_t pass, std::chrono::milliseconds wait)>
       samples;
-  // The source has ended or, with a reason, cannot recover.
+  // The source has ended. If `reason` is not empty, the source has an error and cannot recover.
   std::function<void(std::uint64_t pass, const std::string& reason, const drivers::SourceInfo&)>
       ended;
   std::function<void(const Trouble&)> trouble;  // may be empty
-  // From the next block on, the encoder of this device is counted from its reference mark. May be
-  // empty.
+  // The encoder of this device has passed its reference mark. From the next block, its positions
+  // are counted from the mark. The function may be empty.
   std::function<void(const std::string& device)> mark = {};
 };
 
-// Call it from the station's threads, one call at a time. status(), healthy(), request_stop(),
-// wake() and trust_count() are thread-safe.
+// The threads of the station call these functions, one call at a time. status(), healthy(),
+// request_stop(), wake() and trust_count() are thread-safe.
 class DeviceReader {
  public:
   virtual ~DeviceReader() = default;  // stops the device
   virtual void start() = 0;
-  virtual void stop() = 0;          // no call of the sink follows
-  virtual void request_stop() = 0;  // stops soon, without waiting
-  // A user has set the position of the axis, so that the datum is no longer lost.
+  virtual void stop() = 0;          // afterwards no function of the sink is called
+  virtual void request_stop() = 0;  // the thread stops soon; does not wait for it
+  // A user has set the position of the axis, so the datum of the encoder is valid again.
   virtual void trust_count() = 0;
-  virtual void wake() = 0;  // a device was plugged in: ends the present waiting time
+  virtual void wake() = 0;  // a device was plugged in: open the device now, without further waiting
   virtual std::uint64_t pass() const = 0;
   virtual const drivers::DriverSpec& spec() const = 0;
   virtual DeviceStatus status() const = 0;

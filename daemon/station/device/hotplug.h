@@ -1,4 +1,4 @@
-// Reports plugged-in devices, so that a device can be opened without further waiting.
+// Reports that a device was plugged in. A lost device is then opened without further waiting.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,15 @@ struct udev_monitor;
 
 namespace mdof::daemon {
 
-// Events of udev after its rules, so that the permissions are set. Thread-bound.
+// Reads events of udev. udev sends them after it has applied its rules, so that the file
+// permissions of the device are set. Thread-bound.
 class Hotplug {
  public:
-  // Watches USB, hidraw, serial ports, counters and IIO. Error: the kernel rejects a monitor.
-  // Without udevd, as in most containers, there are no events.
+  // Watches the subsystems USB, hidraw, tty, counter and IIO. Error: udev cannot be used. If udevd
+  // does not run, as in most containers, no event arrives.
   static Result<Hotplug> watch();
 
-  int descriptor() const;  // readable if there are events
+  int descriptor() const;  // the file descriptor is readable if events are pending
   // Reads all pending events; returns whether a device was plugged in.
   bool read_arrivals();
 

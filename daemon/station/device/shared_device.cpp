@@ -8,8 +8,8 @@ namespace {
 
 using Part = drivers::ChannelPart;
 
-// The specification of the complete device, whose acquisition thread uses the device's own names
-// for all encoders.
+// The specification of the complete device. Its acquisition thread uses the channel ids of the
+// device, also for the encoders.
 drivers::DriverSpec whole(drivers::DriverSpec spec) {
   spec.part.clear();
   return spec;
@@ -75,13 +75,13 @@ class DevicePart final : public DeviceReader {
 SharedDevice::SharedDevice(const drivers::DriverSpec& spec)
     : acquisition_(whole(spec), sink_for_all_axes()) {}
 
-// ---- acquiring thread ----
+// ---- acquisition thread ----
 
 DeviceSink SharedDevice::sink_for_all_axes() {
   DeviceSink sink;
   sink.samples = [this](SampleBlock& block, std::uint64_t pass, std::chrono::milliseconds) {
     distribute_block(block, pass);
-    return true;  // blocks without space in the queue of an axis are lost for this axis only
+    return true;  // if the queue of an axis has no space, only this axis loses the block
   };
   sink.ended = [this](std::uint64_t pass, const std::string& why, const drivers::SourceInfo& info) {
     const std::lock_guard lock(mutex_);
@@ -129,7 +129,8 @@ void SharedDevice::join(const std::shared_ptr<AxisPart>& axis_part) {
   acquisition_.start();
 }
 
-// The mutex is released before joining, because the thread may wait for it.
+// Releases the mutex before it joins the acquisition thread, because the thread can wait for the
+// mutex.
 void SharedDevice::leave(const std::shared_ptr<AxisPart>& axis_part) {
   {
     const std::lock_guard lock(mutex_);

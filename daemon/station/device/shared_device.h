@@ -1,5 +1,5 @@
-// A device that several axes share. One thread reads it for all of them. Each axis gets its
-// channels with the names of its rig, as from its own device.
+// A device that several axes share. One thread reads the device. Each axis receives only its own
+// channels, with the channel ids of its rig.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace mdof::daemon {
 
-// Replaces `taken` by the channels of `block` that are in `part` (DriverSpec::part), with their
-// names there.
+// Copies the channels of `block` that `part` contains (DriverSpec::part) to `taken`, with the ids
+// that `part` states. The old content of `taken` is lost.
 void take_part(const SampleBlock& block, const drivers::ChannelPart& part, SampleBlock& taken);
 
 // Parts are added and removed on the main thread.
@@ -26,14 +26,14 @@ class SharedDevice {
 
  private:
   friend class DevicePart;
-  // The part of one axis, as seen by the acquisition thread.
+  // The channels and the receiver of one axis.
   struct AxisPart {
     drivers::DriverSpec spec;
     DeviceSink sink;
-    SampleBlock block;  // memory for its part of the next block
+    SampleBlock block;  // memory for the channels of the axis in the next block
     bool asked_to_stop = false;
-    std::uint64_t dropped_scans = 0;      // reported with the next block
-    std::uint64_t dropped = 0, lost = 0;  // blocks and scans, as in DeviceStatus
+    std::uint64_t dropped_scans = 0;      // number; the next block reports it
+    std::uint64_t dropped = 0, lost = 0;  // number of blocks, number of scans; as in DeviceStatus
   };
   DeviceSink sink_for_all_axes();
   void distribute_block(const SampleBlock& block, std::uint64_t pass);
@@ -43,13 +43,12 @@ class SharedDevice {
   DeviceStatus status_of(const AxisPart& axis_part) const;
 
   mutable std::mutex mutex_;
-  std::vector<std::shared_ptr<AxisPart>>
-      axis_parts_;           // protected by mutex_, including their content
-  Acquisition acquisition_;  // destroyed first
+  std::vector<std::shared_ptr<AxisPart>> axis_parts_;  // protected by mutex_, also the objects
+  Acquisition acquisition_;                            // destroyed first
 };
 
-// The devices that several axes share, by name. A device is created with its first part and
-// destroyed with its last.
+// The devices that several axes share, by name. A device is created for the first axis that uses
+// it, and destroyed after the last axis.
 class SharedDevices {
  public:
   std::unique_ptr<DeviceReader> part(const drivers::DriverSpec& spec, DeviceSink sink);
@@ -58,8 +57,8 @@ class SharedDevices {
   std::map<std::string, std::weak_ptr<SharedDevice>> devices_;
 };
 
-// The name of a device that gives both axes the same probes, so that only one of them can be
-// measured at a time. "": none.
+// The name of a device whose channels both axes use. Only one of these axes can be measured at a
+// time. "": the axes share no channel.
 std::string shared_probes_device(const AxisConfig& a, const AxisConfig& b);
 
 }  // namespace mdof::daemon

@@ -1,4 +1,5 @@
-// Processed blocks. The thread of their device reuses their memory.
+// Keeps blocks after they were processed. The acquisition thread uses the memory of these blocks
+// again.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,8 @@ class SpareBlocks {
     const std::lock_guard lock(mutex_);
     if (blocks_.size() < kMost) blocks_.push_back(std::move(block));
   }
-  // The newest block of this device, whose memory has the right size; otherwise an empty block.
+  // Removes and returns the newest block of this device, because its memory has the right size. If
+  // no block of this device exists, returns an empty block.
   SampleBlock take(const std::string& device) {
     const std::lock_guard lock(mutex_);
     const auto last = std::find_if(blocks_.rbegin(), blocks_.rend(),

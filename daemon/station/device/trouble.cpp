@@ -31,7 +31,8 @@ std::string join(const std::vector<std::string>& words) {
   return all;
 }
 
-// The only device that gives all of these channels; "": none does, or there is only one device.
+// The device that provides all these channels. "": no device provides all of them, or the axis has
+// only one device.
 std::string source_of(const std::vector<std::string>& ids, const ChannelsByDevice& channels) {
   if (channels.size() < 2) return "";
   for (const auto& [device, of_device] : channels) {

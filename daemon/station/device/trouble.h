@@ -1,4 +1,5 @@
-// Faults of devices by kind. They are shown at once and stored with the run.
+// Troubles: faults of devices. mdofd reports them to clients at once, and stores them as notices of
+// the run.
 #pragma once
 
 #include <chrono>
@@ -18,31 +19,33 @@ namespace mdof::daemon {
 struct Trouble {
   enum class Kind {
     lost,      // the device does not respond or was removed
-    back,      // it works again
-    suspect,   // its values cannot be trusted: an encoder has lost its datum
-    slow,      // it gives fewer scans than it should
+    back,      // the device works again
+    suspect,   // the values of the device may be wrong, because an encoder has lost its datum
+    slow,      // the device sends fewer scans than its nominal rate, or scans were lost
     clock,     // the time of its samples is uncertain
     unsolved,  // a stop has no errors because readings are missing
   } kind = Kind::lost;
-  std::string device;  // "": no single device
-  std::string text;    // what happened and what to do, without the device's name
+  std::string device;  // "": the trouble concerns no single device
+  std::string text;    // the event and the remedy, without the name of the device
   std::string utc;
-  std::string channel = {};  // encoder concerned; "": the whole device
+  std::string channel = {};  // the encoder that has the trouble; "": the whole device
 };
 
 const char* to_string(Trouble::Kind kind);
 // "device \"t7\": lost: no packet for 2 s"
 std::string trouble_line(const Trouble& trouble);
-// For run.event: {"type": "trouble", "axis", "run": id | null, "device", "kind", "text", "utc"}.
+// Message for the topic run.event: {"type": "trouble", "axis", "run": id | null, "device", "kind",
+// "text", "utc"}.
 std::string trouble_json(Axis axis, std::int64_t run, const Trouble& trouble);
 
-// The probes of a point without usable readings, and their device. `channels`: the channels of each
-// device by its name. nullopt for a solved point.
+// The trouble that a point has no errors. It states the probes without usable readings and their
+// device. `channels`: channel ids by the name of the device. Returns nullopt for a solved point.
 using ChannelsByDevice = std::map<std::string, std::vector<std::string>>;
 std::optional<Trouble> unsolved(const MeasuredPoint& point, const Rig& rig,
                                 const ChannelsByDevice& channels, const std::string& utc);
 
-// The troubles of a run, reported at its end: one line for each device and kind.
+// Collects the troubles of a run. At the end of the run, summary() returns one notice for each
+// device and kind of trouble.
 class TroubleLog {
  public:
   void add(const Trouble& trouble);
@@ -57,12 +60,13 @@ class TroubleLog {
   std::map<std::string, std::map<Trouble::Kind, RepeatedTrouble>> devices_;
 };
 
-// Limits a stream of lines for the journal: of lines with the same key it admits one per interval,
-// with the number of omitted lines. Pure.
+// Limits the number of lines in the journal. In each interval of 10 s it admits one line for each
+// key. The next admitted line states the number of omitted lines. Does not read clocks and writes
+// nothing.
 class JournalLimit {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  // The line to be written; nullopt: omit it.
+  // Returns the line to write, or nullopt if the line must be omitted.
   std::optional<std::string> admit(const std::string& key, const std::string& line, Time now);
 
  private:

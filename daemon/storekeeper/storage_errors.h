@@ -1,4 +1,5 @@
-// Classifies errors of the database for storing. Private to storekeeper*.cpp.
+// Classifies errors of the database when data are stored. Only storekeeper*.cpp include this
+// header.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace mdof::daemon {
 
-// Another program locks the file; this is temporary.
+// Whether another program locks the file. This error is temporary.
 inline bool is_busy(const Error& error) {
   return error.message.find("SQLITE_BUSY") != std::string::npos;
 }
@@ -16,7 +17,7 @@ bool is_busy(const Result<T>& done) {
   return !done && is_busy(done.error());
 }
 
-// The disk accepts no data: it is full, read-only, or fails.
+// Whether the disk accepts no data, because it is full, read-only or faulty.
 inline bool is_full(const Error& error) {
   for (const char* sign : {"SQLITE_FULL", "SQLITE_READONLY", "SQLITE_IOERR", "SQLITE_CANTOPEN",
                            "No space left", "Read-only file system"})

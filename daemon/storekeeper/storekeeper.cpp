@@ -13,10 +13,14 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::chrono::milliseconds kLongestPop{500};  // the thread must report to the watchdog
-constexpr std::chrono::milliseconds kFileCheckInterval{200};  // between checks of the files
-constexpr std::chrono::seconds kOpenRetryInterval{1};  // between attempts to open the database
-constexpr std::size_t kQueueLength = 4096;  // jobs: blocks of samples, points, calls of clients
+constexpr std::chrono::milliseconds kLongestPop{
+    500};  // the thread must report to the watchdog more often
+constexpr std::chrono::milliseconds kFileCheckInterval{
+    200};  // time between two checks of the files
+constexpr std::chrono::seconds kOpenRetryInterval{
+    1};  // time between two attempts to open the database
+constexpr std::size_t kQueueLength =
+    4096;  // number of jobs: blocks of samples, points, calls of clients
 
 Result<store::Store> open_database(const Storekeeper::Options& options) {
   const store::StoreOptions how{options.durability, static_cast<int>(options.busy_timeout.count())};
@@ -45,21 +49,22 @@ StorageState not_writable(const Storekeeper::Options& options, const Error& erro
               "database is open, mdofd stores nothing"};
 }
 
-// Whether existing data can be served although nothing can be stored.
+// Whether the database can be read, although it cannot be opened for writing.
 bool is_only_readable(const Storekeeper::Options& options, const Error& why) {
   if (why.code != ErrorCode::io) return false;
   const store::StoreOptions how{options.durability, static_cast<int>(options.busy_timeout.count())};
   return store::Store::open(options.database, store::Access::read_only, how).has_value();
 }
 
-// "No table is active" would be a guess, and a controller would then not correct.
+// The error if the database cannot be read. mdofd must not start: if it reported that no table is
+// active, a controller would stop its corrections.
 Error not_readable(const Storekeeper::Options& options, Error why) {
   if (!is_busy(why)) return why;
   return {ErrorCode::io,
           another_locks(options, ", so mdofd cannot read the active tables and does not start")};
 }
 
-// An ending mdofd may still lock the database for a short time.
+// Tries for five seconds, because an mdofd that is ending can lock the database for a short time.
 Result<store::Store> open_with_retries(const Storekeeper::Options& options) {
   constexpr std::chrono::seconds kPatience{5};
   const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -122,7 +127,8 @@ void Storekeeper::work() {
   end_finished_runs();
 }
 
-// One transaction for each recording and interval, so that durability costs one disk flush.
+// Makes one transaction for each recording and interval, so that one disk flush is enough for all
+// blocks of the interval.
 void Storekeeper::commit_recordings() {
   for (auto& [run, recording] : recordings_) {
     const Status kept = commit(run, recording);
@@ -144,7 +150,7 @@ void Storekeeper::open_again() {
   set_unopened({});
 }
 
-// An error of the disk holds until there is free space again.
+// The state "full" stays until the disk has free space again.
 void Storekeeper::note_full(const Error& error) {
   if (is_full(error)) set(full_, words::text(error));
 }
@@ -207,7 +213,7 @@ void Storekeeper::watch_files() {
   }
 }
 
-// Changes of the chain by another program since its head was announced.
+// Error text if another program changed the chain of hashes after its head was announced.
 std::string Storekeeper::chain_fault() {
   if (!store_) return {};
   const Status whole = store_->check_head(announced_);
@@ -216,7 +222,8 @@ std::string Storekeeper::chain_fault() {
          ", and restart mdofd; until the restart, mdofd stores nothing";
 }
 
-// If the chain lacks the announced head, no new head is announced: see watch_database().
+// If the announced head is not in the chain, announce_head() announces no new head; see
+// watch_database().
 void Storekeeper::begin_chain() {
   if (!store_) return;
   const std::lock_guard guard(fault_mutex_);
@@ -229,7 +236,8 @@ void Storekeeper::announce_head() {
   changes_announced_ = store_->changes();
   const auto head = store_->chain_head();
   if (!head || *head == announced_ || !store_->check_head(announced_)) return;
-  // With less durability, a power failure may remove the announced head without a fault.
+  // Writes the head to a file only with full durability. Otherwise a power failure can remove the
+  // announced head from the database without a fault.
   const auto generation = store_->generation();
   if (options_.durability == store::Durability::full && generation) {
     const Status written = store::write_announced_head(options_.database, {*head, *generation});
@@ -282,7 +290,7 @@ Status Storekeeper::commit(std::int64_t run, Recording& recording) {
   return {};
 }
 
-// The samples are stored before the points made from them.
+// Stores the samples first, then the points that are calculated from these samples.
 Status Storekeeper::keep_points(std::int64_t run, const std::vector<MeasuredPoint>& points) {
   if (const auto found = incomplete_.find(run); found != incomplete_.end()) {
     found->second += points.size();
@@ -302,7 +310,7 @@ Status Storekeeper::keep_points(std::int64_t run, const std::vector<MeasuredPoin
 
 bool Storekeeper::post(Job job) {
   return queue_.try_push([this, job = std::move(job)] {
-    if (store_) job(*store_);  // otherwise already rejected: see fault()
+    if (store_) job(*store_);  // without a store, callers have rejected the request: see fault()
   });
 }
 
@@ -315,7 +323,7 @@ Result<std::string> Storekeeper::run(std::function<Result<std::string>(store::St
     return io_error("too many writes to the database are pending; try again");
   try {
     return result.get();
-  } catch (const std::future_error&) {  // the job was destroyed without being run: see post()
+  } catch (const std::future_error&) {  // the job was destroyed and did not run: see post()
     return io_error("mdofd cannot store data at present: " + storage().reason);
   }
 }
@@ -334,7 +342,7 @@ Result<std::int64_t> Storekeeper::begin(NewRun& run) {
   return id;
 }
 
-// Removes all data of a run that could not begin.
+// Begins a run. If this fails, removes the recording of the run.
 Result<std::int64_t> Storekeeper::begin_or_remove(NewRun& run) {
   const bool made =
       !run.recording.empty() && (run.begun || !std::filesystem::exists(run.recording));
@@ -359,7 +367,7 @@ bool Storekeeper::record(std::int64_t run, std::vector<SampleBlock> blocks, bool
   auto shared = std::make_shared<std::vector<SampleBlock>>(std::move(blocks));
   auto job = [this, run, shared] {
     const auto recording = recordings_.find(run);
-    if (recording == recordings_.end()) return;  // it has failed or ended
+    if (recording == recordings_.end()) return;  // the recording has failed or ended
     for (const SampleBlock& block : *shared) {
       const Status kept = recording->second.writer.append(block);
       if (!kept) events_.failed(run, kept.error());

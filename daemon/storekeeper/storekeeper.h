@@ -1,5 +1,5 @@
-// The thread "store": the only writer of the database and of recordings. All writing to the disk is
-// a job in its queue; the measurement never waits for it.
+// The thread "store". Only this thread writes to the database and to recordings. Each write is a
+// job in the queue of the thread. The measurement does not wait for writes.
 #pragma once
 
 #include <atomic>
@@ -25,29 +25,34 @@
 
 namespace mdof::daemon {
 
-// Data for storing a new run.
+// Data of a new run.
 struct NewRun {
   RunHeader header;
-  std::filesystem::path recording;  // empty: not recorded (a replay)
+  std::filesystem::path recording;  // empty: the run is not recorded (a replay)
   RecordingHeader recording_header;
-  std::optional<store::RecordingWriter> begun;        // a recording that already has a beginning
+  std::optional<store::RecordingWriter>
+      begun;  // the recording if it exists already, with the samples of a continued run
   std::optional<HistoryEntry> action = std::nullopt;  // the requesting user
 };
 
-// Data for the end of a run besides its result.
+// Further data for the end of a run.
 struct RunEnding {
-  bool differs = false;  // the result differs from the stored points
+  bool differs = false;  // true: the points of the result differ from the stored points
   std::optional<HistoryEntry> action = std::nullopt;
-  std::optional<RunUncertainty> uncertainty = std::nullopt;  // uncertainty of the result's points
+  std::optional<RunUncertainty> uncertainty =
+      std::nullopt;  // uncertainty of the points of the result
 };
 
-// The state of the storage. "ok"; "lost": the database, its -wal or -shm, or its chain of hashes
-// was deleted, replaced or cut while in use; "damaged": SQLite found damage; "full": the disk
-// accepts no data (full or read-only); "held": another program locks the database, and points are
-// pending.
+// The state of the storage:
+//   ok
+//   lost: a file of the database (also -wal, -shm) or its chain of hashes was deleted, replaced
+//     or cut while mdofd used it
+//   damaged: SQLite has found damage in the file
+//   full: the disk accepts no data (it is full or read-only)
+//   held: another program locks the database, and data are pending
 struct StorageState {
   std::string state = "ok";
-  std::string reason;  // with the remedy
+  std::string reason;  // cause and remedy; empty if the state is "ok"
   bool operator==(const StorageState&) const = default;
 };
 
@@ -57,69 +62,76 @@ class Storekeeper {
     std::filesystem::path database;
     store::Durability durability = store::Durability::full;
     std::chrono::milliseconds commit_interval{50};
-    // Longest wait for another program that locks the database. Pending data are then tried again
-    // after the same time, which is left for other work.
+    // Longest time that a write waits while another program locks the database. After the same
+    // time, the thread tries to write the pending data again. In between, it does other work.
     std::chrono::milliseconds busy_timeout{1000};
     std::size_t most_waiting = 4096;  // maximum number of pending points
   };
-  // Called on the store thread.
+  // Functions that the thread "store" calls.
   struct Events {
-    // Chunks up to `seq` of this run's recording are on the disk.
+    // The chunks of the recording of this run, up to number `seq`, are on the disk.
     std::function<void(std::int64_t run, std::int64_t seq)> recorded;
-    // The disk rejected data (full, removed): the run can no longer be kept.
+    // The disk rejected data of the run (disk full, file removed). The run cannot continue.
     std::function<void(std::int64_t run, const Error& error)> failed;
     // The state of the storage has changed; see storage().
     std::function<void(const StorageState& now)> storage_changed = nullptr;
-    // The head of the chain of hashes has changed; also called once at the start.
+    // The head of the chain of hashes has changed. Also called once at the start.
     std::function<void(const store::ChainHead& head)> head_changed = nullptr;
   };
 
-  // Opens the database and starts the thread. A database that is readable but not yet writable is
-  // also accepted, because its tables must be served; opening is then tried again and again.
-  // Otherwise errors as from Store::open: for an unreadable database it is unknown whether a table
-  // is active.
+  // Opens the database and starts the thread. If the database can be read but not written, start()
+  // succeeds too, because mdofd must serve the active tables; the thread then tries to open the
+  // database for writing again and again. If the database cannot be read, it is unknown whether a
+  // table is active. Errors: those of Store::open.
   static Result<std::unique_ptr<Storekeeper>> start(const Options& options, Events events);
-  // Finishes the queue, writes pending data, and joins the thread.
+  // Processes the jobs in the queue, writes pending data, and joins the thread.
   ~Storekeeper();
 
-  // Thread-safe from here on. Callbacks run on the store thread.
+  // The following functions are thread-safe. Their callbacks run on the thread "store".
   using Job = std::function<void(store::Store&)>;
-  // False: the queue is full or closing; the job is dropped.
+  // Adds a job to the queue. False: the queue is full or closed, and the job will not run.
   bool post(Job job);
-  // Waits for the result. Errors: those of the job; a full or closing queue; a store that is not
-  // writable.
+  // Adds a job and waits for its result. Errors: those of the job; the queue is full or closed; the
+  // database cannot be written.
   Result<std::string> run(std::function<Result<std::string>(store::Store&)> job);
-  // Errors as from RecordingWriter::create(). The caller may write to it until it belongs to a run.
+  // Creates a recording. The caller may write to it before begin_run(). Errors: those of
+  // RecordingWriter::create().
   Result<store::RecordingWriter> create_recording(const NewRun& run) const;
   bool begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done);
-  // `wait`: for a source that can wait; otherwise a full queue drops the blocks and counts them as
-  // one.
+  // Adds the blocks to the recording of the run. `wait`: true if the source of the samples can wait
+  // for space in the queue. If `wait` is false and the queue is full, the blocks are lost;
+  // dropped_blocks() counts the call once.
   bool record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait);
-  // If another program locks the database, points and ends wait for its release. Meanwhile the
-  // recording contains the samples, and `done` is called after storing. Points beyond
-  // `most_waiting`, and all later points of their run, are dropped (`done` gets an error) and
-  // counted. They are stored at the end of the run, in a run that supersedes it.
+  // Stores points of a run, then calls `done`. If another program locks the database, the points
+  // are pending until it releases the database; the recording contains their samples. If more than
+  // `most_waiting` points are pending, these points and all later points of the run are dropped:
+  // `done` receives an error, and dropped_points() counts them. At the end of the run, they are
+  // stored in a new run that supersedes the run.
   void append_points(std::int64_t run, std::vector<MeasuredPoint> points,
                      std::function<void(Status)> done);
-  // Seals the recording and ends the run. If the result differs from the stored points, these stay,
-  // and the complete result is stored as a new run that supersedes the run. `done` gets the id of
-  // the run to read.
+  // Seals the recording and ends the run. If the result differs from the stored points, the stored
+  // points do not change; the complete result is stored as a new run that supersedes the run.
+  // `done` receives the id of the run to read.
   void end_run(std::int64_t run, Run result, RunEnding how,
                std::function<void(Result<std::int64_t>)> done);
 
   StorageState storage() const;
-  // Why nothing can be stored: the database is lost, or could not yet be opened for writing. Empty:
-  // data can be stored.
+  // The reason why no data can be stored: the database is lost, or it could not be opened for
+  // writing yet. Empty: data can be stored.
   std::string fault() const;
-  // Why a run whose measurement has ended is still stored as open; empty: it is not.
+  // The reason why the stored state of a run is still "open" although its measurement has ended.
+  // Empty: the end of the run is stored, or the run is in progress.
   std::string still_open_reason(std::int64_t run) const;
   // The last announced head of the chain of hashes.
   store::ChainHead chain_head() const;
-  // Thread-safe. Reports damage that a reader found; the state stays until mdofd ends.
+  // Reports damage of the database that a reader has found. The state "damaged" stays until mdofd
+  // ends. Thread-safe.
   void note_damage(const std::string& what);
   std::uint64_t dropped_blocks() const { return queue_.dropped(); }
-  std::uint64_t dropped_points() const { return dropped_points_.load(); }  // by append_points()
-  // Time of the thread's last report, for the watchdog.
+  std::uint64_t dropped_points() const {
+    return dropped_points_.load();
+  }  // that append_points() dropped
+  // Time of the last report of the thread, for the watchdog.
   std::chrono::steady_clock::time_point last_turn() const { return last_turn_.load(); }
 
  private:
@@ -161,7 +173,7 @@ class Storekeeper {
   struct Recording {
     store::RecordingWriter writer;
     store::FileWatch file;
-    bool waiting = false;  // contains blocks that are not yet committed
+    bool waiting = false;  // true: some blocks are not committed yet
   };
 
   Status commit(std::int64_t run, Recording& recording);
@@ -177,34 +189,35 @@ class Storekeeper {
     Run result;
     RunEnding how;
     std::function<void(Result<std::int64_t>)> done;
-    std::size_t dropped = 0;  // number of its dropped points
+    std::size_t dropped = 0;  // number of dropped points of the run
   };
   struct Unended {
     std::int64_t run;
     store::RunEnd end;
   };
 
-  std::optional<store::Store> store_;  // nullopt: not yet writable
+  std::optional<store::Store> store_;  // nullopt: the database could not be opened for writing yet
   const Options options_;
   Events events_;
   std::map<std::int64_t, Recording> recordings_;
   store::FileWatch database_;
   std::chrono::steady_clock::time_point files_watched_{};
   std::chrono::steady_clock::time_point last_open_attempt_{};
-  mutable std::mutex fault_mutex_;  // protects the next seven
+  mutable std::mutex fault_mutex_;  // protects the next seven members
   std::string lost_, full_, held_, damaged_;
-  StorageState unopened_;  // why store_ is missing; "ok": it exists
+  StorageState unopened_;  // reason why store_ is nullopt; "ok" if it is not
   store::ChainHead announced_;
   std::map<std::int64_t, std::string> open_reasons_;
-  std::int64_t changes_announced_ = -1;  // changes of the database when its head was announced
+  std::int64_t changes_announced_ =
+      -1;  // value of store_->changes() when the head was announced last
   std::vector<Unended> unended_;
-  std::deque<Points> waiting_points_;  // wait until another program releases the database
+  std::deque<Points> waiting_points_;  // pending until another program releases the database
   std::size_t waiting_count_ = 0;      // number of points in waiting_points_
-  std::deque<Ending> waiting_ends_;    // likewise
+  std::deque<Ending> waiting_ends_;    // ends of runs that are pending for the same reason
   std::chrono::steady_clock::time_point next_try_{};  // time of the next attempt to store pending
                                                       // data
-  // Run -> number of its points that were not kept, because the disk rejected one or too many were
-  // pending.
+  // Run -> number of points of the run that were not stored. incomplete_: because the disk rejected
+  // a point. overflowed_: because too many points were pending.
   std::map<std::int64_t, std::size_t> incomplete_, overflowed_;
   std::atomic<std::uint64_t> dropped_points_{0};
   BoundedQueue<std::function<void()>> queue_;

@@ -1,4 +1,5 @@
-// Storekeeper: points and ends of runs, stored at once or when the database accepts them.
+// Functions of Storekeeper that store points and ends of runs. If another program locks the
+// database, they are stored later.
 #include "daemon/paths.h"
 #include "daemon/storekeeper/storage_errors.h"
 #include "daemon/storekeeper/storekeeper.h"
@@ -30,7 +31,8 @@ store::RunEnd end_of(const Run& run) {
   return end;
 }
 
-// The end of a run whose targets were renumbered; `why` states what happened to its points.
+// The end of a run whose points differ from the result. `why`: notice that states which run
+// contains the result, or why it is not stored.
 store::RunEnd renumbered_run_end(store::RunEnd whole, NoticeCode why) {
   whole.state = RunState::failed;
   whole.straightness.clear();
@@ -40,7 +42,7 @@ store::RunEnd renumbered_run_end(store::RunEnd whole, NoticeCode why) {
   return whole;
 }
 
-// A run whose end was reported to the client as failed.
+// The end of a run with a notice. The client has received an error for this end.
 store::RunEnd with_rejection_notice(store::RunEnd whole, const Error& error) {
   whole.notices.push_back(notice(NoticeCode::end_refused, "", {{"reason", words::text(error)}}));
   return whole;
@@ -48,7 +50,8 @@ store::RunEnd with_rejection_notice(store::RunEnd whole, const Error& error) {
 
 }  // namespace
 
-// Repeats ends that the disk rejected, until it accepts them.
+// Stores the ends that the disk rejected before. If the disk rejects an end again, it stays
+// pending.
 void Storekeeper::end_finished_runs() {
   std::erase_if(unended_, [&](Unended& waiting) {
     waiting.end.state = RunState::failed;
@@ -58,7 +61,7 @@ void Storekeeper::end_finished_runs() {
   });
 }
 
-// Points are stored in the order of their arrival.
+// Points are stored in the order in which they arrive.
 void Storekeeper::take(Points points) {
   if (overflowed_.contains(points.run)) return drop(points);
   if (waiting_points_.empty()) {
@@ -88,15 +91,15 @@ void Storekeeper::wait_for_database(Points points) {
   waiting_points_.push_back(std::move(points));
 }
 
-// Drops these points; all later points of the run are also dropped, because they are stored in
-// order.
+// Drops these points. take() then drops all later points of the run, too, because the points of a
+// run must be stored in order.
 void Storekeeper::drop(const Points& points) {
   overflowed_[points.run] += points.points.size();
   dropped_points_ += points.points.size();
   points.done(io_error("this point is not stored yet" + too_many(options_.most_waiting)));
 }
 
-// Called once, at the end of the run; also forgets the count.
+// Returns the number of dropped points and removes it. Called once, at the end of the run.
 std::size_t Storekeeper::take_dropped_count(std::int64_t run) {
   std::size_t dropped = 0;
   for (auto* runs : {&incomplete_, &overflowed_}) {
@@ -115,7 +118,7 @@ void Storekeeper::wait_for_database(Ending ending) {
   waiting_ends_.push_back(std::move(ending));
 }
 
-// `why`: why the run is still stored as open; empty: it is not.
+// Sets the reason for still_open_reason(). An empty `why` removes it.
 void Storekeeper::explain(std::int64_t run, const std::string& why) {
   const std::lock_guard guard(fault_mutex_);
   if (why.empty())
@@ -130,7 +133,7 @@ void Storekeeper::keep_rejected_end(Unended unended, const Error& error) {
   unended_.push_back(std::move(unended));
 }
 
-// Without a pause all time would be spent on waiting, and samples would not be recorded.
+// Without this pause, the thread would only wait for the database and would not record samples.
 void Storekeeper::try_later() {
   next_try_ = std::chrono::steady_clock::now() + options_.busy_timeout;
 }
@@ -152,8 +155,8 @@ void Storekeeper::store_waiting_items() {
   set(held_, "");
 }
 
-// mdofd ends: the runs stay without an end, as after a power failure; their recordings are
-// complete.
+// Called when mdofd ends. The ends of these runs are not stored, as after a power failure. The
+// recordings of the runs are complete.
 void Storekeeper::discard_waiting_items() {
   const auto error = io_error(
       "mdofd ended while another program locked the database; the samples of the run are in the "
@@ -163,8 +166,8 @@ void Storekeeper::discard_waiting_items() {
   for (const Ending& ending : waiting_ends_) ending.done(error);
 }
 
-// Seals the recording and adds its hash to the result. If the recording cannot be sealed, the run
-// has failed. Does nothing if called again.
+// Seals the recording and adds the hash of the recording to the result. If the recording cannot be
+// sealed, the state of the run is "failed". A second call does nothing.
 void Storekeeper::seal(Ending& ending) {
   RunHeader& header = ending.result.header;
   if (const auto recording = recordings_.find(ending.run); recording != recordings_.end()) {
@@ -205,7 +208,7 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
   return superseded;
 }
 
-// A rejected end is repeated until the disk accepts it.
+// Stores the end of a run. If the disk rejects it, end_finished_runs() tries again.
 Status Storekeeper::end_or_wait(std::int64_t run, const store::RunEnd& end) {
   Status ended = store_->end_run(run, end);
   if (!ended && !is_busy(ended))

@@ -21,7 +21,7 @@ RunHeader shortened(RunHeader header);
 struct RunListRequest {
   std::int64_t offset = 0, count = 0;
   std::optional<Axis> axis = std::nullopt;
-  bool all = false;  // include superseded runs
+  bool all = false;  // true: also list runs whose complete result is stored as another run
 };
 // The document of run.list and `mdof runs --json`. The newest run comes first. The document
 // contains as many runs as fit into `most_bytes`. The function `explain` may change a header before

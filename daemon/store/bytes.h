@@ -1,4 +1,5 @@
-// Converts doubles to the bytes of a column and back: 8-byte little-endian IEEE 754 in sequence.
+// Converts doubles to the bytes of a database column, and back. Each double has 8 bytes (IEEE 754,
+// little-endian).
 #pragma once
 
 #include <bit>
@@ -15,7 +16,7 @@ inline std::string_view bytes_of(std::span<const double> x) {
   return {reinterpret_cast<const char*>(x.data()), x.size_bytes()};
 }
 
-// Copies as many doubles as both sides have.
+// Copies doubles from `bytes` to `x`. The number is the smaller one of the two sizes.
 inline void doubles_from(std::string_view bytes, std::span<double> x) {
   const std::size_t n = std::min(x.size(), bytes.size() / sizeof(double));
   if (n > 0) std::memcpy(x.data(), bytes.data(), n * sizeof(double));

@@ -1,4 +1,4 @@
-// Store: set positions of an axis.
+// Functions of Store for axis positions that users set.
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 

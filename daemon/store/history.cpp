@@ -1,4 +1,4 @@
-// Store: the history of actions and their users.
+// Functions of Store for the history of actions and users.
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 

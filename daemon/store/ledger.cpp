@@ -17,7 +17,7 @@ namespace {
 
 struct FactKind {
   Fact fact;
-  const char* name;  // name in the ledger and of its table
+  const char* name;  // name of the fact in the ledger, and name of the database table
   const char* key;
   const char* called;  // name in messages
   const char* values;
@@ -71,7 +71,7 @@ constexpr std::array<FactKind, 11> kKinds = {{
      "SELECT text FROM deed_reason NOT INDEXED WHERE deed = ?"},
 }};
 
-// The kinds that existed when the ledger was introduced.
+// Number of kinds that existed when the ledger was introduced.
 constexpr std::size_t kFirstKinds = 6;
 
 const FactKind& kind_of(Fact fact) {
@@ -84,7 +84,8 @@ const FactKind* kind_named(std::string_view name) {
   return nullptr;
 }
 
-// Includes the storage class, because a query for text does not find an axis that became bytes.
+// Also appends the storage class of the value. Otherwise a text that was changed to equal bytes
+// would have the same hash, but queries for the text would not find it.
 void append_value(const Statement& row, int column, std::string& to) {
   const char storage = row.storage_class(column);
   to += storage;
@@ -99,7 +100,7 @@ void append_value(const Statement& row, int column, std::string& to) {
   }
 }
 
-// nullopt: the fact does not exist.
+// Calculates the hash of a link. nullopt: the fact does not exist.
 Result<std::optional<std::string>> calculate_link(Connection& connection, std::string_view previous,
                                                   const FactKind& kind, std::int64_t row) {
   MDOF_TRY(Statement values, connection.prepare(kind.values));
@@ -124,8 +125,8 @@ tl::unexpected<Error> damaged(const Connection& connection, const std::string& w
   return bad_input(connection.file().string() + ": " + what, Remedy::verify_database);
 }
 
-// Calls visit(kind, row, previous, sha256) for each link, in order. Gaps and unknown facts are
-// added to `findings`.
+// Calls visit(kind, row, previous, sha256) for each link, in order. Adds missing links and unknown
+// facts to `findings`.
 template <class Visit>
 Status for_each_link(Connection& connection, std::vector<std::string>& findings, Visit visit) {
   MDOF_TRY(Statement links, connection.prepare("SELECT id, fact, row, sha256 FROM ledger NOT "
@@ -150,8 +151,8 @@ Result<std::int64_t> count(Connection& connection, const FactKind& kind) {
   return connection.integer(std::string("SELECT count(*) FROM ") + kind.name + " NOT INDEXED");
 }
 
-// Checks links of the kinds that `wanted` selects against their facts, and that no fact lacks a
-// link.
+// Checks the facts of the kinds that `wanted` selects: each fact must have a link, and the hash of
+// the link must be correct.
 template <class Wanted>
 Status check_all(Connection& connection, std::vector<std::string>& findings, Wanted wanted) {
   std::array<std::int64_t, kKinds.size()> linked{};

@@ -1,12 +1,12 @@
-// The chain of hashes over all facts on which results, tables and activations depend. Private
-// header of the store.
+// The ledger: a chain of hashes over all facts on which results, tables and activations depend. A
+// fact is a row of the database, such as a run or an activation. Only files of the store include
+// this header.
 //
 //   hash of link n = SHA-256 of  hash of link n-1 (nothing for n = 1) '\n' fact '\n' row '\n'
 //   values
-//
-// `values` are the values of the fact's row and of the rows to which it refers (recording, rig and
-// other texts, temperature, plausibility, runs of a table), in the order of the query in
-// ledger.cpp, each as
+// `values` are the values of the row of the fact, and of the rows to which this row refers
+// (recording, rig and other texts, temperature, plausibility, runs of a table). Their order is the
+// order of the query in ledger.cpp. Each value is written as
 //   n: NULL; i decimal '\n': an integer; d 8 bytes: a double; t length '\n' bytes: text; b length
 //   '\n' bytes: bytes
 #pragma once
@@ -22,9 +22,10 @@ namespace mdof::store {
 
 inline constexpr int kLedgerSchema = 8;  // the migration that created the ledger
 
-// The last link of a chain: its number, from 1, and its hash, which depends on all earlier links.
+// The last link of the chain. `link`: number of the link; the first link has the number 1.
+// `sha256`: hash of the link; it depends on all earlier links.
 struct ChainHead {
-  std::int64_t link = 0;  // 0: no links
+  std::int64_t link = 0;  // 0: the chain has no links
   std::string sha256;
   bool operator==(const ChainHead&) const = default;
 };
@@ -43,23 +44,25 @@ enum class Fact {
   action_reason,
 };
 
-// Call it in the transaction that stored the fact.
+// Adds a link for the fact. Call this function in the transaction that stores the fact.
 Status add_link(sqlite::Connection& connection, Fact fact, std::int64_t row);
-// Adds links for all facts of a database without a ledger; it has no facts of later kinds.
+// Adds links for all facts of a database that had no ledger. Such a database has no facts of the
+// kinds that were introduced later.
 Status link_old_facts(sqlite::Connection& connection);
 
 Result<ChainHead> chain_head(sqlite::Connection& connection);
-// Whether `head` is the head or an earlier link, so that the chain was neither cut nor
-// recalculated.
+// Whether the chain contains `head`, as its head or as an earlier link. If it does, the chain was
+// neither cut nor recalculated.
 Result<bool> has_link(sqlite::Connection& connection, const ChainHead& head);
 Result<bool> has_hash(sqlite::Connection& connection, const std::string& sha256);
 
-// Error (bad_input): the fact has changed or has no link.
+// Checks the link of a fact. Error (bad_input): the fact has changed or has no link.
 Status check_link(sqlite::Connection& connection, Fact fact, std::int64_t row);
-// The same for every activation and deactivation of axes and volume; also checks that none is
-// missing.
+// Checks the links of all activations and deactivations. Error (bad_input): one of them has
+// changed, is missing or has no link.
 Status check_activations(sqlite::Connection& connection);
-// Checks the whole chain, and that every fact is in it. One sentence for each finding.
+// Checks the whole chain, and that the chain contains every fact. Adds one sentence to `findings`
+// for each fault.
 Status verify_ledger(sqlite::Connection& connection, std::vector<std::string>& findings);
 
 }  // namespace mdof::store

@@ -1,11 +1,12 @@
-// Store: reads the plausibility of a run from its stored JSON.
+// Function of Store that reads the plausibility of a run from the stored JSON.
 #include "daemon/store/store.h"
 #include "schema/plausibility/plausibility_json.h"
 
 namespace mdof::store {
 
 Result<std::optional<Plausibility>> Store::plausibility(std::int64_t run) {
-  // A reader does not migrate, so the schema may be older.
+  // The schema may be older and not contain this table, because a reader does not migrate the
+  // database.
   MDOF_TRY(const std::int64_t table, connection_.integer("SELECT count(*) FROM sqlite_master "
                                                          "WHERE name = 'run_plausibility'"));
   if (table == 0) return std::optional<Plausibility>();

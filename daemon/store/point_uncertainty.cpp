@@ -1,4 +1,5 @@
-// Store: uncertainties of a run's points, for the views of schema/sql/013_views.sql.
+// Function of Store that stores the uncertainties of the points of a run, for the views in
+// schema/sql/013_views.sql.
 #include "daemon/store/store.h"
 #include "schema/base/json_writer.h"
 

@@ -1,4 +1,4 @@
-// Store: reading of runs.
+// Functions of Store that read runs.
 #include <algorithm>
 
 #include "daemon/store/bytes.h"
@@ -33,7 +33,8 @@ constexpr std::string_view kPoints =
     "probe_m, probe_u_m, reason, dy_m, dz_m, ex_rad, ey_rad, ez_rad, residual_m, covariance_m_rad "
     "FROM point WHERE id BETWEEN (?1 << 32) + ?2 AND (?1 << 32) + 4294967295 ORDER BY id LIMIT ?3";
 
-// A run that end_and_supersede() ended is failed and has the start time of the superseding run.
+// Excludes runs that end_and_supersede() ended. Such a run is superseded, has the state "failed",
+// and has the same start time as the run that supersedes it.
 constexpr const char* kResults =
     " AND run.id NOT IN (SELECT given_up.id FROM run AS later "
     "JOIN run AS given_up ON given_up.id = later.supersedes "
@@ -67,8 +68,8 @@ Provenance provenance_of(const Statement& row) {
   return from;
 }
 
-// Adds notices that follow from other columns; runs of older versions and open runs do not store
-// them.
+// Adds notices that are calculated from other columns. Runs of older versions and open runs have
+// not stored these notices.
 void add_missing(Notices& notices, Notices derived) {
   for (Notice& each : derived)
     if (std::find(notices.begin(), notices.end(), each) == notices.end())
@@ -77,7 +78,7 @@ void add_missing(Notices& notices, Notices derived) {
 
 AxisErrors errors_of(const Statement& row, int first) {
   AxisErrors errors;
-  errors.valid = row.is_null(first);  // the column contains the reason for missing errors
+  errors.valid = row.is_null(first);  // the column contains the reason if the point has no errors
   errors.reason = row.text(first);
   if (!errors.valid) return errors;
   for (int k = 0; k < kErrorCount; ++k)
@@ -138,7 +139,7 @@ Result<RunHeader> Store::header_of(Statement& row) {
     MDOF_TRY(header.notices, read_notices(row.text(17)));
     MDOF_TRY(header.temperature, temperature(header.id));
   } else if (!open_runs_.contains(header.id) && !WriterLock::open_runs_claimed(file())) {
-    header.state = RunState::aborted;  // the next writer will store this state
+    header.state = RunState::aborted;  // the next writer stores this state
     header.notices = {notice(NoticeCode::interrupted)};
   }
   EncoderDatum datum;
@@ -149,7 +150,7 @@ Result<RunHeader> Store::header_of(Statement& row) {
   return header;
 }
 
-// The hash of the result rows that was stored at the run's end; empty: the run has not ended.
+// The hash of the result that was stored at the end of the run. Empty: the run has not ended.
 Result<std::string> Store::stored_sha256(std::int64_t run) {
   MDOF_TRY(Statement row, connection_.prepare("SELECT result_sha256 FROM run_end WHERE run = ?"));
   MDOF_TRY(const bool found, row.bind(run).step());
@@ -162,7 +163,8 @@ Status Store::check_run(std::int64_t run) {
   return ended.empty() ? Status() : check_link(connection_, Fact::run_end, run);
 }
 
-// Lists a run whose stored facts do not match their hashes as failed, with the reason.
+// If the stored facts of a run do not match their hashes, sets the state to failed and adds the
+// reason.
 Status Store::mark_damage(RunHeader& header) {
   Status whole = check_run(header.id);
   if (whole) return {};
@@ -251,11 +253,12 @@ Result<std::vector<MeasuredPoint>> Store::points(std::int64_t run, std::int64_t 
   return list;
 }
 
-// A single page has no hash, so the whole run is checked once, and the hash of each row is kept.
+// A part of the points has no hash of its own. Therefore the first call checks the whole run and
+// keeps the hash of each point. Later calls compare points with these hashes.
 Status Store::check_points(std::int64_t run, std::int64_t offset,
                            const std::vector<MeasuredPoint>& points) {
   MDOF_TRY(const std::string stored, stored_sha256(run));
-  if (stored.empty()) return {};  // it is being measured
+  if (stored.empty()) return {};  // the run is being measured
   MDOF_CHECK(check_link(connection_, Fact::run_end, run));
   if (checked_.run != run || checked_.sha256 != stored) {
     CheckedRows now{run, stored, {}};

@@ -26,8 +26,8 @@ void sync_folder(const fs::path& folder) {
   ::close(fd);
 }
 
-// Also flushes the parent folder; otherwise a power failure could remove the new folder and its
-// files.
+// Also flushes the parent folder to the disk. Otherwise a power failure can remove the new folder
+// and its files.
 void make_folder(const fs::path& folder) {
   std::error_code ec;
   if (folder.empty() || fs::exists(folder, ec)) return;
@@ -35,7 +35,7 @@ void make_folder(const fs::path& folder) {
   if (fs::create_directory(folder, ec)) sync_folder(fs::absolute(folder, ec).parent_path());
 }
 
-// Creates the file exclusively, so that no recording is overwritten.
+// Creates the file. Error if it exists, so that no recording is overwritten.
 Status create_file(const fs::path& file) {
   make_folder(file.parent_path());
   const int fd = ::open(file.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644);
@@ -80,7 +80,8 @@ Result<Connection> begin_file(const fs::path& file, const RecordingHeader& heade
   return connection;
 }
 
-// A chunk has a second or two of a fast device, and is much shorter than kMaxChunkBytes.
+// Largest number of scans in a chunk. This is one or two seconds of a fast device. The chunk is
+// much shorter than kMaxChunkBytes.
 std::size_t max_scans(std::size_t channels) {
   constexpr std::size_t kScans = 8192;
   return std::min(kScans, kMaxChunkBytes / (16 * (channels + 1)));
@@ -225,7 +226,8 @@ Result<std::string> RecordingWriter::finish(const std::string& finished_utc) {
     insert.bind(std::string_view(seal.finished_utc)).bind(std::string_view(seal.sha256));
     MDOF_CHECK(insert.run());
   }
-  // Makes one file without a journal. An active reader prevents this, without loss of data.
+  // Removes the -wal file. This fails if another program reads the recording; no data are lost
+  // then.
   (void)connection_.execute("PRAGMA journal_mode = DELETE");
   return hash_;
 }

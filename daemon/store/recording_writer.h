@@ -1,4 +1,5 @@
-// Writes samples to a recording as chained chunks. Format: schema/recording/recording.h.
+// Writes samples to a recording. The samples are in chunks, and a chain of hashes protects the
+// chunks. Format: schema/recording/recording.h.
 #pragma once
 
 #include <cstdint>
@@ -15,42 +16,45 @@
 
 namespace mdof::store {
 
-// Thread-bound. Data are safe only after commit(); if the process ends, data that append() took
-// since the last commit() are lost. After an error of commit() (a full disk) everything is kept,
-// and the next commit() tries again.
+// Thread-bound. Data are on the disk only after commit(). If the process ends, samples that were
+// appended after the last commit() are lost. If commit() returns an error (disk full), the data
+// stay in memory, and the next commit() tries again.
 class RecordingWriter {
  public:
-  // Creates the file, and its folder if needed. Error (conflict): the file exists. If it cannot be
-  // written, no file remains.
+  // Creates the file, and its folder if the folder is missing. Error (conflict): the file exists.
+  // If the file cannot be written, it is removed.
   static Result<RecordingWriter> create(const std::filesystem::path& file,
                                         const RecordingHeader& header,
                                         sqlite::Durability durability = sqlite::Durability::full);
 
-  // Removes an incomplete, useless recording that has no writer.
+  // Removes an incomplete recording that is not needed. It must have no writer.
   static void remove(const std::filesystem::path& file);
 
-  // Takes the block into memory. bad_input: the time of a device does not increase. io: commit()
-  // has failed until kMaxWaitingBytes are pending; the block is then counted as lost in the
-  // device's next chunk.
+  // Copies the block into memory. Error (bad_input): the time of a device does not increase. Error
+  // (io): commit() failed so often that kMaxWaitingBytes are pending. The scans of the block are
+  // then lost; the next chunk of the device states their number.
   Status append(const SampleBlock& block);
-  // Writes all appended data to the disk in one transaction; returns the number of the last safe
-  // chunk (0: none). A commit needs one disk flush, so the caller decides how often.
+  // Writes all appended data to the disk in one transaction. Returns the number of the last chunk
+  // on the disk (0: no chunk). Each commit needs one disk flush, so the caller decides how often to
+  // commit.
   Result<std::int64_t> commit();
-  // Commits, seals and leaves a single file that can be read on a read-only disk. Returns the
-  // recording's SHA-256. Call it once, at the end.
+  // Commits and seals the recording. The recording is then a single file; it can be read from a
+  // read-only disk. Returns the SHA-256 of the recording. Call this function once, at the end.
   Result<std::string> finish(const std::string& finished_utc);
 
-  std::uint64_t scans() const { return scans_; }  // scans in chunks, committed or pending
-  std::uint64_t lost() const { return lost_; }    // lost scans before, between or after those
+  std::uint64_t scans() const {
+    return scans_;
+  }  // number of scans in all chunks (committed or pending)
+  std::uint64_t lost() const { return lost_; }  // number of lost scans
 
   static constexpr std::size_t kMaxWaitingBytes = 64u << 20;
 
  private:
-  // Blocks of one device that wait for a chunk.
+  // Samples of one device that are not in a chunk yet.
   struct Stream {
     SampleBlock block;
     std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
-    std::uint64_t lost = 0;  // stated in the next chunk
+    std::uint64_t lost = 0;  // number of lost scans; the next chunk states it
   };
 
   RecordingWriter(sqlite::Connection connection, std::string hash);
@@ -59,8 +63,8 @@ class RecordingWriter {
   Status write_waiting();
 
   sqlite::Connection connection_;
-  std::map<std::string, Stream> streams_;  // streams by device, sorted so that files are
-                                           // reproducible
+  std::map<std::string, Stream> streams_;  // streams by the name of the device; their order is
+                                           // fixed, so that equal samples give equal files
   std::deque<RecordingChunk> waiting_;
   std::size_t waiting_bytes_ = 0;
   std::string hash_;  // hash of the last chunk

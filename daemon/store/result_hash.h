@@ -1,6 +1,6 @@
-// The SHA-256 of a run's result rows. Two runs have the same hash if and only if every point,
-// straightness figure and angle figure is bit-identical, independent of machine, compiler and file.
-// Provenance, file names and times of day are not included.
+// The SHA-256 of the result of a run. Two runs have the same hash only if every point, straightness
+// figure and angle figure is bit-identical. The hash does not depend on the computer, the compiler
+// or the file. Provenance, file names and UTC times are not included.
 //
 // Hashed bytes (i, d, s: schema/base/canonical.h) in the order of the rows: all points, then
 // straightness, then angles:
@@ -30,11 +30,11 @@ class ResultHash {
 
  private:
   Sha256 hash_;
-  std::string row_;  // reused memory
+  std::string row_;  // memory for the bytes of one row
 };
 
 std::string result_sha256(const Run& run);
-// The first bytes of the SHA-256 of one row, as above.
+// The first 8 bytes of the SHA-256 of one point, with the bytes of ResultHash.
 std::uint64_t row_hash(const MeasuredPoint& point);
 
 }  // namespace mdof::store

@@ -27,7 +27,7 @@ Status make_parent(const fs::path& file) {
   if (!file.has_parent_path()) return {};
   std::error_code ec;
   fs::create_directories(file.parent_path(), ec);
-  std::error_code ignored;  // unreadable folders are treated as missing
+  std::error_code ignored;  // a folder that cannot be read is treated as missing
   if (ec && !fs::is_directory(file.parent_path(), ignored))
     return io_error(file.parent_path().string() +
                     ": the folder of the database cannot be created: " + ec.message() +
@@ -35,8 +35,8 @@ Status make_parent(const fs::path& file) {
   return {};
 }
 
-// SQLite names its journal after the database, so that it is not found with another name of the
-// file.
+// Error if the file has a second name (hard link). SQLite derives the name of the journal from the
+// name of the file, so it would not find the journal by the second name.
 Status check_one_name(const fs::path& file) {
   std::error_code ec;
   const auto names = fs::hard_link_count(file, ec);
@@ -46,8 +46,8 @@ Status check_one_name(const fs::path& file) {
                    "names; remove the other names, or copy the file if you need a copy");
 }
 
-// A database of another user that no mdof writes is opened as a snapshot, because creating our own
-// -shm would write to that user's folder.
+// If the database belongs to another user and no mdof program writes it, opens it as a snapshot.
+// Otherwise SQLite would create a -shm file in the folder of this user.
 OpenMode read_open_mode(const fs::path& file) {
   struct stat now {};
   const bool foreign = ::stat(file.c_str(), &now) == 0 && now.st_uid != ::geteuid();
@@ -100,7 +100,8 @@ Result<Store> Store::open(const fs::path& file, Access access, StoreOptions opti
   }
   MDOF_CHECK(make_parent(file));
   MDOF_TRY(WriterLock lock, WriterLock::acquire(file, options.busy_timeout_ms));
-  // Checked before anything is written, so that a file that was named by mistake does not change.
+  // The check is before the first write. A file of another program, given by mistake, therefore
+  // does not change.
   if (!absent_or_empty(file)) MDOF_CHECK(open_reader(file, options.busy_timeout_ms));
   MDOF_TRY(Connection connection, open_writer(file, options));
   Store store(std::move(lock), std::move(connection), access);

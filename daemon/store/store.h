@@ -1,6 +1,6 @@
-// The database of runs, squareness, compensation tables and sensitivity studies: typed calls for
-// schema/sql/*.sql. Append only. Everything that returns ok is on the disk, according to the
-// durability.
+// The database of runs, squareness, compensation tables and sensitivity studies. Its schema is in
+// schema/sql/*.sql. Rows are only added and do not change. When a function returns ok, its data are
+// on the disk, according to the durability.
 #pragma once
 
 #include <cstdint>
@@ -30,37 +30,38 @@ namespace mdof::store {
 using sqlite::Durability;
 
 enum class Access {
-  read_only,   // the file must exist; any number of readers, also during writing
-  read_write,  // created if missing, migrated to the newest schema; one writer at a time
+  read_only,   // the file must exist; any number of readers, also while a writer writes
+  read_write,  // a missing file is created; an older schema is migrated; only one writer at a time
 };
 
 struct StoreOptions {
   Durability durability = Durability::full;
-  int busy_timeout_ms = 5000;  // longest wait for the end of another writer
+  int busy_timeout_ms = 5000;  // longest time to wait for the end of another writer
 };
 
-// Data of a run that are known only after its end.
+// Data of a run that are known only at its end.
 struct RunEnd {
   RunState state = RunState::complete;  // not open
   std::uint64_t scans = 0, scans_lost = 0;
   Notices notices;
-  std::string recording_sha256;  // SHA-256 of a recording that was not yet complete at the start
+  std::string
+      recording_sha256;  // SHA-256 of the recording, if it was not complete when the run began
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
   std::optional<Plausibility> plausibility = std::nullopt;
   std::optional<Temperature> temperature = std::nullopt;
-  std::optional<HistoryEntry> action = std::nullopt;         // the user who ended it
-  std::optional<RunUncertainty> uncertainty = std::nullopt;  // uncertainty of its points, for SQL
-                                                             // users
+  std::optional<HistoryEntry> action = std::nullopt;  // the user who ended the run
+  std::optional<RunUncertainty> uncertainty =
+      std::nullopt;  // uncertainty of the points, for users who read the database with SQL
 };
 
-// An active table.
+// An active table of an axis.
 struct ActiveTable {
   CompensationTable table;
   std::int64_t generation = 0;
   std::string actor;
   std::string activated_utc;
-  bool doubtful = false;  // whether its runs are doubtful; readers for clients set it
+  bool doubtful = false;  // whether the runs of the table are doubtful; the store does not set it
 };
 
 struct ActiveVolumetric {
@@ -71,7 +72,7 @@ struct ActiveVolumetric {
   bool doubtful = false;  // as in ActiveTable
 };
 
-// Information that a controller needs about a table.
+// Warnings about a table that a controller receives.
 struct Marks {
   bool simulated = false, doubtful = false;
 };
@@ -79,66 +80,67 @@ struct Marks {
 // Result of activate() or deactivate().
 struct Activation {
   std::int64_t generation = 0;
-  bool changed = false;  // false: it already was in this state, with this generation
+  bool changed = false;  // false: the table was in this state already, with this generation
   std::optional<Marks> marks = std::nullopt;  // marks of the activated table
 };
 
-// {`members`,"generation":7,"changed":true}, with "simulated" and "doubtful" for a table. `members`
-// is JSON that names the object.
+// {`members`,"generation":7,"changed":true}. If `activation` has marks, "simulated" and "doubtful"
+// are added. `members`: JSON members that state the table or the axis.
 std::string activation_json(const std::string& members, const Activation& activation);
 
-// Thread-bound. Messages name the file; not_found names the missing run or table. A requested
-// action takes a `HistoryEntry` with its user; it is stored in the same transaction, with its
-// `detail` as the reason. Doubles are read back bit-identical; a NaN is read back as a NaN.
+// Thread-bound. Error messages name the file; the error not_found names the missing run or table.
+// If a user requests a change, the parameter `action` states the user; the change and the action
+// are stored in one transaction, and action.detail is stored as the reason. Stored doubles are read
+// bit-identical; NaN is read as NaN.
 class Store {
  public:
   static Result<Store> open(const std::filesystem::path& file, Access access,
                             StoreOptions options = {});
 
-  // ---- runs ----
-  // Stores a whole run or nothing, in one transaction. The header's id is ignored; its state must
-  // not be open. Returns the run's id.
+  // ---- runs ---- Stores a complete run in one transaction. The state in the header must not be
+  // "open", and the id in the header is ignored. Returns the id of the stored run.
   Result<std::int64_t> add_run(const Run& run,
                                const std::optional<HistoryEntry>& action = std::nullopt,
                                const std::optional<RunUncertainty>& uncertainty = std::nullopt);
-  // For a run in progress: begin, append, end; each call is durable on return. Only this store can
-  // append to it. If the store is closed before the run ends, the run becomes `aborted` with the
-  // notice "interrupted".
+  // Functions for a run in progress: begin, append, end. After each call the data are on the disk.
+  // Only the store object that began the run can append to it. If this object is destroyed before
+  // the run ends, the state of the run becomes "aborted", with the notice "interrupted".
   Result<std::int64_t> begin_run(const RunHeader& header,
                                  const std::optional<HistoryEntry>& action = std::nullopt);
   Status append_points(std::int64_t run, const std::vector<MeasuredPoint>& points);
   Status end_run(std::int64_t run, const RunEnd& end);
-  // Ends the run and stores its final result as a run that supersedes it, in one transaction. From
-  // the header of `result` only state and notices are used. Returns the new run's id.
+  // Ends the run and stores its result as a new run that supersedes it, in one transaction. Only
+  // the state and the notices in the header of `result` are used. Returns the id of the new run.
   Result<std::int64_t> end_and_supersede(
       std::int64_t run, const RunEnd& end, Run result,
       const std::optional<RunUncertainty>& uncertainty = std::nullopt);
 
   Result<RunHeader> run_header(std::int64_t run);
-  // Newest first; `axis` selects the runs of one axis. `results`: without runs that
-  // end_and_supersede() ended, because their result is another run.
+  // The newest run comes first. `axis`: only runs of this axis. Listed::results: without runs that
+  // end_and_supersede() ended, because their result is in another run.
   enum class Listed { all, results };
   Result<std::vector<RunHeader>> list_runs(std::int64_t offset, std::int64_t count,
                                            std::optional<Axis> axis = std::nullopt,
                                            Listed listed = Listed::all);
   Result<std::int64_t> count_runs(std::optional<Axis> axis = std::nullopt,
                                   Listed listed = Listed::all);
-  Result<std::optional<std::int64_t>> superseded_by(std::int64_t run);  // the last run that
-                                                                        // supersedes it
-  // Rows offset ... offset + count - 1 in the order of measurement, as far as they exist. For a
-  // finished run each row is checked by the run's hash; the first call reads all rows.
+  Result<std::optional<std::int64_t>> superseded_by(
+      std::int64_t run);  // the newest run that supersedes the run
+  // The points with the indices offset to offset + count - 1, in the order of measurement. If a run
+  // has ended, its points are checked with the stored hash. The first call for a run therefore
+  // reads all points.
   Result<std::vector<MeasuredPoint>> points(std::int64_t run, std::int64_t offset,
                                             std::int64_t count);
   Result<std::int64_t> count_points(std::int64_t run);
   Result<Run> run(std::int64_t run);
-  // The hash of the result rows as stored now; see result_hash.h for the bytes.
+  // Calculates the hash of the stored result (result_hash.h).
   Result<std::string> result_sha256(std::int64_t run);
 
   // ---- squareness ----
   Result<std::int64_t> add_squareness(const Squareness& squareness,
                                       const std::optional<HistoryEntry>& action = std::nullopt);
   Result<std::vector<Squareness>> list_squareness(std::int64_t offset, std::int64_t count);
-  // Squareness of these two runs, newest first.
+  // All squareness results from these two runs, newest first.
   Result<std::vector<Squareness>> squareness_of(std::int64_t run_a, std::int64_t run_b);
 
   // ---- compensation tables ----
@@ -147,82 +149,84 @@ class Store {
   Result<CompensationTable> table(std::int64_t id);
   Result<std::vector<CompensationTable>> list_tables(std::int64_t offset, std::int64_t count,
                                                      std::optional<Axis> axis = std::nullopt);
-  // Activates a table on its axis; returns the new generation. Generations increase strictly over
-  // all axes, so that one number shows whether anything has changed. `expected`: the generation()
-  // on which the decision was based, checked in the same transaction. Error (conflict) if it
-  // differs: the message names the active tables, and nothing changes.
+  // Activates a table on its axis. Each change of any active table gets a larger generation. One
+  // number therefore shows whether an active table has changed. `expected`: the generation() that
+  // the user knew. Error (conflict): generation() is another number now. The message names the
+  // active tables. The check and the activation are in one transaction.
   Result<Activation> activate(std::int64_t table, const std::string& actor, const std::string& utc,
                               const std::optional<HistoryEntry>& action = std::nullopt,
                               std::optional<std::int64_t> expected = std::nullopt);
-  // After this call no table is active on the axis.
+  // Deactivates the active table of the axis.
   Result<Activation> deactivate(Axis axis, const std::string& actor, const std::string& utc,
                                 const std::optional<HistoryEntry>& action = std::nullopt,
                                 std::optional<std::int64_t> expected = std::nullopt);
-  Result<ActiveTable> active(Axis axis);  // not_found if none is active
-  Result<std::int64_t> generation();      // the highest; 0: no activation so far
-  Status check_generation(std::optional<std::int64_t> expected);  // see activate()
+  Result<ActiveTable> active(Axis axis);  // not_found if no table is active
+  Result<std::int64_t> generation();      // the largest generation; 0: no table was ever active
+  Status check_generation(std::optional<std::int64_t> expected);  // error as for activate()
 
-  // ---- volumetric tables ----
-  // Their ids and generations share one sequence with those of compensation tables.
+  // ---- volumetric tables ---- A volumetric table never has the same id or generation as a
+  // compensation table.
   Result<std::int64_t> add_volumetric(const VolumetricTable& table,
                                       const std::optional<HistoryEntry>& action = std::nullopt);
   Result<VolumetricTable> volumetric(std::int64_t id);
-  Result<bool> is_volumetric(std::int64_t id);  // false: unknown table, or table of an axis
+  Result<bool> is_volumetric(
+      std::int64_t id);  // false: the table is unknown, or is a table of an axis
   Result<std::vector<VolumetricTable>> list_volumetric(std::int64_t offset, std::int64_t count);
-  // Activates a table; without a table it deactivates the active one.
+  // Activates `table`. If `table` is nullopt, deactivates the active volumetric table.
   Result<Activation> change_volumetric(std::optional<std::int64_t> table, const std::string& actor,
                                        const std::string& utc,
                                        const std::optional<HistoryEntry>& action = std::nullopt,
                                        std::optional<std::int64_t> expected = std::nullopt);
-  Result<ActiveVolumetric> active_volumetric();  // not_found if none is active
+  Result<ActiveVolumetric> active_volumetric();  // not_found if no table is active
 
   // ---- set positions of an axis ----
-  Result<std::int64_t> add_datum(const DatumSetting& setting,  // its id is ignored
+  Result<std::int64_t> add_datum(const DatumSetting& setting,  // setting.id is ignored
                                  const std::optional<HistoryEntry>& action = std::nullopt);
   Result<std::optional<DatumSetting>> last_datum(Axis axis);
 
-  // ---- history ----
-  // Actions on a run and on the runs that it supersedes, in order.
+  // ---- history ---- Actions on a run and on the runs that it supersedes, in the order of time.
   Result<std::vector<HistoryEntry>> run_actions(std::int64_t run);
   Result<std::vector<HistoryEntry>> list_actions(std::int64_t offset,
                                                  std::int64_t count);  // newest first
   Result<std::int64_t> count_actions();
 
-  // ---- sensitivity studies ----
-  // A study begins, replaces its checkpoint while it runs, and ends: complete, or interrupted with
-  // a checkpoint from which it can continue. Each call is durable on return. Any store may make it,
-  // so that a study of hours need not keep its database open.
-  Result<std::int64_t> begin_study(const StudyRecord& study);  // its id is ignored
+  // ---- sensitivity studies ---- A study begins, stores checkpoints while it calculates, and ends.
+  // It ends as complete, or as interrupted with a checkpoint from which it can continue. After each
+  // call the data are on the disk. Each call can use another store object, so a long study need not
+  // keep the database open.
+  Result<std::int64_t> begin_study(const StudyRecord& study);  // study.id is ignored
   Status save_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
-  Status end_study(std::int64_t study, const StudyOutcome& outcome,
-                   const std::optional<StudyCheckpoint>& checkpoint);  // nullopt: removes the last
-                                                                       // one
+  Status end_study(
+      std::int64_t study, const StudyOutcome& outcome,
+      const std::optional<StudyCheckpoint>& checkpoint);  // nullopt: removes the stored checkpoint
   Result<StudyRecord> study(std::int64_t id);
   Result<std::vector<StudyRecord>> list_studies(std::int64_t offset, std::int64_t count);
   Result<std::int64_t> count_studies();
-  Result<std::optional<StudyOutcome>> study_outcome(std::int64_t study);  // the last
+  Result<std::optional<StudyOutcome>> study_outcome(std::int64_t study);  // the newest outcome
   Result<std::optional<StudyCheckpoint>> study_checkpoint(std::int64_t study);
 
-  // ---- integrity ----
-  // Checks the file, its references, the chain of hashes (ledger.h), and the hashes of all texts,
-  // of the result rows of all runs, and of the figures and checkpoints of all studies. One sentence
-  // for each finding; empty: no damage.
+  // ---- integrity ---- Checks the file, its references, the chain of hashes (ledger.h), and the
+  // hashes of all texts, results of runs, figures of studies and checkpoints. Returns one sentence
+  // for each fault; empty: no damage.
   Result<std::vector<std::string>> verify();
-  // The head of the chain of hashes, and whether an earlier head is still in the chain.
+  // chain_head(): the head of the chain of hashes. has_hash(): whether the chain contains a link
+  // with this hash.
   Result<ChainHead> chain_head() { return store::chain_head(connection_); }
   Result<bool> has_hash(const std::string& sha256) { return store::has_hash(connection_, sha256); }
-  // Error (bad_input): the chain no longer contains the head that mdofd announced last
+  // Error (bad_input): the chain does not contain the head that mdofd announced last
   // (file/announced_head.h).
   Status check_announced_head();
   Status check_head(const ChainHead& reported);
 
   const std::filesystem::path& file() const { return connection_.file(); }
-  // For a writing store: why nothing is stored any more, because -wal or -shm has changed
-  // (schema/base/database/journal_watch.h); empty: no fault.
+  // For a store with write access: the reason why it stores no data any more. Another program has
+  // changed the -wal or -shm file (schema/base/database/journal_watch.h). Empty: no fault.
   std::string journal_fault() { return connection_.journal_fault(); }
-  // The last SQLite message about a damaged file; empty: none.
+  // The last message of SQLite about a damaged file. Empty: no damage was found.
   const std::string& damage() const { return connection_.damage(); }
-  std::int64_t changes() const { return connection_.changes(); }  // rows written by this store
+  std::int64_t changes() const {
+    return connection_.changes();
+  }  // number of rows that this object has written
 
  private:
   Store(WriterLock lock, sqlite::Connection connection, Access access)
@@ -266,7 +270,8 @@ class Store {
   Status mark_damage(RunHeader& header);
   Result<std::vector<Squareness>> checked_squareness(sqlite::Statement& rows);
   enum class RowOf { run, compensation_table, volumetric_table, study };
-  // Error (not_found) with the command that lists the existing rows.
+  // Error (not_found): the row does not exist. The message states the command that lists the
+  // existing rows.
   Status check_exists(RowOf table, std::int64_t id);
   // plausibility_read.cpp
   Result<std::optional<Plausibility>> plausibility(std::int64_t run);
@@ -298,12 +303,13 @@ class Store {
   Status verify_documents(std::vector<std::string>& findings);
   Status verify_runs(std::vector<std::string>& findings);
 
-  WriterLock lock_;  // created first, destroyed last
+  WriterLock lock_;  // first member, so that it is destroyed last
   sqlite::Connection connection_;
   Access access_;
-  std::map<std::int64_t, std::int64_t> open_runs_;  // runs that began here -> next row
-  // For the run of the last points(): its stored hash, which matched its rows, and the first bytes
-  // of the hash of each row.
+  std::map<std::int64_t, std::int64_t>
+      open_runs_;  // run that this object began -> index of the next point
+  // For the run of the last call of points(): the stored hash of the run, which was correct, and
+  // row_hash() of each point.
   struct CheckedRows {
     std::int64_t run = 0;
     std::string sha256;

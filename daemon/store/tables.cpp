@@ -1,4 +1,4 @@
-// Store: squareness and compensation tables.
+// Functions of Store for squareness and compensation tables.
 #include <algorithm>
 #include <array>
 #include <ctime>
@@ -24,8 +24,8 @@ constexpr std::string_view kTable =
     "moves, travel, reference, point_m, chain, chain_travel "
     "FROM compensation_table ";
 
-// Numbers for each position: with or without declared uncertainties, and with positioning if it was
-// imported.
+// Number of values for each position of a table, without and with declared uncertainties. Tables of
+// imported runs have additional values for the positioning.
 constexpr std::size_t kSeries = 20, kSeriesWithDeclared = 25;
 constexpr std::size_t kPositioning = 4, kPositioningWithDeclared = 5;
 
@@ -38,7 +38,7 @@ struct Parts {
   }
 };
 
-// nullopt: no table has this count of numbers.
+// The parts of a table with this number of values. nullopt: no table has this number.
 std::optional<Parts> parts_of(std::size_t numbers, std::size_t positions) {
   for (const Parts parts : {Parts{false, false}, {true, false}, {false, true}, {true, true}})
     if (numbers == parts.series() * positions) return parts;
@@ -49,7 +49,7 @@ Parts parts_of(const CompensationTable& table) {
   return {table.has_declared(), table.has_positioning()};
 }
 
-// The series in the order in which they are stored.
+// Calls `visit` for each series of values, in the order in which they are stored.
 template <class Table, class Visit>
 void for_each_series(Table& table, const Parts& parts, Visit visit) {
   for (auto* group : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
@@ -89,7 +89,7 @@ void set_series(CompensationTable& table, const Parts& parts, const std::vector<
   });
 }
 
-// Binds the reference point, set-up and machine for which the table holds.
+// Binds the reference point, the set-up and the machine of the table.
 void bind_statement(Statement& insert, const CompensationTable& t) {
   const std::string travels = chain_travels_text(t.machine);
   insert.bind(std::string_view(t.sides.moves())).bind(std::string_view(t.sides.travel()));
@@ -107,7 +107,7 @@ Status read_statement(const Statement& row, CompensationTable& t) {
   return {};
 }
 
-// The axes are those of the runs; the column names are those for X and Y.
+// The axes are read from the two runs. The column names say x and y for all axes.
 constexpr const char* kSquareness =
     "SELECT s.*, a.axis, b.axis FROM squareness AS s JOIN run AS a ON a.id = s.run_x "
     "JOIN run AS b ON b.id = s.run_y ";
@@ -127,7 +127,7 @@ Squareness squareness_from(const Statement& row) {
   s.simulated = row.integer(10) != 0;
   s.created_utc = row.text(11);
   s.form_rad = row.real(12);
-  // Rows of older versions have the real number 0 if no uncertainty was declared.
+  // Rows of older versions contain the real number 0 if no uncertainty was declared.
   if (row.storage_class(13) == 'i' || row.real(13) > 0) s.artefact.u_rad = row.real(13);
   s.artefact.corner = static_cast<int>(row.integer(14));
   s.axes = {axis_from(row.text(16)).value_or(Axis::x), axis_from(row.text(17)).value_or(Axis::y)};
@@ -135,7 +135,7 @@ Squareness squareness_from(const Statement& row) {
   return s;
 }
 
-// An undeclared u is NULL, and a declared 0 is an integer (squareness_from()).
+// Stores an undeclared u as NULL, and a declared u of 0 as an integer (see squareness_from()).
 Statement& bind_declared(Statement& to, std::optional<double> u) {
   return u == 0 ? to.bind(std::int64_t{0}) : to.bind(u.value_or(kNotKnown));
 }
@@ -300,7 +300,7 @@ std::string activation_json(const std::string& members, const Activation& activa
 
 namespace {
 
-// From "2026-11-22T15:30:00..."; 0 for other texts.
+// Converts "2026-11-22T15:30:00...". Returns 0 for a text with another format.
 std::int64_t seconds_since_1970(const std::string& utc) {
   std::tm time{};
   if (::strptime(utc.c_str(), "%Y-%m-%dT%H:%M:%S", &time) == nullptr) return 0;
@@ -309,8 +309,8 @@ std::int64_t seconds_since_1970(const std::string& utc) {
 
 }  // namespace
 
-// A number that no earlier change had, even if the database was deleted and created again, so that
-// a client that knows the number can rely on its data.
+// A number that no earlier change had, even if the database was deleted and created again. If a
+// client knows the number, it has the data of this generation.
 Result<std::int64_t> Store::next_generation(const std::string& utc) {
   MDOF_TRY(const std::int64_t last, generation());
   return std::max(last + 1, seconds_since_1970(utc));
@@ -363,8 +363,8 @@ Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const 
   return Activation{generation, true};
 }
 
-// Which activation is the present one depends on all activations, so all are checked without
-// indexes: a damaged index could omit one.
+// The current activation depends on all activations, so all of them are checked. The check uses no
+// index of the database, because a damaged index could omit an activation.
 Result<ActiveTable> Store::active(Axis axis) {
   MDOF_CHECK(check_announced_head());
   MDOF_CHECK(check_activations(connection_));

@@ -1,4 +1,4 @@
-// Store: the temperature of a run, if it was measured.
+// Functions of Store for the measured temperature of a run.
 #include "daemon/store/store.h"
 
 namespace mdof::store {

@@ -1,4 +1,4 @@
-// Store: integrity checks.
+// Functions of Store that check the integrity of the database.
 #include "daemon/store/file/announced_head.h"
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
@@ -15,7 +15,7 @@ Result<std::vector<std::string>> Store::verify() {
     const Status done = (this->*check)(findings);
     if (done) continue;
     if (done.error().code != ErrorCode::bad_input) return tl::unexpected(done.error());
-    findings.push_back(done.error().message);  // damage that prevents further reading
+    findings.push_back(done.error().message);  // this damage prevents further reading
   }
   return findings;
 }
@@ -23,7 +23,8 @@ Result<std::vector<std::string>> Store::verify() {
 Status Store::verify_ledger(std::vector<std::string>& findings) {
   MDOF_CHECK(store::verify_ledger(connection_, findings));
   if (findings.empty()) {
-    // Only the hash of the volumetric table itself covers some of its columns.
+    // Some columns of a volumetric table are not in the ledger. Only the hash of the table protects
+    // them.
     MDOF_TRY(const auto ids, integers("SELECT id FROM volumetric_table WHERE ? = 0", 0));
     for (const std::int64_t id : ids) {
       const auto table = volumetric(id);

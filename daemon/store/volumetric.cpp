@@ -1,4 +1,5 @@
-// Store: volumetric tables, their activation, and the check of the expected generation.
+// Functions of Store for volumetric tables, their activation, and the check of the expected
+// generation.
 #include "daemon/store/bytes.h"
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
@@ -54,7 +55,8 @@ Status check_shape(const VolumetricTable& t) {
                   std::to_string(t.nodes()) + " nodes");
 }
 
-// Bound bytes are not copied, so that this object must exist until the statement has run.
+// SQLite does not copy bound bytes. Therefore this object must exist until the statement is
+// executed.
 struct FlatNodes {
   explicit FlatNodes(const VolumetricTable& t)
       : correction(flat(t.correction_m)),
@@ -163,7 +165,8 @@ Result<VolumetricTable> Store::volumetric_of(Statement& row) {
   if (!row.is_null(26)) {
     MDOF_TRY(t.doubtful, read_notices(row.text(26)));
   }
-  // The chain of hashes contains the hash of the table, not each column.
+  // The chain of hashes contains the hash of the table, but not every column. So the hash of the
+  // table is checked here.
   if (volumetric_sha256(t) != t.sha256)
     return bad_input(file().string() + ": volumetric table " + std::to_string(t.id) +
                          " was changed after it was stored (the hash differs)",
@@ -241,7 +244,7 @@ Result<ActiveVolumetric> Store::active_volumetric() {
   return active;
 }
 
-// "axis X table 3, volume table 7".
+// List of the active tables, "axis X table 3, volume table 7".
 std::string Store::active_text() {
   std::string text;
   const auto add = [&](const std::string& of, const auto& active) {

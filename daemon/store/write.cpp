@@ -1,4 +1,4 @@
-// Store: writing of runs.
+// Functions of Store that write runs.
 #include <future>
 #include <utility>
 
@@ -61,8 +61,8 @@ RunEnd end_of(const Run& run) {
 Result<std::int64_t> Store::add_run(const Run& run, const std::optional<HistoryEntry>& action,
                                     const std::optional<RunUncertainty>& uncertainty) {
   assert(run.header.state != RunState::open);
-  // For a long run the hash is calculated on another core while its rows are written; a short run
-  // is not worth a thread.
+  // The hash of a long run is calculated on another thread while its rows are written. For a short
+  // run, a thread would take longer than the hash.
   constexpr std::size_t kLong = 500;
   const auto policy = run.points.size() < kLong ? std::launch::deferred : std::launch::async;
   auto sha256 = std::async(policy, [&run] { return store::result_sha256(run); });
@@ -149,7 +149,8 @@ Status Store::check_open(std::int64_t run) const {
                   ": this run has ended, or it belongs to another program; start a new run");
 }
 
-// Called by the only writer at its start, so that open runs cannot get an end any more.
+// The only writer calls this function at its start. Open runs in the database were therefore
+// interrupted.
 Status Store::end_interrupted_runs() {
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement rows, connection_.prepare("SELECT id FROM run WHERE id NOT IN "
@@ -276,7 +277,8 @@ Status Store::insert_plausibility(std::int64_t run, const RunEnd& end) {
   return insert.bind(run).bind(std::string_view(json)).run();
 }
 
-// The recording row of a live run has no hash at the start; the end refers to a row with the hash.
+// When a live run begins, its row in the table recording has no hash. The end of the run refers to
+// a new row with the hash.
 Result<std::optional<std::int64_t>> Store::final_recording(std::int64_t run, const RunEnd& end) {
   if (end.recording_sha256.empty()) return std::optional<std::int64_t>();
   MDOF_TRY(Statement row, connection_.prepare("SELECT kind, path FROM recording WHERE id = "

@@ -1,6 +1,7 @@
-// "FILE.head", a file beside the database: the head of the chain of hashes that mdofd announced
-// last (journal, server.info). With it, the next start detects a chain that was cut, recalculated
-// or lost with a -wal file, so that no older table is served as active.
+// The file "FILE.head" in the folder of the database. It contains the head of the chain of hashes
+// that mdofd announced last (in the journal and in server.info). At the next start, mdofd compares
+// it with the chain. It detects a chain that was cut or recalculated, and links that were lost with
+// a -wal file. An older table is then not served as active.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +13,12 @@ namespace mdof::store {
 
 std::filesystem::path announced_head_file(const std::filesystem::path& database);
 struct AnnouncedHead {
-  ChainHead head;               // link 0: none was announced, or the file is unreadable
+  ChainHead head;               // link 0: no head was announced, or the file cannot be read
   std::int64_t generation = 0;  // generation of the active tables
 };
 AnnouncedHead read_announced_head(const std::filesystem::path& database);
-// Replaces the file atomically. Not flushed, because an older head is sufficient after a power
-// failure.
+// Replaces the file atomically, without a disk flush. After a power failure, an older head is
+// sufficient.
 Status write_announced_head(const std::filesystem::path& database, const AnnouncedHead& announced);
 
 }  // namespace mdof::store

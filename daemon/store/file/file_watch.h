@@ -1,5 +1,5 @@
-// Detects whether an open file was deleted or replaced. Writes to such a file succeed, but are lost
-// for later readers of its name.
+// Detects that an open file was deleted or replaced. Writes to such a file succeed, but a program
+// that opens the path later does not find the data.
 #pragma once
 
 #include <sys/types.h>
@@ -11,9 +11,10 @@ namespace mdof::store {
 
 class FileWatch {
  public:
-  // Records the present state of the file. The file may only grow.
+  // Notes the current state of the file. Later the file must not become shorter.
   explicit FileWatch(std::filesystem::path file);
-  // "FILE was deleted ..."; empty: the file is the same and not shorter than before.
+  // Text of the fault, "FILE was deleted ...". Empty: the file is the same file and is not shorter
+  // than before.
   std::string fault();
 
  private:

@@ -24,7 +24,8 @@ void flush_to_disk(const fs::path& file) {
   ::close(fd);
 }
 
-// Renamed after completion, because an incomplete backup must not look like a complete one.
+// Writes the backup with a temporary name and then renames it. An incomplete backup therefore never
+// has the name of a backup.
 Status back_up(Connection& connection, std::int64_t version) {
   const std::string name =
       connection.file().string() + ".schema-" + std::to_string(version) + ".backup";

@@ -9,14 +9,15 @@
 
 namespace mdof::store {
 
-inline constexpr int kApplication = 0x6d646f66;  // SQLite's application_id: "mdof"
+inline constexpr int kApplication = 0x6d646f66;  // application_id of SQLite: the bytes of "mdof"
 
-// Accepts an empty database and one of mdof. Error (bad_input): a database of another application,
-// or of a newer schema than `known` (the message states both versions). Changes nothing.
+// Checks the database and does not change it. An empty database and a database of mdof are
+// accepted. Error (bad_input): the database belongs to another application, or its schema is newer
+// than `known`. The message states both versions.
 Status check_kind(sqlite::Connection& connection, int known);
 
-// Applies the missing migrations, each in one transaction. Before the first one, a database with
-// content is copied to "FILE.schema-N.backup".
+// Applies the missing migrations, each in one transaction. Before the first migration, a database
+// that is not empty is copied to "FILE.schema-N.backup".
 Status migrate(sqlite::Connection& connection, std::span<const sql::Migration> migrations);
 
 }  // namespace mdof::store

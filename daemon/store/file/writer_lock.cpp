@@ -20,12 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Byte offsets far beyond the end of the database and the bytes that SQLite locks (1 GiB).
+// Offsets of the locked bytes. They are far beyond the end of the database, and beyond the bytes
+// that SQLite locks (at 1 GiB).
 constexpr off_t kWriterByte = off_t{1} << 62;
 constexpr off_t kOpenRunsByte = kWriterByte + 1;
 
-// Locks of the open file, not of the process, so that two stores in one process also exclude each
-// other.
+// A lock that belongs to the open file, not to the process. Two stores in one process therefore
+// exclude each other, too.
 struct flock one_byte(off_t byte, short type) {
   struct flock lock {};
   lock.l_type = type;
@@ -35,9 +36,9 @@ struct flock one_byte(off_t byte, short type) {
   return lock;
 }
 
-// Unused descriptors of databases. They are never closed, because closing any descriptor of a file
-// releases the locks that SQLite has on it in this process. A child process has its own list,
-// because inherited descriptors share their lock with the parent.
+// Descriptors of databases that are not in use now. They are never closed: when a process closes
+// any descriptor of a file, it releases all locks of SQLite on this file. A child process has its
+// own list, because a descriptor from the parent process shares the lock with the parent.
 class Idle {
  public:
   int take(const struct stat& file, int access) {
@@ -65,7 +66,7 @@ Idle& idle() {
   return descriptors;
 }
 
-// A descriptor of the file that has this name now; the file is created if missing.
+// A descriptor of the file that has this path now. With O_CREAT, a missing file is created.
 int descriptor_of(const fs::path& database, int flags) {
   struct stat file {};
   if (::stat(database.c_str(), &file) == 0) {
@@ -105,8 +106,8 @@ WriterLock::~WriterLock() {
 }
 
 Result<WriterLock> WriterLock::acquire(const fs::path& database, int timeout_ms) {
-  // O_APPEND: this descriptor never writes, and the flag distinguishes it from SQLite's descriptors
-  // in sqlite::is_open_for_writing().
+  // This descriptor never writes. sqlite::is_open_for_writing() distinguishes it from the
+  // descriptors of SQLite by the flag O_APPEND.
   WriterLock lock(descriptor_of(database, O_CREAT | O_RDWR | O_APPEND));
   if (lock.fd_ < 0) return not_opened(database);
   constexpr int kStepMs = 10;

@@ -1,6 +1,6 @@
-// Permits one writer per database: SQLite before 3.51.3 can damage a WAL database if two
-// connections write or checkpoint at the same moment. The lock is on the database itself,
-// independent of the name or link that opened it.
+// Allows only one writer for each database. Reason: SQLite before 3.51.3 can damage a WAL database
+// if two connections write or make a checkpoint at the same moment. The lock is on the database
+// file, so it also works if programs open the file by different names or links.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,18 @@ namespace mdof::store {
 
 class WriterLock {
  public:
-  // Waits up to `timeout_ms` for the end of another writer; then Error `conflict`.
+  // Waits for the end of another writer, at most `timeout_ms`. Error (conflict): the other writer
+  // still holds the lock.
   static Result<WriterLock> acquire(const std::filesystem::path& database, int timeout_ms);
-  // Whether any process, or another lock of this one, holds the lock.
+  // Whether a process holds the lock. It can be this process.
   static bool held(const std::filesystem::path& database);
 
-  // After this call, open runs belong to this writer; before it, they are runs that a crash
-  // interrupted.
+  // Call this function when the open runs that a crash interrupted have ended. From then, every
+  // open run belongs to this writer.
   Status claim_open_runs();
   static bool open_runs_claimed(const std::filesystem::path& database);
 
-  WriterLock() = default;  // holds no lock
+  WriterLock() = default;  // an object without a lock
   WriterLock(WriterLock&& other) noexcept;
   WriterLock& operator=(WriterLock&& other) noexcept;
   ~WriterLock();

@@ -1,4 +1,4 @@
-// Store: reading of studies.
+// Functions of Store that read studies.
 #include "daemon/store/store.h"
 #include "schema/base/sha256.h"
 

@@ -1,4 +1,4 @@
-// Store: writing of studies.
+// Functions of Store that write studies.
 #include "daemon/store/store.h"
 #include "schema/base/sha256.h"
 

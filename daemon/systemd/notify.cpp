@@ -10,13 +10,14 @@
 namespace mdof::systemd {
 namespace {
 
-// A line end in a status text would begin another assignment ("READY=1").
+// Replaces line ends in the status text. systemd would read a new line as another assignment, such
+// as "READY=1".
 void notify(std::string state, std::string_view status) {
   std::string line(status);
   std::replace_if(
       line.begin(), line.end(), [](char c) { return c == '\n' || c == '\0'; }, ' ');
   state += "STATUS=" + line;
-  sd_notify(0, state.c_str());  // without a service manager the daemon continues
+  sd_notify(0, state.c_str());  // if systemd did not start mdofd, the error is ignored
 }
 
 }  // namespace

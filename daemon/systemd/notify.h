@@ -1,4 +1,4 @@
-// The messages between the daemon and systemd (sd_notify(3), sd_listen_fds(3)). If systemd did not
+// Communication between mdofd and systemd (sd_notify(3), sd_listen_fds(3)). If systemd did not
 // start the process, these functions send nothing and find no socket.
 #pragma once
 
@@ -11,20 +11,22 @@
 
 namespace mdof::systemd {
 
-// mdofd is ready; `systemctl status mdofd` shows `status`.
+// Notify systemd that mdofd is ready, has a new status, or is stopping. `systemctl status mdofd`
+// shows `status`.
 void notify_ready(std::string_view status);
 void notify_status(std::string_view status);
 void notify_stopping(std::string_view status);
 
-// The longest interval for feed_watchdog(): half of WatchdogSec. nullopt: no watchdog is set.
+// The longest interval between two calls of feed_watchdog(). It is half of WatchdogSec. nullopt: no
+// watchdog is set.
 std::optional<std::chrono::microseconds> watchdog_interval();
-// Notifies the watchdog. Call it only after all parts have reported progress, never from a mere
-// timer.
+// Notifies the watchdog. Call this function only when all threads have reported in time. Never call
+// it from a timer alone.
 void feed_watchdog();
 
-// The listening sockets from mdofd.socket, in its order; the caller must close them. Empty: the
-// caller opens its own. Later calls and child processes get none. Error: one of them is not a
-// listening stream socket.
+// The listening sockets that systemd has opened, in the order of mdofd.socket. The caller must
+// close them. If the list is empty, the caller opens its own socket. Later calls and child
+// processes receive an empty list. Error: one of the sockets is not a listening stream socket.
 Result<std::vector<int>> take_listen_sockets();
 
 }  // namespace mdof::systemd

@@ -1,4 +1,4 @@
-// The text of an error for users: its message and its remedy.
+// The text of an error for users. It consists of the message and the remedy.
 #pragma once
 
 #include <string>
@@ -8,11 +8,13 @@
 
 namespace mdof::words {
 
-// The remedy without a full stop; {subject} becomes `what_for`. "" for Remedy::none.
+// The text of the remedy, without a full stop. `what_for` replaces {subject}. Remedy::none has the
+// text "".
 std::string remedy(Remedy remedy, const std::string& what_for = "",
                    Language language = Language::english);
 
-// "rig_X.toml:3: … is wrong; take …". The message itself is always English.
+// The complete text, "rig_X.toml:3: … is wrong; take …". The message is always in English; the
+// remedy is in `language`.
 std::string text(const Error& error, Language language = Language::english);
 
 }  // namespace mdof::words

@@ -1,5 +1,6 @@
-// Formats the help of a program to a number of columns. CLI11 neither breaks lines nor counts
-// characters. In a header, because only users of CLI11 include it.
+// Formats the help of a program to a number of columns. CLI11 does not break lines, and it counts
+// bytes instead of characters. This code is in a header, because only programs that use CLI11
+// include it.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -30,7 +31,7 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_usage(const CLI::App* app, std::string name) const override {
     return fitted(CLI::Formatter::make_usage(app, std::move(name)), columns_);
   }
-  // Examples are not wrapped, so that they can be copied.
+  // Lines of examples are not wrapped, so that users can copy them.
   std::string make_footer(const CLI::App* app) const override {
     std::istringstream lines(paragraphs(CLI::Formatter::make_footer(app)));
     std::string out;
@@ -40,8 +41,8 @@ class HelpFormatter : public CLI::Formatter {
   }
 
  private:
-  static constexpr std::size_t kCommandColumn = 20;  // the longest command with two spaces before
-                                                     // and after it
+  static constexpr std::size_t kCommandColumn =
+      20;  // length of the longest command, with two spaces before and after it
 
   std::string row(const std::string& name, const std::string& description,
                   std::size_t column) const {
@@ -57,9 +58,10 @@ class HelpFormatter : public CLI::Formatter {
     return head + lines + "\n";
   }
 
-  // Joins lines of prose that a source file has broken. Lines that begin with a space are examples.
+  // Joins lines of a paragraph that the source file has broken. Lines that begin with a space are
+  // examples and stay.
   static std::string paragraphs(std::string_view text) {
-    constexpr std::size_t kFull = 60;  // a shorter line is a deliberate line end
+    constexpr std::size_t kFull = 60;  // a shorter line is the end of a paragraph
     std::string out;
     bool goes_on = false;
     while (!text.empty()) {

@@ -36,7 +36,8 @@ static_assert(std::none_of(kPatterns.begin(), kPatterns.end(),
                            [](const Pattern& p) { return p.english == nullptr; }),
               "a code of schema/notice/notice_codes.inc has no row in daemon/words/notices/");
 
-// Values from algo: "targets 1 to 3", "forward", "the end" (of a log).
+// English words in values of notices, and their German words. Examples of values: "targets 1 to 3",
+// "forward", "the end" (of a log).
 struct GermanName {
   std::string_view english, german;
 };
@@ -54,7 +55,8 @@ std::string german_name(const std::string& name) {
   return name;
 }
 
-// Here "run 3" is a stored run, not one pass over the targets.
+// The source "run 3" is a stored run ("Messung"). In values of notices, a run is one pass over the
+// targets ("Lauf").
 std::string source_text(const std::string& source, Language language) {
   const bool is_run = source.starts_with("run ");
   return language == Language::german && is_run ? "Messung " + source.substr(4) : source;
@@ -84,7 +86,7 @@ std::string value_text(const NoticeValue& x, const std::string& format, Language
   return language == Language::german ? german_name(name) : name;
 }
 
-// "key" or "key:format".
+// The text of a field. `field`: "key" or "key:format".
 std::string field_text(const Notice& notice, const std::string& field, Language language) {
   const auto colon = field.find(':');
   const std::string key = field.substr(0, colon);

@@ -1,5 +1,5 @@
-// The catalogue of notice texts, in plain English (CONTRIBUTING.md) and German. Below the tools,
-// only this folder may name commands or options of mdof.
+// The texts of all notices, in plain English (CONTRIBUTING.md) and German. Apart from the folder
+// tools and the reports, only this folder may name commands or options of mdof.
 #pragma once
 
 #include <string>
@@ -10,15 +10,16 @@
 
 namespace mdof::words {
 
-// German is for reports. Numbers have a decimal point in both languages. Sentences that a notice
-// contains as a value (from a device or another program) are not translated.
+// German is used in reports. Numbers have a decimal point in both languages. If a value of a notice
+// is a sentence (from a device or another program), it is not translated.
 enum class Language { english, german };
 
-// "run 3: probe \"B\" no longer changes …", without the severity.
+// The text of a notice without its severity: "run 3: probe \"B\" no longer changes …".
 std::string text(const Notice& notice);
 std::string text(const Notice& notice, Language language);
 
-// With the severity if it is not doubtful: "information: the axis was parked …".
+// The text of a notice. If the severity is not "doubtful", the text begins with the severity:
+// "information: the axis was parked …".
 std::string line(const Notice& notice, Language language = Language::english);
 
 // Replaces the fields of `pattern` by the values of the notice:
@@ -27,16 +28,17 @@ std::string line(const Notice& notice, Language language = Language::english);
 //   {key:+.3f}     a number in the format of printf
 //   {key:?a|b}     a if the number is 1 or the name is not empty, otherwise b
 //   {subject}
-// A key that the notice lacks (for example, in the database of another version) becomes "unknown".
+// If the notice has no value with this key, the field becomes "unknown". This can happen with a
+// database of another version.
 std::string filled(const char* pattern, const Notice& notice,
                    Language language = Language::english);
 
-// The pattern of a notice code.
+// The pattern of the text for a notice code.
 const char* pattern(NoticeCode code, Language language = Language::english);
 
-// One sentence, without a full stop.
+// The contributions that an uncertainty includes, as one sentence without a full stop.
 std::string text(const Covers& covers, Language language);
-// "X, probe A: sensitivity".
+// The name of a contributor to an uncertainty, "X, probe A: sensitivity".
 std::string text(const ContributorName& name, Language language);
 
 }  // namespace mdof::words

@@ -309,7 +309,7 @@ void App::Parts::handle_signals() {
   struct sigaction hang_up {};
   ::sigaction(SIGHUP, nullptr, &hang_up);
   if (hang_up.sa_handler != SIG_IGN)
-    signals.push_back(SIGHUP);  // nohup makes a process ignore SIGHUP
+    signals.push_back(SIGHUP);  // an ignored SIGHUP stays ignored (nohup)
   loop.on_signal(signals, [this](int) {
     systemd::notify_stopping("stopping");
     loop.stop();

@@ -32,7 +32,7 @@ void set_ending_signals(void (*handler)(int)) {
     struct sigaction now {};
     ::sigaction(signal, nullptr, &now);
     if (now.sa_handler != SIG_IGN)
-      std::signal(signal, handler);  // nohup makes a process ignore SIGHUP
+      std::signal(signal, handler);  // an ignored signal stays ignored, such as SIGHUP after nohup
   }
 }
 

@@ -1,4 +1,4 @@
-// The RPC methods of mdofd. A method name is NOUN.VERB. Each noun has one file, and one line in
+// The RPC methods of mdofd. They are in groups. Each group has one file, and one line in
 // methods.inc.
 #pragma once
 
@@ -70,7 +70,7 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 #undef METHODS
 }
 
-// Functions that several nouns use.
+// Functions that several groups use.
 HistoryEntry caller_action(const rpc::Params& params,
                            std::string name);  // the user is the caller; the time is now
 // As caller_action(), with the parameter "reason".

@@ -1,5 +1,5 @@
 // The methods server.info, device.list, live.subscribe and live.unsubscribe, and functions that
-// several nouns use.
+// several groups use.
 #include <cstdio>
 #include <filesystem>
 

@@ -25,7 +25,7 @@
 namespace mdof::daemon {
 namespace {
 
-// If a thread does not report for this time, the watchdog is no longer notified.
+// If a thread does not report within this time, the watchdog is not notified any more.
 constexpr std::chrono::seconds kThreadDeadline{8};
 
 std::string recorded_json(std::int64_t run, std::int64_t seq) {
@@ -316,7 +316,8 @@ void App::Parts::handle_signals() {
   });
 }
 
-// If udev cannot be watched, a lost device is opened again only after its waiting time.
+// If udev cannot be watched, a lost device is opened again only after the waiting time of its
+// thread.
 void App::Parts::watch_hotplug() {
   auto watched = Hotplug::watch();
   if (!watched) {

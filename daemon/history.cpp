@@ -15,7 +15,7 @@ std::string name_of_user(uid_t uid) {
   struct passwd* found = nullptr;
   std::vector<char> text(4096);
   if (::getpwuid_r(uid, &entry, text.data(), text.size(), &found) != 0 || found == nullptr)
-    return {};  // a uid without a name
+    return {};  // the uid has no user name
   return entry.pw_name;
 }
 

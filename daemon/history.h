@@ -14,7 +14,7 @@ Actor actor_from_ids(std::int64_t uid, std::int64_t gid, std::int64_t pid);
 Actor this_process();
 HistoryEntry action_now(std::string name, Actor by);
 
-// "uid 1000 (anna) gid 1000 pid 4711"
+// Returns text such as "uid 1000 (anna) gid 1000 pid 4711".
 std::string actor_text(const Actor& actor);
 // {"deed", "of": "run", "id", "utc", "uid", "gid", "pid", "user"}. The member "detail" is added if
 // the entry has a detail.

@@ -17,7 +17,7 @@ namespace mdof::daemon {
 inline constexpr const char* kTokenFile = "http.token";
 
 struct HttpAccess {
-  std::string address = "127.0.0.1";  // or ::1
+  std::string address = "127.0.0.1";  // 127.0.0.1 or ::1
   std::uint16_t port = 8080;          // 0: any free port
   std::filesystem::path token_file;
   std::vector<std::string> hosts = {};  // "name:port"; localhost is always accepted

@@ -48,7 +48,7 @@ int failed(const mdof::Error& error) {
   return error.code == mdof::ErrorCode::io ? 4 : error.code == mdof::ErrorCode::usage ? 2 : 3;
 }
 
-// --http enables the web page or changes its address.
+// The option --http enables the web page or changes the address of the page.
 mdof::Status serve_page(const std::string& address, mdof::daemon::Config& config) {
   MDOF_TRY(auto http, mdof::daemon::http_at(address));
   if (config.http) {
@@ -65,7 +65,7 @@ mdof::Status serve_page(const std::string& address, mdof::daemon::Config& config
 
 struct Options {
   std::string config_file = "/etc/mdof/mdofd.toml";
-  std::string http;  // address
+  std::string http;  // address of the web page
   bool serves_page = false, check_only = false;
 };
 

@@ -20,7 +20,8 @@ std::string cut(const std::string& text, std::size_t bytes) {
   return text.substr(0, bytes) + " ... (cut)";
 }
 
-// The options of an imported run that determine the signs of its errors; "" for other runs.
+// The options that determine the signs of the errors of an imported run, as JSON. "" for other
+// runs.
 std::string imported_sense_json(const RunHeader& header) {
   if (!is_imported(header)) return "";
   const ImportedSense stated = run_options(header).imported;
@@ -69,7 +70,8 @@ std::string header_item(const RunHeader& header, std::optional<std::int64_t> sup
 
 namespace {
 
-// The run at the end of a chain of superseding runs.
+// Run A can supersede `run`, and run B can supersede run A. Returns the last run of this chain, or
+// nullopt if no run supersedes `run`.
 Result<std::optional<std::int64_t>> final_superseding_run(store::Store& store, std::int64_t run) {
   std::optional<std::int64_t> last;
   for (;;) {

@@ -28,7 +28,7 @@ constexpr std::size_t kMostCost = 250'000;  // takes about one second; RunBudget
 // The target whose mean position is nearest to at_m. Error: at_m is outside the range of the
 // targets by more than half of the largest interval between targets.
 Result<algo::TargetMean> target_near(const algo::RunBudgets& run, std::int64_t id, double at_m) {
-  const auto& targets = run.means().targets;  // ascending
+  const auto& targets = run.means().targets;  // positions ascend
   if (targets.empty())
     return bad_input("no budget can be calculated, because no target of the run has error values",
                      Remedy::show_points);

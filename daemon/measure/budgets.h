@@ -59,7 +59,7 @@ struct FoundBudgets {
 // Errors: the run is unknown or has no error values; the run does not have the figure.
 Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& request);
 
-// Budget of EC0Y as fit_squareness() calculates it. Nothing is stored.
+// The budget of the squareness of two runs (EC0Y for X and Y). Nothing is stored.
 Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessRequest& request,
                                         const algo::TrialsRequest& trials);
 
@@ -77,7 +77,7 @@ Result<FoundSquareReversal> square_reversal(store::Store& store, const Squarenes
 
 struct ParallelismRequest {
   std::int64_t run_a = 0, run_b = 0;
-  bool partial = false;  // also use partial runs
+  bool partial = false;  // true: also accept partial runs
 };
 struct FoundParallelism {
   Parallelism parallelism;

@@ -60,7 +60,7 @@ std::size_t count_unsolved(const std::vector<MeasuredPoint>& points) {
       std::count_if(points.begin(), points.end(), [](const auto& p) { return !p.errors.valid; }));
 }
 
-// "target 2 at 2.000 mm: 1 reverse; ...; and 5 more targets"
+// Returns text such as "target 2 at 2.000 mm: 1 reverse; ...; and 5 more targets".
 std::string targets_text(const std::vector<double>& targets_m, const std::vector<Visits>& missing,
                          int repeats) {
   std::string text;

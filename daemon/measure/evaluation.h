@@ -1,4 +1,4 @@
-// Evaluates stored runs, in the same way for the command line and the daemon.
+// Evaluates stored runs. The command line and the daemon use the same functions.
 #pragma once
 
 #include <array>

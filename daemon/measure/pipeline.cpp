@@ -186,7 +186,8 @@ Status Pipeline::check_has_points() const {
                    Remedy::stop_longer);
 }
 
-// A probe without values is an error if the other probes are too few to solve a point.
+// Adds a notice for each probe without values. Error: a probe has no values, and no point could be
+// solved.
 Status Pipeline::check_dead_probes(Notices& notices) const {
   const bool needed = std::none_of(sequence_.points.begin(), sequence_.points.end(),
                                    [](const MeasuredPoint& p) { return p.errors.valid; });

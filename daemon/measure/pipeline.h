@@ -21,7 +21,7 @@ namespace mdof::daemon {
 // Thread-bound.
 class Pipeline : RunBuilder {
  public:
-  // Rejects a rig that cannot determine the five errors or does not fit the model.
+  // Error: the rig cannot determine the five errors, or does not fit the model.
   static Result<Pipeline> create(const Rig& rig, const PipelineOptions& options);
 
   // Takes a block and changes its content. Error: the block cannot be calibrated, or its time
@@ -71,12 +71,12 @@ class Pipeline : RunBuilder {
   FrameBlock newest_;
   std::function<void(const FrameBlock&)> watcher_;
   std::vector<Point> found_;      // averaged stops without corrections
-  std::size_t excess_stops_ = 0;  // stops after max_stops
+  std::size_t excess_stops_ = 0;  // number of stops after the limit max_stops
   std::size_t taken_ = 0;         // number of stops of found_ that sequence_ contains
   algo::Sequence sequence_;
   std::optional<algo::SequenceTail> tail_;  // adds single points to sequence_
   std::size_t next_full_recognition_ =
-      0;  // size of found_ at which the whole sequence is recognised again
+      0;  // at this size of found_, the whole sequence is recognised again
   std::optional<std::int64_t> begin_ns_,
       encoder_ns_;                          // times of the first and the last encoder scan
   std::size_t stops_without_position_ = 0;  // number of stops of found_ without a position

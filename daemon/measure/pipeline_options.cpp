@@ -62,7 +62,7 @@ std::string PipelineOptions::json() const {
 
 std::string PipelineOptions::settings_json() const {
   PipelineOptions o = *this;
-  o.align.interval_s.clear();  // from the devices, not from the configuration
+  o.align.interval_s.clear();  // the devices state it, not the configuration
   o.sequence.targets_m.clear();
   o.repeats = 0;
   o.datum = {};

@@ -31,7 +31,7 @@ struct PipelineOptions {
   EncoderDatum datum;                  // datum; the pushed positions contain it already
   std::size_t max_stops = kMostStops;  // later stops are counted but not evaluated
 
-  std::string json() const;  // for the provenance
+  std::string json() const;  // text for the provenance
   // The members of json() that the configuration states. The sampling rates of the devices, the
   // targets and the datum are not included.
   std::string settings_json() const;

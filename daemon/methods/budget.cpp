@@ -1,4 +1,5 @@
-// run.analyse, run.budget, run.compare, run.trend, squareness.budget, parallelism.fit.
+// The methods run.analyse, run.budget, run.compare, run.trend, squareness.budget and
+// parallelism.fit.
 #include "daemon/measure/budgets.h"
 
 #include "daemon/measure/analysis/analysis.h"

@@ -164,7 +164,7 @@ Result<std::string> grid(const Methods& m, const Params& params) {
 void write_values(JsonWriter& json, const char* key, Axis axis, const Errors5& values) {
   json.key(key).begin_object();
   for (std::size_t k = 0; k < 5; ++k)
-    json.field(error_names(axis)[k].key, to_key_unit(values[k]) + 0.0);  // converts -0 to 0
+    json.field(error_names(axis)[k].key, to_key_unit(values[k]) + 0.0);  // + 0.0 converts -0 to 0
   json.end_object();
 }
 

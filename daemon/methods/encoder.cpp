@@ -1,4 +1,4 @@
-// encoder.set
+// The method encoder.set.
 #include <cstdio>
 
 #include "daemon/methods/methods.h"

@@ -1,4 +1,4 @@
-// server.health.
+// The method server.health.
 #include <filesystem>
 
 #include "daemon/methods/methods.h"

@@ -1,4 +1,4 @@
-// history.list.
+// The method history.list.
 #include "daemon/methods/methods.h"
 #include "daemon/rpc/params/list_page.h"
 #include "schema/base/json_page.h"

@@ -1,4 +1,4 @@
-// machine.at.
+// The method machine.at.
 #include "algo/machine/budget/budget.h"
 #include "daemon/measure/machine/machine_files.h"
 #include "daemon/measure/machine/stored_errors.h"

@@ -73,13 +73,14 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 // Functions that several groups use.
 HistoryEntry caller_action(const rpc::Params& params,
                            std::string name);  // the user is the caller; the time is now
-// As caller_action(), with the parameter "reason".
+// As caller_action(). The parameter "reason" becomes the detail of the action.
 HistoryEntry action_with_reason(const rpc::Params& params, std::string name);
 Result<Axis> axis_param(const rpc::Params& params);
 // Parameters for the largest allowed deviation or correction.
 std::vector<rpc::Param> limit_params();
 Result<algo::TableLimits> limits_param(const rpc::Params& params);
-Result<Reference> reference_param(const rpc::Params& params);  // default: the fixture
+Result<Reference> reference_param(
+    const rpc::Params& params);  // parameter "reference"; default: the fixture
 // Parameters for methods that calculate from a machine: the text of MACHINE.toml, and the commanded
 // positions of the axes. machine_param() does not read the files that MACHINE.toml names.
 std::vector<rpc::Param> machine_params();

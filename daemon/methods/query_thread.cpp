@@ -10,7 +10,7 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr int kQueryNiceness = 10;  // lower priority than the measurement
+constexpr int kQueryNiceness = 10;  // nice value of the thread: lower priority than the measurement
 constexpr std::chrono::milliseconds kNewClientCost{1};
 
 }  // namespace

@@ -81,7 +81,7 @@ class QueryThread {
   const std::shared_ptr<QueryThread*>
       self_;  // messages of the thread use it, because they can arrive after the destruction
 
-  store::Store store_;  // used by the thread
+  store::Store store_;  // only the thread uses it
   std::mutex mutex_;    // protects next_ and stopping_
   std::condition_variable call_ready_;
   std::optional<Call> next_;

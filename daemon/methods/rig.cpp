@@ -1,4 +1,4 @@
-// rig.get.
+// The method rig.get.
 #include "daemon/methods/methods.h"
 #include "daemon/paths.h"
 #include "daemon/words/words.h"

@@ -1,4 +1,4 @@
-// run.start, run.resume, run.stop, run.list, run.get, run.points.
+// The methods run.start, run.resume, run.stop, run.list, run.get and run.points.
 #include <algorithm>
 #include <memory>
 

@@ -1,4 +1,4 @@
-// squareness.fit.
+// The method squareness.fit.
 #include "daemon/measure/evaluation.h"
 #include "daemon/methods/methods.h"
 #include "schema/units.h"

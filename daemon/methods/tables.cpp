@@ -1,4 +1,4 @@
-// compensation.list, compensation.table: stored tables, active or not.
+// The methods compensation.list and compensation.table. They read stored tables, active or not.
 #include "daemon/measure/gate/gate.h"
 #include "daemon/measure/gate/table_documents.h"
 #include "daemon/measure/machine/volumetric.h"

@@ -1,4 +1,4 @@
-// compensation.build_volume, and compensation.* for volumetric tables.
+// The method compensation.build_volume, and the methods compensation.* for volumetric tables.
 #include "daemon/methods/volume.h"
 
 #include <algorithm>

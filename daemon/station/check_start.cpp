@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr mode_t kFolderMode = 0755;
 
-// The folder itself, or its nearest existing parent.
+// The folder, or its nearest parent folder that exists.
 fs::path nearest_folder(fs::path folder) {
   std::error_code failed;
   folder = fs::absolute(folder, failed);
@@ -102,7 +102,7 @@ Status make_socket_folder(const std::string& socket) {
     if (::mkdir(made.c_str(), kFolderMode) != 0 && errno != EEXIST)
       return io_error("rpc.socket: the folder " + made.string() +
                       " cannot be created: " + std::strerror(errno) + permission_remedy(folder));
-    (void)::chmod(made.c_str(), kFolderMode);  // independent of the umask
+    (void)::chmod(made.c_str(), kFolderMode);  // mkdir() applies the umask, chmod() does not
   }
   return {};
 }

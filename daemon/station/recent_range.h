@@ -27,8 +27,8 @@ class RecentRange {
   static constexpr std::int64_t kPart_ns = 100'000'000;
   static constexpr std::size_t kParts = 10;
   struct Part {
-    std::int64_t number = 0;         // time divided by kPart_ns, rounded down
-    std::vector<Range> probes = {};  // empty: no readings
+    std::int64_t number = 0;         // time of the frames divided by kPart_ns, rounded down
+    std::vector<Range> probes = {};  // range of each probe; empty: no readings
   };
   std::array<Part, kParts> parts_;
   std::int64_t newest_ = 0;  // number of the newest part; 0 before the first frame

@@ -62,7 +62,8 @@ Station::~Station() {
   if (config_.live())
     for (auto& acquisition : acquisitions_) acquisition->stop();
   shared_->queue.close();
-  measure_thread_.join();  // ends an open run; after this nothing else starts or stops a reader
+  measure_thread_
+      .join();  // the thread ends a run in progress; later no thread starts or stops a device
   acquisitions_.clear();
 }
 

@@ -80,7 +80,7 @@ std::optional<std::size_t> expected_target(const RunRequest& request,
   return last > 0 ? last - 1 : 0;
 }
 
-// Whether the result consists of the stored points and possibly more.
+// Whether the result begins with the stored points. It can contain further points.
 bool begins_with(const std::vector<MeasuredPoint>& result,
                  const std::vector<MeasuredPoint>& stored) {
   if (result.size() < stored.size()) return false;

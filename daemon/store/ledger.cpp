@@ -19,7 +19,7 @@ struct FactKind {
   Fact fact;
   const char* name;  // name of the fact in the ledger, and name of the database table
   const char* key;
-  const char* called;  // name in messages
+  const char* called;  // name of the fact in messages
   const char* values;
 };
 

@@ -20,7 +20,7 @@
 
 namespace mdof::store {
 
-inline constexpr int kLedgerSchema = 8;  // the migration that created the ledger
+inline constexpr int kLedgerSchema = 8;  // number of the migration that creates the ledger
 
 // The last link of the chain. `link`: number of the link; the first link has the number 1.
 // `sha256`: hash of the link; it depends on all earlier links.

@@ -41,7 +41,7 @@ struct StoreOptions {
 
 // Data of a run that are known only at its end.
 struct RunEnd {
-  RunState state = RunState::complete;  // not open
+  RunState state = RunState::complete;  // must not be RunState::open
   std::uint64_t scans = 0, scans_lost = 0;
   Notices notices;
   std::string
@@ -179,7 +179,7 @@ class Store {
                                        std::optional<std::int64_t> expected = std::nullopt);
   Result<ActiveVolumetric> active_volumetric();  // not_found if no table is active
 
-  // ---- set positions of an axis ----
+  // ---- axis positions that users set ----
   Result<std::int64_t> add_datum(const DatumSetting& setting,  // setting.id is ignored
                                  const std::optional<HistoryEntry>& action = std::nullopt);
   Result<std::optional<DatumSetting>> last_datum(Axis axis);

@@ -37,7 +37,7 @@ struct RpcAccess {
                                    // without a subscription; 0: never
   std::optional<gid_t> cnc_group;  // mdofd reserves one connection for members of this group
   std::optional<gid_t> approve_group;  // only members of this group may activate a table
-  std::string approvers;               // name of approve_group
+  std::string approvers;               // name of the group approve_group
 };
 
 struct Config {
@@ -45,13 +45,14 @@ struct Config {
   store::Durability durability = store::Durability::full;
   std::chrono::milliseconds commit_interval{50};
   std::string socket;
-  std::optional<std::uint16_t> tcp_port;  // on the loopback interface; off by default
+  std::optional<std::uint16_t>
+      tcp_port;  // TCP port of the RPC on the loopback interface; off by default
   RpcAccess access;
   std::optional<HttpAccess> http;  // the web page; off by default
   PipelineOptions measure;
   bool gap_given = false;  // measure.align.max_gap_s is given; otherwise mdofd calculates the gap
                            // from the sampling rates
-  Chain machine;           // [machine]; may be unknown
+  Chain machine;           // the table [machine]; unknown if it is missing
   std::vector<AxisConfig> axes;
   std::string text;  // the TOML text, for the provenance
   // For messages: the name of the file, and file, line and key of each path. They are set even if

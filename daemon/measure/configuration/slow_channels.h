@@ -1,4 +1,4 @@
-// Channels whose sampling interval is longer than the gap of the aligner.
+// Options for channels whose sampling interval is longer than the gap of the aligner.
 #pragma once
 
 #include <string>

@@ -25,7 +25,7 @@ struct LargestChange {
   void add(double change_m, const std::string& of_probe);
 };
 
-// `what`: "tilt", "dielectric", "linearity".
+// The notice about the largest change. `what`: "tilt", "dielectric" or "linearity".
 Notice change_notice(const char* what, bool corrected, const LargestChange& change);
 
 // Thread-bound.
@@ -60,7 +60,8 @@ class PointCorrections {
   std::optional<AirSeries> air_;
 };
 
-// Why a point has no errors, as the beginning of a sentence: "probe A no longer changes; ".
+// The cause why a point has no errors. It is the beginning of a sentence: "probe A no longer
+// changes; ".
 std::string cause_of(const Point& point);
 
 }  // namespace mdof::daemon

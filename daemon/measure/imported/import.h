@@ -16,7 +16,7 @@ struct ImportRequest {
   std::string file;
   int opened = -1;  // descriptor of `file` if the file is open already; otherwise -1
   Axis axis = Axis::x;
-  std::string error;   // "EXX"; empty: the positioning of the axis
+  std::string error;   // name of the error, "EXX"; empty: the positioning error of the axis
   std::string format;  // as in read_imported_file(); empty: the format is recognised from the
                        // content of the file
   std::optional<double> u_um, u_urad;  // standard uncertainty of each deviation, from an effect
@@ -28,7 +28,7 @@ struct ImportRequest {
   std::optional<PositioningSense> sense;
   std::optional<bool> against_command;
   algo::TableLimits limits = {};
-  bool despite_warnings = false;  // also import a doubtful file
+  bool despite_warnings = false;  // true: also import a doubtful file
 };
 
 // Returns a complete run. The run is not stored yet. Errors:

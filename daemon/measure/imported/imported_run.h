@@ -1,4 +1,4 @@
-// Notices, coverage and document of a stored, imported run.
+// Functions for stored imported runs: notices, contributions to u, JSON document.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@
 
 namespace mdof::daemon {
 
-// In the order of the rig.
+// The ids and the ranges are in the order of the probes of the rig.
 std::vector<std::string> probe_ids(const Rig& rig);
 std::vector<double> probe_ranges_m(const Rig& rig);
 

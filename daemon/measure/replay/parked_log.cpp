@@ -20,7 +20,7 @@ constexpr double kMostTravel_m =
     50e-6;  // if the mean positions differ by more than this, the axis moved
 constexpr std::chrono::milliseconds kParkedTimeout{1000};
 
-// Sums of a channel over short steps of time.
+// Sums of the values of a channel over short time steps.
 class Steps {
  public:
   void take(std::int64_t since_ns, double x) {

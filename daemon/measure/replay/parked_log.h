@@ -15,7 +15,7 @@
 namespace mdof::daemon {
 
 struct ParkedRequest {
-  std::string log;                   // a file, or "-"
+  std::string log;                   // name of a file, or "-" for the standard input
   std::string rig_text, rig_source;  // empty rig_source: use the rig in the log
   // Drift limit for the readings of the probes and for the two straightness errors. Default:
   // limit_um_per_h in the table [drift] of the rig. If the rig has no such key, there is no limit.

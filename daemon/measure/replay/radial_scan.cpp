@@ -36,7 +36,7 @@ struct Series {
     time_ns.push_back(t);
     value.push_back(x);
   }
-  // Linear interpolation; NaN outside the series and in a gap.
+  // The value at the time t, interpolated linearly. NaN outside the series and in a long gap.
   double at(std::int64_t t) const {
     const auto after = std::lower_bound(time_ns.begin(), time_ns.end(), t);
     if (after == time_ns.end()) return kNaN;

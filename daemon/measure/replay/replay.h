@@ -32,13 +32,13 @@ class ReplayLog {
   drivers::Driver& driver() { return *driver_; }
   const std::string& path() const { return path_; }
   const char* kind() const { return recording_ ? "recording" : "csv"; }
-  std::string rig_text() const;       // rig of a recording, otherwise empty
-  std::string started_utc() const;    // start of a recording, otherwise empty (unknown)
-  std::string configuration() const;  // mdofd.toml of a recording, otherwise empty
+  std::string rig_text() const;       // rig in the recording; empty for a CSV log
+  std::string started_utc() const;    // start time of the recording; empty for a CSV log
+  std::string configuration() const;  // mdofd.toml in the recording; empty for a CSV log
   // The request and the options of the recorded run. The options are read from mdofd.toml of the
   // recording; the request of the run overrides them. A CSV log has the default options.
   Result<RecordedRequest> asked_for() const;
-  std::vector<std::string> comments() const;  // comments of a CSV log
+  std::vector<std::string> comments() const;  // comments in the CSV log
   Progress progress() const;                  // in bytes (CSV log) or in chunks (recording)
   // The following functions are valid only after the end of the log has been read.
   std::string sha256() const;
@@ -49,7 +49,8 @@ class ReplayLog {
 
   std::string path_;
   std::unique_ptr<drivers::Driver> driver_;
-  drivers::CsvLog* csv_ = nullptr;  // either csv_ or recording_ points to driver_
+  drivers::CsvLog* csv_ =
+      nullptr;  // one of csv_ and recording_ is *driver_, the other one is nullptr
   drivers::RecordingLog* recording_ = nullptr;
 };
 

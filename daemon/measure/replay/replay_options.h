@@ -24,12 +24,12 @@ struct ReplayOption {
   std::variant<Number, Switch> member;
   Range range;  // permitted range of a number
   Of of;
-  const char* meaning;  // help text, with the default in brackets
+  const char* meaning;  // help text; it contains the default in brackets
 
   std::string command_line_name() const;  // "--settle-s"
 };
 
-// In the order of the help.
+// All options, in the order of the help.
 const std::vector<ReplayOption>& replay_options();
 
 // Error (usage): a number is not finite or out of range, or an option does not apply to this kind

@@ -15,13 +15,13 @@ namespace {
 
 using simdjson::dom::element;
 
-constexpr double kMostDelay_s = 10;  // as in delays.cpp
+constexpr double kMostDelay_s = 10;  // same limit as in delays.cpp
 
 // Reads the members of an object into variables. The error is the first member with a wrong type.
 // If a member is missing or null, its variable does not change.
 class Members {
  public:
-  // `path`: path of the object, with a dot at its end, for messages.
+  // `path`: path of the object for messages, with a dot at the end ("options.").
   explicit Members(element object, std::string path = "")
       : object_(object), path_(std::move(path)) {}
 

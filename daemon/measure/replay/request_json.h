@@ -17,7 +17,7 @@ struct RecordedRequest {
   PipelineOptions options;
 };
 
-// {"note", "notices", "options": as PipelineOptions::json()}
+// {"note", "notices", "options"}; "options" is PipelineOptions::json().
 std::string request_json(const RecordedRequest& asked);
 
 // Reads the text. If a member is missing in the text, the option of `base` is used. An empty text

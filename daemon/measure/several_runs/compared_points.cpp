@@ -34,7 +34,7 @@ double at_row(const std::vector<double>& values, std::size_t row, double none) {
 // Number of readings for each target and approach. A reading without an approach counts for both
 // approaches.
 struct Counts {
-  std::vector<double> forward, reverse;  // [row]
+  std::vector<double> forward, reverse;  // one number for each row of the table
   bool no_reversal = false;  // true: an imported run with readings that have no approach
 };
 

@@ -22,10 +22,11 @@ struct ComparedValue {
 inline constexpr std::array<const char*, 3> kComparedSides = {"forward", "reverse", "reversal"};
 struct ComparedPoint {
   double position_m = 0;  // position of the target in the first run ("before")
-  std::array<std::vector<ComparedValue>, kComparedSides.size()> side;  // [side][error]
+  std::array<std::vector<ComparedValue>, kComparedSides.size()>
+      side;  // index: kComparedSides, then errors of ComparedPoints
 };
 struct ComparedPoints {
-  std::vector<std::string> errors;  // keys: "EXX_um"
+  std::vector<std::string> errors;  // names of the errors, "EXX_um"
   std::vector<ComparedPoint> points;
 };
 

@@ -40,7 +40,7 @@ struct Comparison {
   std::int64_t before = 0, after = 0;
   Axis axis = Axis::x;
   StatedAt stated;
-  std::vector<ComparedFigure> figures;  // figures that both runs have
+  std::vector<ComparedFigure> figures;  // figures that have a value in both runs
   Notices differences;                  // other differences between the two runs than the action
   Notices notices;                      // notices of the runs
   bool simulated = false;

@@ -49,7 +49,7 @@ bool earlier(const RunHeader& a, const RunHeader& b) {
 }
 
 struct Chosen {
-  std::vector<RunHeader> runs;  // in order of time
+  std::vector<RunHeader> runs;  // in the order of time
   std::vector<std::string> left_out;
   Notices notices;
 };

@@ -37,10 +37,10 @@ struct TrendValue {
 struct Trend {
   std::string figure;
   std::size_t baseline = 0;           // requested number of values
-  std::vector<TrendValue> values;     // values in order of time
-  std::optional<algo::Chart> chart;   // nullopt: too few values
+  std::vector<TrendValue> values;     // values, in the order of time
+  std::optional<algo::Chart> chart;   // nullopt: there are too few values for a chart
   std::vector<std::string> left_out;  // sentences: the runs that were left out, with the reason
-  Notices notices;                    // notices on mixed rigs and models
+  Notices notices;                    // notices that the runs have different rigs or models
   // Contributions to u. They are from the budget of the last value whose u contains noise only; if
   // there is no such value, from the first value.
   Covers u_covers;

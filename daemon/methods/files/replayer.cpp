@@ -13,7 +13,7 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr int kNiceness = 10;  // lower priority than the measurement
+constexpr int kNiceness = 10;  // nice value of the thread: lower priority than the measurement
 constexpr std::chrono::seconds kPatience{2};
 
 std::atomic<bool> thread_abandoned{false};

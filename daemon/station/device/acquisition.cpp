@@ -86,7 +86,7 @@ void Acquisition::fail(const std::string& error) {
     status_.state = "failed: reopening";
     status_.error = error;
   }
-  if (lost_since_) return;  // already reported
+  if (lost_since_) return;  // the error is reported already
   lost_since_ = steady_clock::now();
   // The trouble contains the name of the device already.
   const std::string who = "device \"" + spec_.name + "\"";

@@ -32,7 +32,7 @@ class Acquisition final : public DeviceReader {
   void stop() override;  // joins the thread; this takes at most the time of one read and one open
   void request_stop() override { acquiring_ = false; }
   void trust_count() override { trust_encoder_count(kEncoderChannel); }
-  // `encoder`: a channel of the device.
+  // As trust_count(), for one encoder. `encoder`: id of its channel in the device.
   void trust_encoder_count(const std::string& encoder);
   void wake() override { woken_ = true; }
 
@@ -80,7 +80,7 @@ class Acquisition final : public DeviceReader {
   std::chrono::steady_clock::time_point next_refresh_;
   std::uint64_t dropped_scans_ = 0;  // number; the next block reports it
   std::optional<std::chrono::steady_clock::time_point> lost_since_;
-  std::set<std::string> datum_lost_;  // encoders with a lost datum
+  std::set<std::string> datum_lost_;  // channel ids of the encoders with a lost datum
   int marks_passed_ = 0;
   bool clock_is_uncertain_ = false;
   std::uint64_t clock_steps_ = 0;

@@ -50,7 +50,7 @@ struct DeviceSink {
 // request_stop(), wake() and trust_count() are thread-safe.
 class DeviceReader {
  public:
-  virtual ~DeviceReader() = default;  // stops the device
+  virtual ~DeviceReader() = default;  // calls stop()
   virtual void start() = 0;
   virtual void stop() = 0;          // afterwards no function of the sink is called
   virtual void request_stop() = 0;  // the thread stops soon; does not wait for it

@@ -37,7 +37,7 @@ int Hotplug::descriptor() const {
 
 bool Hotplug::read_arrivals() {
   bool arrived = false;
-  // The descriptor does not block; nullptr means that no event is left.
+  // The descriptor does not block. nullptr means that no further event is pending.
   while (udev_device* device = udev_monitor_receive_device(monitor_.get())) {
     const char* action = udev_device_get_action(device);
     arrived = arrived || (action && std::string_view(action) != "remove");

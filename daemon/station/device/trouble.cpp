@@ -36,7 +36,7 @@ std::string join(const std::vector<std::string>& words) {
 std::string source_of(const std::vector<std::string>& ids, const ChannelsByDevice& channels) {
   if (channels.size() < 2) return "";
   for (const auto& [device, of_device] : channels) {
-    const auto& given = of_device;  // clang 14 captures no structured binding
+    const auto& given = of_device;  // in clang 14, a lambda cannot capture a structured binding
     const auto gives = [&](const std::string& id) {
       return std::find(given.begin(), given.end(), id) != given.end();
     };

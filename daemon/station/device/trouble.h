@@ -22,7 +22,7 @@ struct Trouble {
     back,      // the device works again
     suspect,   // the values of the device may be wrong, because an encoder has lost its datum
     slow,      // the device sends fewer scans than its nominal rate, or scans were lost
-    clock,     // the time of its samples is uncertain
+    clock,     // the time of the samples is uncertain
     unsolved,  // a stop has no errors because readings are missing
   } kind = Kind::lost;
   std::string device;  // "": the trouble concerns no single device
@@ -56,7 +56,7 @@ class TroubleLog {
     Trouble first, last;
     std::size_t times = 0;
   };
-  std::vector<std::string> order_;  // devices in order of their first trouble
+  std::vector<std::string> order_;  // names of the devices, in the order of their first troubles
   std::map<std::string, std::map<Trouble::Kind, RepeatedTrouble>> devices_;
 };
 

@@ -1,4 +1,4 @@
-// Migrates a database to the schema of this program, or rejects it.
+// Checks a database, and migrates it to the schema of this program.
 #pragma once
 
 #include <span>

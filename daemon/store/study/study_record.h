@@ -11,7 +11,7 @@ namespace mdof::store {
 
 // The request of the study. It never changes.
 struct StudyRecord {
-  std::int64_t id = 0;  // assigned by the store
+  std::int64_t id = 0;  // the store assigns it
   std::string name;
   std::string plan_toml;      // the plan of a user, or the options of a preset
   std::string source;         // name of the file of the plan; "" for a preset

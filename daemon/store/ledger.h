@@ -2,13 +2,17 @@
 // fact is a row of the database, such as a run or an activation. Only files of the store include
 // this header.
 //
-//   hash of link n = SHA-256 of  hash of link n-1 (nothing for n = 1) '\n' fact '\n' row '\n'
-//   values
-// `values` are the values of the row of the fact, and of the rows to which this row refers
-// (recording, rig and other texts, temperature, plausibility, runs of a table). Their order is the
-// order of the query in ledger.cpp. Each value is written as
-//   n: NULL; i decimal '\n': an integer; d 8 bytes: a double; t length '\n' bytes: text; b length
-//   '\n' bytes: bytes
+// The hash of link n is the SHA-256 of this text:
+//   hash of link n - 1 (nothing for n = 1) '\n' fact '\n' row '\n' values
+// `fact` is the name of the kind, and `row` is the number of the row. `values` are the values of
+// this row, and of the rows to which it refers (recording, rig and other texts, temperature,
+// plausibility, runs of a table). Their order is the order of the query in ledger.cpp. Each value
+// is written as
+//   NULL:     n
+//   integer:  i decimal '\n'
+//   double:   d 8 bytes
+//   text:     t length '\n' bytes
+//   bytes:    b length '\n' bytes
 #pragma once
 
 #include <cstdint>

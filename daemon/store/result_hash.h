@@ -2,15 +2,18 @@
 // figure and angle figure is bit-identical. The hash does not depend on the computer, the compiler
 // or the file. Provenance, file names and UTC times are not included.
 //
-// Hashed bytes (i, d, s: schema/base/canonical.h) in the order of the rows: all points, then
-// straightness, then angles:
-//   point         i target, d target_m, i repetition, i direction, i begin_ns, i end_ns, d
-//   position_m,
-//                 i samples, i number of flags, s each flag, i n, d probe_m[n], i n, d
-//                 probe_u_m[n], then either i 1, d 5 local errors, d residual_m, d 25 covariance or
-//                 i 0, s reason
-//   straightness  s error_key, s approach, d its seven figures in the order of schema/run.h
-//   angle         s error_key, s approach, d start_rad, d min_rad, d max_rad
+// The hash is over the bytes of all points, then of all straightness figures, then of all angle
+// figures. The letters i (integer), d (double) and s (text) are defined in schema/base/canonical.h.
+//   point:
+//     i target, d target_m, i repetition, i direction, i begin_ns, i end_ns, d position_m,
+//     i samples, i number of flags, s each flag,
+//     i n, d probe_m[n], i n, d probe_u_m[n],
+//     with errors:     i 1, d 5 local errors, d residual_m, d 25 covariance
+//     without errors:  i 0, s reason
+//   straightness figure:
+//     s error_key, s approach, d the seven values in the order of schema/run.h
+//   angle figure:
+//     s error_key, s approach, d start_rad, d min_rad, d max_rad
 #pragma once
 
 #include <cstdint>

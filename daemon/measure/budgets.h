@@ -43,10 +43,10 @@ StatedRun stated_run(const Run& run);
 struct RunBudgetsRequest {
   std::int64_t run = 0;
   Reference reference = Reference::fixture;
-  std::string
-      figure;  // name of the only requested figure, "EYX_straightness_um"; empty: all figures
-  std::optional<double>
-      at_m;  // if set: budgets of the errors ("EYX_um") at the target nearest to this position
+  // Name of the only requested figure, "EYX_straightness_um"; empty: all figures.
+  std::string figure;
+  // If set: budgets of the errors ("EYX_um") at the target nearest to this position.
+  std::optional<double> at_m;
   algo::TrialsRequest trials;
 };
 struct FoundBudgets {

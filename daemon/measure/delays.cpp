@@ -10,8 +10,8 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr double kMost_us =
-    10e6;  // ten seconds; a reading with a longer delay is useless for the measurement of an axis
+// Ten seconds; a reading with a longer delay is useless for the measurement of an axis.
+constexpr double kMost_us = 10e6;
 constexpr int kDigits = 9;  // with fewer digits, rounding could make the suggested value too small
 
 double of(const ChannelDelays& delays, const std::string& id) {

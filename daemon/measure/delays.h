@@ -13,8 +13,8 @@
 
 namespace mdof::daemon {
 
-using ChannelDelays =
-    std::map<std::string, double>;  // delay in s, by channel id; a missing channel has the delay 0
+// Delay in s, by channel id; a missing channel has the delay 0.
+using ChannelDelays = std::map<std::string, double>;
 
 // Adds the delays in the `channel` tables of a device. Rejects a delay that is negative, not finite
 // or too large. The limit is `settle_s`: with a longer delay, the first readings of a stop would be

@@ -73,8 +73,8 @@ Result<Notices> table_notices(const std::vector<Run>& runs) {
 }
 
 constexpr std::size_t kMostRuns = 64;
-constexpr std::int64_t kMostPoints =
-    200'000;  // all points are in memory at the same time (about 150 MB)
+// All points are in memory at the same time (about 150 MB).
+constexpr std::int64_t kMostPoints = 200'000;
 
 // Checks the runs before their points are read. Rejects a run that is given twice, too many runs,
 // and runs with too many points.

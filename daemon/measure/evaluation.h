@@ -45,8 +45,8 @@ struct TableRequest {
   std::vector<std::int64_t> runs;
   bool keep_slope = false;
   bool partial = false;  // also use partial runs
-  std::optional<Reference>
-      reference;  // default: the tool if the rig states tool_point_mm, otherwise the fixture
+  // default: the tool if the rig states tool_point_mm, otherwise the fixture.
+  std::optional<Reference> reference;
   std::optional<HistoryEntry> action = std::nullopt;  // the requesting user
   algo::TableLimits limits = {};
   // Travel of the machine: true means "-". It is used only for imported runs of positioning that do
@@ -77,9 +77,8 @@ struct ActivationRequest {
   std::int64_t table = 0;
   Consent consent;
   HistoryEntry action;  // the requesting user
-  std::optional<std::int64_t> expected_generation =
-      std::nullopt;  // the activation fails if the generation of all active tables is another
-                     // number
+  // The activation fails if the generation of all active tables is another number.
+  std::optional<std::int64_t> expected_generation = std::nullopt;
 };
 // Activates the table. Rejects a table whose content does not match its hash. Also rejects every
 // table that check_gate() rejects: a controller reads only the numbers, without the notices.
@@ -93,9 +92,8 @@ Result<store::Activation> activate_checked(store::Store& store, const Activation
 inline constexpr std::array<AxisPair, 3> kAxisPairs = {
     {{Axis::x, Axis::y}, {Axis::x, Axis::z}, {Axis::y, Axis::z}}};
 struct SquarenessRequest {
-  std::int64_t run_a = 0,
-               run_b =
-                   0;  // the axis of run_a must be before the axis of run_b in the order X, Y, Z
+  // The axis of run_a must be before the axis of run_b in the order X, Y, Z.
+  std::int64_t run_a = 0, run_b = 0;
   algo::ArtefactGiven given;
   bool partial = false;
   std::optional<HistoryEntry> action = std::nullopt;  // the requesting user

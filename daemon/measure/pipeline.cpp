@@ -16,8 +16,8 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kFullRecognitionLimit =
-    256;  // below this number of stops, each new stop restarts the recognition
+// Below this number of stops, each new stop restarts the recognition.
+constexpr std::size_t kFullRecognitionLimit = 256;
 
 // Copies the last frame of `frames` into `newest`.
 void copy_last_instant(const FrameBlock& frames, FrameBlock& newest) {
@@ -208,9 +208,8 @@ Status Pipeline::check_dead_probes(Notices& notices) const {
                                       {{"range_um", to_um(rig_.probes[k].range_m)}})
                              : notice(NoticeCode::probe_dead, id);
     if (needed) return bad_input(words::text(why));
-    if (why.code !=
-        NoticeCode::probe_saturated)  // the run gets the notice probe_beyond_range already
-      notices.push_back(std::move(why));
+    // The run gets the notice probe_beyond_range already.
+    if (why.code != NoticeCode::probe_saturated) notices.push_back(std::move(why));
   }
   return {};
 }

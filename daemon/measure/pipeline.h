@@ -77,8 +77,8 @@ class Pipeline : RunBuilder {
   std::optional<algo::SequenceTail> tail_;  // adds single points to sequence_
   std::size_t next_full_recognition_ =
       0;  // at this size of found_, the whole sequence is recognised again
-  std::optional<std::int64_t> begin_ns_,
-      encoder_ns_;                          // times of the first and the last encoder scan
+  // Times of the first and the last encoder scan.
+  std::optional<std::int64_t> begin_ns_, encoder_ns_;
   std::size_t stops_without_position_ = 0;  // number of stops of found_ without a position
 };
 

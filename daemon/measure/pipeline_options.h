@@ -26,8 +26,8 @@ struct PipelineOptions {
   bool keep_points = true;  // false: only for a live view without a run
   int repeats = 0;  // requested points for each target and approach; 0: the user ends the run
   bool remove_drift = false;  // remove a significant drift from the errors (algo/drift)
-  std::optional<algo::OnTheFlyOptions>
-      on_the_fly;                      // only for replays; if set, dwells are not searched
+  // Only for replays; if set, dwells are not searched.
+  std::optional<algo::OnTheFlyOptions> on_the_fly;
   EncoderDatum datum;                  // datum; the pushed positions contain it already
   std::size_t max_stops = kMostStops;  // later stops are counted but not evaluated
 

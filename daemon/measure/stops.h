@@ -14,8 +14,8 @@
 namespace mdof::daemon {
 
 struct LogStops {
-  std::vector<Point>
-      stops;  // readings in the order of the probes of the rig; an unusable reading is NaN
+  // Readings in the order of the probes of the rig; an unusable reading is NaN.
+  std::vector<Point> stops;
   std::vector<Unit> units;  // units of the probes in the log
   std::string sha256;       // SHA-256 of the log
   std::string started_utc;  // start time of a recording, otherwise empty

@@ -25,8 +25,8 @@
 
 namespace mdof::daemon {
 
-inline constexpr const char* kLiveTopic =
-    "live.update";  // a new message replaces an older message that is still pending
+// A new message replaces an older message that is still pending.
+inline constexpr const char* kLiveTopic = "live.update";
 inline constexpr const char* kRunTopic = "run.event";  // each message is sent
 
 // The active tables. Used on the main thread only. Each activation replaces the whole struct.
@@ -51,12 +51,12 @@ struct Methods {
   std::string database;
   std::string started_utc;
   std::chrono::steady_clock::time_point started;
-  std::int64_t generation =
-      0;  // generation of the active tables; each activation and deactivation increases it
+  // Generation of the active tables; each activation and deactivation increases it.
+  std::int64_t generation = 0;
   Replayer* replayer = nullptr;   // nullptr: run.replay is rejected
   std::optional<Page> page = {};  // nullopt: the page is not served
-  std::function<void(std::int64_t generation)> announce =
-      {};  // sends the message that the active tables have changed
+  // Sends the message that the active tables have changed.
+  std::function<void(std::int64_t generation)> announce = {};
   std::function<std::vector<std::string>()> clients = {};  // lists the connected clients
 };
 
@@ -71,16 +71,16 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 }
 
 // Functions that several groups use.
-HistoryEntry caller_action(const rpc::Params& params,
-                           std::string name);  // the user is the caller; the time is now
+// The user is the caller; the time is now.
+HistoryEntry caller_action(const rpc::Params& params, std::string name);
 // As caller_action(). The parameter "reason" becomes the detail of the action.
 HistoryEntry action_with_reason(const rpc::Params& params, std::string name);
 Result<Axis> axis_param(const rpc::Params& params);
 // Parameters for the largest allowed deviation or correction.
 std::vector<rpc::Param> limit_params();
 Result<algo::TableLimits> limits_param(const rpc::Params& params);
-Result<Reference> reference_param(
-    const rpc::Params& params);  // parameter "reference"; default: the fixture
+// Parameter "reference"; default: the fixture.
+Result<Reference> reference_param(const rpc::Params& params);
 // Parameters for methods that calculate from a machine: the text of MACHINE.toml, and the commanded
 // positions of the axes. machine_param() does not read the files that MACHINE.toml names.
 std::vector<rpc::Param> machine_params();

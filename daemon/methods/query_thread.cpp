@@ -57,9 +57,8 @@ void QueryThread::admit(const Key& client) {
         served_ && !served_->owner_before(entry.first) && !entry.first.owner_before(*served_);
     return entry.first.expired() && !served;
   });
-  order_.charge(
-      clients_[client].share,
-      kNewClientCost);  // so a client that connects again for each call is not always served first
+  // A client that connects again for each call is therefore not always served first.
+  order_.charge(clients_[client].share, kNewClientCost);
 }
 
 // Gives the next call to the thread. The call stays in the list of its client until done().

@@ -78,8 +78,8 @@ class QueryThread {
   bool open_again_ = false;
   std::uint64_t refused_ = 0;
   std::string damage_;
-  const std::shared_ptr<QueryThread*>
-      self_;  // messages of the thread use it, because they can arrive after the destruction
+  // Messages of the thread use it, because they can arrive after the destruction.
+  const std::shared_ptr<QueryThread*> self_;
 
   store::Store store_;  // only the thread uses it
   std::mutex mutex_;    // protects next_ and stopping_

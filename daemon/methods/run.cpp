@@ -36,8 +36,8 @@ using rpc::Reply;
 constexpr std::int64_t kMaxPointsPage = 100;
 constexpr std::size_t kMaxVisits = 1500;  // largest number of values n_ij in one reply
 constexpr std::int64_t kMaxRunsPage = 100;
-constexpr std::int64_t kMaxRunPoints =
-    100'000;  // all points are read for the figures; this takes about 0.3 s
+// All points are read for the figures; this takes about 0.3 s.
+constexpr std::int64_t kMaxRunPoints = 100'000;
 constexpr std::size_t kMaxTargets = 1500;  // the reply contains all targets in one line
 
 // Reads the targets: a list of positions, or equal intervals.
@@ -80,8 +80,8 @@ Result<RunRequest> read_run_request(const Params& params) {
     if (!request.targets_m.empty() && from_mm(target_mm) <= request.targets_m.back()) {
       return fail(ErrorCode::usage, "targets_mm must be in ascending order");
     }
-    request.targets_m.push_back(from_mm(target_mm) +
-                                0.0);  // + 0.0 converts -0 to 0; a replay reads 0
+    // + 0.0 converts -0 to 0; a replay reads 0.
+    request.targets_m.push_back(from_mm(target_mm) + 0.0);
   }
   if (request.repeats > 0 && request.targets_m.empty()) {
     return fail(ErrorCode::usage,
@@ -227,8 +227,8 @@ Result<QueryThread::Work> list_runs(Methods& m, const Params& params) {
 // Limits the time of a call, because other clients wait. For a run with too many points, no figures
 // with uncertainty are calculated.
 StatedRun limited_stated_run(const Run& run) {
-  constexpr std::size_t kMostStated =
-      5'000;  // calculation time about 0.2 s; with 110 points 0.02 s
+  // Calculation time about 0.2 s; with 110 points 0.02 s.
+  constexpr std::size_t kMostStated = 5'000;
   if (run.points.size() <= kMostStated) return stated_run(run);
   Run beginning = run;
   beginning.points.resize(1);

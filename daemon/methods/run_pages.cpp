@@ -14,8 +14,8 @@ namespace mdof::daemon {
 
 namespace {
 
-constexpr std::size_t kAfterFirst =
-    1;  // restated_points() returns the first point of the run, then the page
+// restated_points() returns the first point of the run, then the page.
+constexpr std::size_t kAfterFirst = 1;
 
 // `run`: result of restated_points().
 std::string imported_page(const Run& run, std::int64_t total, std::int64_t offset) {

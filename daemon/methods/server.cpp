@@ -197,8 +197,8 @@ Result<ActiveTables> load_active(store::Store& store) {
       // If runs of the table cannot be read, the table is doubtful, too.
       const auto doubtful = doubtful_notices(store, active->table);
       active->doubtful = !doubtful || !doubtful->empty();
-      algo::add_curvatures(
-          active->table);  // calculated once, because compensation.at is called often
+      // Calculated once, because compensation.at is called often.
+      algo::add_curvatures(active->table);
       tables.axes[static_cast<std::size_t>(axis)] =
           std::make_shared<const store::ActiveTable>(std::move(*active));
     } else if (active.error().code != ErrorCode::not_found) {

@@ -199,8 +199,8 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
   json.begin_object().field("axis", "volume");
   for (std::size_t k = 0; k < 3; ++k) {
     const std::string key = std::string(1, kAxes[k]) + "_mm";
-    const bool stands =
-        table.command_m[k].size() == 1;  // the grid has only one position of this axis: the default
+    // The grid has only one position of this axis: the default.
+    const bool stands = table.command_m[k].size() == 1;
     if (!params.has(key) && !stands)
       return fail(ErrorCode::usage, key + " is missing; give the commanded position of " +
                                         kAxes[k] + ", which is an axis of the grid");

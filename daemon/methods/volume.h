@@ -14,8 +14,8 @@ std::optional<std::int64_t> expected_generation_param(const rpc::Params& params)
 // Whether the parameters contain {"axis": "volume"}.
 bool is_volume(const rpc::Params& params);
 void deactivate_volume(Methods& m, const rpc::Params& params, rpc::Reply reply);
-void write_volume_status(JsonWriter& json,
-                         const Methods& m);  // null: no volumetric table is active
+// null: no volumetric table is active.
+void write_volume_status(JsonWriter& json, const Methods& m);
 Result<std::string> volume_grid(const Methods& m, const rpc::Params& params);
 Result<std::string> volume_at(const Methods& m, const rpc::Params& params);
 

@@ -178,8 +178,8 @@ void EncoderZero::lose(const std::string& device) {
   runs_.clear();
   counts_ = true;
   found_ = false;
-  if (datum_.kind == EncoderDatum::Kind::index)
-    datum_.offset_m = 0;  // the offset was valid only for the mark
+  // The offset was valid only for the mark.
+  if (datum_.kind == EncoderDatum::Kind::index) datum_.offset_m = 0;
   datum_.kind = EncoderDatum::Kind::none;
   datum_.device = device;
   datum_.utc = datum_.by = "";

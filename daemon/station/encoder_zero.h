@@ -72,9 +72,9 @@ class EncoderZero {
   mutable std::mutex mutex_;
   EncoderDatum datum_;   // protected by mutex_
   bool counts_ = false;  // protected by mutex_
-  std::set<std::int64_t>
-      runs_;            // runs that began with the current origin of the count; protected by mutex_
-  std::string device_;  // protected by mutex_
+  // Runs that began with the current origin of the count; protected by mutex_.
+  std::set<std::int64_t> runs_;
+  std::string device_;             // protected by mutex_
   std::optional<double> index_m_;  // axis position at the reference mark of the encoder
   // The last setting. since_start_: whether it was made after this program started. Protected by
   // mutex_.

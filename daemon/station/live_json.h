@@ -23,8 +23,8 @@ std::string devices_json(const std::vector<DeviceStatus>& devices);
 
 struct LiveState {
   bool simulated = false;
-  bool stale =
-      false;  // the newest readings are older than stale_s, so no reading has the quality "good"
+  // The newest readings are older than stale_s, so no reading has the quality "good".
+  bool stale = false;
   std::int64_t run = 0;                   // 0: no run
   std::vector<std::string> trouble = {};  // current troubles of the devices of the axis
 };

@@ -18,12 +18,12 @@ struct Station::OpenRun {
   std::vector<MeasuredPoint> stored;      // points that were sent to the store
   std::optional<Continuation> continues;  // set if the run continues another run
   Unrecorded unrecorded;                  // samples that were not sent to the store yet
-  std::chrono::steady_clock::time_point
-      recorded;  // time at which samples were sent to the store last
-  std::uint64_t blocks_not_recorded =
-      0;  // number of blocks for which the queue of the store had no space
-  std::optional<std::int64_t> left_out_ns =
-      {};                    // begin of the last stop that was reported as left out
+  // Time at which samples were sent to the store last.
+  std::chrono::steady_clock::time_point recorded;
+  // Number of blocks for which the queue of the store had no space.
+  std::uint64_t blocks_not_recorded = 0;
+  // Begin of the last stop that was reported as left out.
+  std::optional<std::int64_t> left_out_ns = {};
   TroubleLog troubles = {};  // troubles of the devices after the run began
   EncoderDatum datum = {};   // datum of the positions
   Model model = Model::rigid;

@@ -8,8 +8,8 @@ namespace {
 
 void widen(RecentRange::Range& range, const double* begin, const double* end) {
   for (const double* reading = begin; reading != end; ++reading) {
-    range.low_m =
-        std::fmin(range.low_m, *reading);  // if one value is NaN, fmin returns the other value
+    // If one value is NaN, fmin returns the other value.
+    range.low_m = std::fmin(range.low_m, *reading);
     range.high_m = std::fmax(range.high_m, *reading);
   }
 }

@@ -116,8 +116,8 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
                    "present positions is not the zero of the run; start a new run");
   }
   const bool in_machine = of_run.kind == Kind::set || of_run.kind == Kind::configured;
-  if (in_machine && now.kind == Kind::set)
-    return {};  // the positions of both parts are machine positions
+  // The positions of both parts are machine positions.
+  if (in_machine && now.kind == Kind::set) return {};
   if (alike && counts_on) return {};
   if (of_run.kind == Kind::none)
     return refused(cut_off.id,

@@ -62,8 +62,8 @@ Station::~Station() {
   if (config_.live())
     for (auto& acquisition : acquisitions_) acquisition->stop();
   shared_->queue.close();
-  measure_thread_
-      .join();  // the thread ends a run in progress; later no thread starts or stops a device
+  // The thread ends a run in progress; later no thread starts or stops a device.
+  measure_thread_.join();
   acquisitions_.clear();
 }
 

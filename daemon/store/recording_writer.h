@@ -42,9 +42,8 @@ class RecordingWriter {
   // read-only disk. Returns the SHA-256 of the recording. Call this function once, at the end.
   Result<std::string> finish(const std::string& finished_utc);
 
-  std::uint64_t scans() const {
-    return scans_;
-  }  // number of scans in all chunks (committed or pending)
+  // Number of scans in all chunks (committed or pending).
+  std::uint64_t scans() const { return scans_; }
   std::uint64_t lost() const { return lost_; }  // number of lost scans
 
   static constexpr std::size_t kMaxWaitingBytes = 64u << 20;

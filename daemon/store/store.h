@@ -44,15 +44,15 @@ struct RunEnd {
   RunState state = RunState::complete;  // must not be RunState::open
   std::uint64_t scans = 0, scans_lost = 0;
   Notices notices;
-  std::string
-      recording_sha256;  // SHA-256 of the recording, if it was not complete when the run began
+  // SHA-256 of the recording, if it was not complete when the run began.
+  std::string recording_sha256;
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
   std::optional<Plausibility> plausibility = std::nullopt;
   std::optional<Temperature> temperature = std::nullopt;
   std::optional<HistoryEntry> action = std::nullopt;  // the user who ended the run
-  std::optional<RunUncertainty> uncertainty =
-      std::nullopt;  // uncertainty of the points, for users who read the database with SQL
+  // Uncertainty of the points, for users who read the database with SQL.
+  std::optional<RunUncertainty> uncertainty = std::nullopt;
 };
 
 // An active table of an axis.
@@ -97,8 +97,10 @@ class Store {
   static Result<Store> open(const std::filesystem::path& file, Access access,
                             StoreOptions options = {});
 
-  // ---- runs ---- Stores a complete run in one transaction. The state in the header must not be
-  // "open", and the id in the header is ignored. Returns the id of the stored run.
+  // ---- runs ----
+
+  // Stores a complete run in one transaction. The state in the header must not be "open", and the
+  // id in the header is ignored. Returns the id of the stored run.
   Result<std::int64_t> add_run(const Run& run,
                                const std::optional<HistoryEntry>& action = std::nullopt,
                                const std::optional<RunUncertainty>& uncertainty = std::nullopt);
@@ -124,8 +126,8 @@ class Store {
                                            Listed listed = Listed::all);
   Result<std::int64_t> count_runs(std::optional<Axis> axis = std::nullopt,
                                   Listed listed = Listed::all);
-  Result<std::optional<std::int64_t>> superseded_by(
-      std::int64_t run);  // the newest run that supersedes the run
+  // The newest run that supersedes the run.
+  Result<std::optional<std::int64_t>> superseded_by(std::int64_t run);
   // The points with the indices offset to offset + count - 1, in the order of measurement. If a run
   // has ended, its points are checked with the stored hash. The first call for a run therefore
   // reads all points.
@@ -164,13 +166,14 @@ class Store {
   Result<std::int64_t> generation();      // the largest generation; 0: no table was ever active
   Status check_generation(std::optional<std::int64_t> expected);  // error as for activate()
 
-  // ---- volumetric tables ---- A volumetric table never has the same id or generation as a
-  // compensation table.
+  // ---- volumetric tables ----
+
+  // A volumetric table never has the same id or generation as a compensation table.
   Result<std::int64_t> add_volumetric(const VolumetricTable& table,
                                       const std::optional<HistoryEntry>& action = std::nullopt);
   Result<VolumetricTable> volumetric(std::int64_t id);
-  Result<bool> is_volumetric(
-      std::int64_t id);  // false: the table is unknown, or is a table of an axis
+  // false: the table is unknown, or is a table of an axis.
+  Result<bool> is_volumetric(std::int64_t id);
   Result<std::vector<VolumetricTable>> list_volumetric(std::int64_t offset, std::int64_t count);
   // Activates `table`. If `table` is nullopt, deactivates the active volumetric table.
   Result<Activation> change_volumetric(std::optional<std::int64_t> table, const std::string& actor,
@@ -184,30 +187,35 @@ class Store {
                                  const std::optional<HistoryEntry>& action = std::nullopt);
   Result<std::optional<DatumSetting>> last_datum(Axis axis);
 
-  // ---- history ---- Actions on a run and on the runs that it supersedes, in the order of time.
+  // ---- history ----
+
+  // Actions on a run and on the runs that it supersedes, in the order of time.
   Result<std::vector<HistoryEntry>> run_actions(std::int64_t run);
   Result<std::vector<HistoryEntry>> list_actions(std::int64_t offset,
                                                  std::int64_t count);  // newest first
   Result<std::int64_t> count_actions();
 
-  // ---- sensitivity studies ---- A study begins, stores checkpoints while it calculates, and ends.
-  // It ends as complete, or as interrupted with a checkpoint from which it can continue. After each
-  // call the data are on the disk. Each call can use another store object, so a long study need not
-  // keep the database open.
+  // ---- sensitivity studies ----
+
+  // A study begins, stores checkpoints while it calculates, and ends. It ends as complete, or as
+  // interrupted with a checkpoint from which it can continue. After each call the data are on the
+  // disk. Each call can use another store object, so a long study need not keep the database open.
   Result<std::int64_t> begin_study(const StudyRecord& study);  // study.id is ignored
   Status save_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
-  Status end_study(
-      std::int64_t study, const StudyOutcome& outcome,
-      const std::optional<StudyCheckpoint>& checkpoint);  // nullopt: removes the stored checkpoint
+  // nullopt: removes the stored checkpoint.
+  Status end_study(std::int64_t study, const StudyOutcome& outcome,
+                   const std::optional<StudyCheckpoint>& checkpoint);
   Result<StudyRecord> study(std::int64_t id);
   Result<std::vector<StudyRecord>> list_studies(std::int64_t offset, std::int64_t count);
   Result<std::int64_t> count_studies();
   Result<std::optional<StudyOutcome>> study_outcome(std::int64_t study);  // the newest outcome
   Result<std::optional<StudyCheckpoint>> study_checkpoint(std::int64_t study);
 
-  // ---- integrity ---- Checks the file, its references, the chain of hashes (ledger.h), and the
-  // hashes of all texts, results of runs, figures of studies and checkpoints. Returns one sentence
-  // for each fault; empty: no damage.
+  // ---- integrity ----
+
+  // Checks the file, its references, the chain of hashes (ledger.h), and the hashes of all texts,
+  // results of runs, figures of studies and checkpoints. Returns one sentence for each fault;
+  // empty: no damage.
   Result<std::vector<std::string>> verify();
   // chain_head(): the head of the chain of hashes. has_hash(): whether the chain contains a link
   // with this hash.
@@ -224,9 +232,8 @@ class Store {
   std::string journal_fault() { return connection_.journal_fault(); }
   // The last message of SQLite about a damaged file. Empty: no damage was found.
   const std::string& damage() const { return connection_.damage(); }
-  std::int64_t changes() const {
-    return connection_.changes();
-  }  // number of rows that this object has written
+  // Number of rows that this object has written.
+  std::int64_t changes() const { return connection_.changes(); }
 
  private:
   Store(WriterLock lock, sqlite::Connection connection, Access access)
@@ -306,8 +313,8 @@ class Store {
   WriterLock lock_;  // first member, so that it is destroyed last
   sqlite::Connection connection_;
   Access access_;
-  std::map<std::int64_t, std::int64_t>
-      open_runs_;  // run that this object began -> index of the next point
+  // Run that this object began -> index of the next point.
+  std::map<std::int64_t, std::int64_t> open_runs_;
   // For the run of the last call of points(): the stored hash of the run, which was correct, and
   // row_hash() of each point.
   struct CheckedRows {

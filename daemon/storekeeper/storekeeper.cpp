@@ -13,14 +13,12 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::chrono::milliseconds kLongestPop{
-    500};  // the thread must report to the watchdog more often
-constexpr std::chrono::milliseconds kFileCheckInterval{
-    200};  // time between two checks of the files
-constexpr std::chrono::seconds kOpenRetryInterval{
-    1};  // time between two attempts to open the database
-constexpr std::size_t kQueueLength =
-    4096;  // number of jobs: blocks of samples, points, calls of clients
+// Longest wait for a job. The thread must report to the watchdog more often than every 10 s.
+constexpr std::chrono::milliseconds kLongestPop{500};
+constexpr std::chrono::milliseconds kFileCheckInterval{200};
+constexpr std::chrono::seconds kOpenRetryInterval{1};
+// Number of jobs: blocks of samples, points, calls of clients.
+constexpr std::size_t kQueueLength = 4096;
 
 Result<store::Store> open_database(const Storekeeper::Options& options) {
   const store::StoreOptions how{options.durability, static_cast<int>(options.busy_timeout.count())};

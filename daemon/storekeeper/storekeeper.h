@@ -30,8 +30,8 @@ struct NewRun {
   RunHeader header;
   std::filesystem::path recording;  // empty: the run is not recorded (a replay)
   RecordingHeader recording_header;
-  std::optional<store::RecordingWriter>
-      begun;  // the recording if it exists already, with the samples of a continued run
+  // The recording if it exists already, with the samples of a continued run.
+  std::optional<store::RecordingWriter> begun;
   std::optional<HistoryEntry> action = std::nullopt;  // the requesting user
 };
 
@@ -39,8 +39,8 @@ struct NewRun {
 struct RunEnding {
   bool differs = false;  // true: the points of the result differ from the stored points
   std::optional<HistoryEntry> action = std::nullopt;
-  std::optional<RunUncertainty> uncertainty =
-      std::nullopt;  // uncertainty of the points of the result
+  // Uncertainty of the points of the result.
+  std::optional<RunUncertainty> uncertainty = std::nullopt;
 };
 
 // The state of the storage:
@@ -128,9 +128,8 @@ class Storekeeper {
   // ends. Thread-safe.
   void note_damage(const std::string& what);
   std::uint64_t dropped_blocks() const { return queue_.dropped(); }
-  std::uint64_t dropped_points() const {
-    return dropped_points_.load();
-  }  // that append_points() dropped
+  // Number of points that append_points() dropped.
+  std::uint64_t dropped_points() const { return dropped_points_.load(); }
   // Time of the last report of the thread, for the watchdog.
   std::chrono::steady_clock::time_point last_turn() const { return last_turn_.load(); }
 
@@ -208,8 +207,8 @@ class Storekeeper {
   StorageState unopened_;  // reason why store_ is nullopt; "ok" if it is not
   store::ChainHead announced_;
   std::map<std::int64_t, std::string> open_reasons_;
-  std::int64_t changes_announced_ =
-      -1;  // value of store_->changes() when the head was announced last
+  // Value of store_->changes() when the head was announced last.
+  std::int64_t changes_announced_ = -1;
   std::vector<Unended> unended_;
   std::deque<Points> waiting_points_;  // pending until another program releases the database
   std::size_t waiting_count_ = 0;      // number of points in waiting_points_

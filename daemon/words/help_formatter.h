@@ -41,8 +41,8 @@ class HelpFormatter : public CLI::Formatter {
   }
 
  private:
-  static constexpr std::size_t kCommandColumn =
-      20;  // length of the longest command, with two spaces before and after it
+  // Length of the longest command, with two spaces before and after it.
+  static constexpr std::size_t kCommandColumn = 20;
 
   std::string row(const std::string& name, const std::string& description,
                   std::size_t column) const {

@@ -13,8 +13,8 @@ namespace mdof::daemon {
 // The drift of the errors at the fixture. It does not depend on the stated point of `run`.
 struct StoredDrift {
   algo::RunDrift found;
-  std::vector<StraightnessFigure>
-      without;  // figures after removal of the drift; empty if the drift cannot be removed
+  // Figures after removal of the drift; empty if the drift cannot be removed.
+  std::vector<StraightnessFigure> without;
 };
 StoredDrift drift_of(const Run& run);
 

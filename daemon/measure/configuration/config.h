@@ -45,8 +45,8 @@ struct Config {
   store::Durability durability = store::Durability::full;
   std::chrono::milliseconds commit_interval{50};
   std::string socket;
-  std::optional<std::uint16_t>
-      tcp_port;  // TCP port of the RPC on the loopback interface; off by default
+  // TCP port of the RPC on the loopback interface; off by default.
+  std::optional<std::uint16_t> tcp_port;
   RpcAccess access;
   std::optional<HttpAccess> http;  // the web page; off by default
   PipelineOptions measure;

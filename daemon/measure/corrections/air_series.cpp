@@ -28,8 +28,8 @@ void AirSeries::push(const SampleBlock& raw) {
 
 void AirSeries::add(std::size_t quantity, std::int64_t time_ns, double value) {
   const AirQuantity& of = air_quantities()[quantity];
-  if (!(value >= of.least && value <= of.most))
-    return;  // ignores NaN and values of a sensor that failed
+  // Ignores NaN and values of a sensor that failed.
+  if (!(value >= of.least && value <= of.most)) return;
   if (!begin_ns_) begin_ns_ = time_ns;
   const std::int64_t since_ns = time_ns - *begin_ns_, index = since_ns / kNsPerS;
   auto& seconds = read_[quantity];

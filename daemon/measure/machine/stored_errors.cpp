@@ -303,8 +303,8 @@ Status use_stored_squareness(store::Store& store, Machine& machine, const Square
                              const StatedAxes& stated, StoredErrors& all) {
   MDOF_TRY(MachineFrame* const a, frame_of(machine, stored.axes, stored.axes.a));
   MDOF_TRY(MachineFrame* const b, frame_of(machine, stored.axes, stored.axes.b));
-  const std::size_t about =
-      6 - a->direction - b->direction;  // index of A, B or C about the third axis
+  // Index of A, B or C about the third axis.
+  const std::size_t about = 6 - a->direction - b->direction;
   if (a->location[about].value || b->location[about].value)
     return bad_input("squareness of the machine: " +
                      with_unit(location_name(b->location[about].value ? *b : *a, about), about) +

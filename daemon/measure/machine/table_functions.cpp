@@ -111,8 +111,8 @@ void set_covariance(MachineFrame& frame, const CompensationTable& table,
     ErrorFunction& f = frame.error[k];
     std::size_t row = 0;
     for (std::size_t i = 0; all.has[k] && i < f.position.size(); ++i) {
-      while (all.position[row] < f.position[i])
-        ++row;  // an error may have fewer positions than the table
+      // An error may have fewer positions than the table.
+      while (all.position[row] < f.position[i]) ++row;
       f.u_independent[i] = std::sqrt(all.noise[row][k][k]);
       f.u[i] = std::sqrt(all.noise[row][k][k] + all.declared[row][k][k]);
     }

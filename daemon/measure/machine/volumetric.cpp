@@ -124,8 +124,8 @@ Result<std::vector<Run>> runs_of(store::Store& store, const VolumetricTable& tab
 // is the other one. The table then uses the errors of the measured approach, and the reversal error
 // is unknown.
 Notices one_sided(const VolumetricTable& table, const std::vector<Run>& runs) {
-  std::map<std::pair<Axis, bool>, std::set<std::string>>
-      seen;  // key: axis, and whether the run is imported (positioning)
+  // key: axis, and whether the run is imported (positioning).
+  std::map<std::pair<Axis, bool>, std::set<std::string>> seen;
   for (const Run& run : runs)
     for (const MeasuredPoint& p : run.points)
       if (p.point.direction != 0)

@@ -15,8 +15,8 @@ class RunTemperature {
   std::optional<Temperature> of_run() const;
 
  private:
-  Temperature
-      sum_;  // the member mean_C contains the sum of the samples; of_run() divides the sum by n_
+  // The member mean_C contains the sum of the samples; of_run() divides the sum by n_.
+  Temperature sum_;
   std::uint64_t n_ = 0;
 };
 

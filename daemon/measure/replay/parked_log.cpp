@@ -16,8 +16,8 @@ namespace mdof::daemon {
 namespace {
 
 constexpr double kShortStep_s = 0.1, kWindowsOfLog = 12;
-constexpr double kMostTravel_m =
-    50e-6;  // if the mean positions differ by more than this, the axis moved
+// If the mean positions differ by more than this, the axis moved.
+constexpr double kMostTravel_m = 50e-6;
 constexpr std::chrono::milliseconds kParkedTimeout{1000};
 
 // Sums of the values of a channel over short time steps.

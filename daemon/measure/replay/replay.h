@@ -49,8 +49,8 @@ class ReplayLog {
 
   std::string path_;
   std::unique_ptr<drivers::Driver> driver_;
-  drivers::CsvLog* csv_ =
-      nullptr;  // one of csv_ and recording_ is *driver_, the other one is nullptr
+  // One of csv_ and recording_ is *driver_, the other one is nullptr.
+  drivers::CsvLog* csv_ = nullptr;
   drivers::RecordingLog* recording_ = nullptr;
 };
 

@@ -18,8 +18,8 @@ struct ReplayRequest {
   std::optional<double> tolerance_um, settle_s, min_length_s, lag_bound_s, max_gap_s;
   std::vector<double> targets_mm;
   bool remove_drift = false;  // false: use the option of the recording
-  bool on_the_fly =
-      false;  // true: the axis moves all the time; only then the following four options apply
+  // true: the axis moves all the time; only then the following four options apply.
+  bool on_the_fly = false;
   std::optional<double> interval_mm, bin_mm, from_mm, to_mm;
 };
 

@@ -226,8 +226,8 @@ Result<RecordedRequest> read_request_json(const std::string& text, const Pipelin
   MDOF_TRY(const element root, parsed(parser, text));
   Members members(root);
   members.take("note", asked.note);
-  for (const char* key :
-       {"warnings", "notices"}) {  // older recordings have the member "warnings", with sentences
+  // Older recordings have the member "warnings", with sentences.
+  for (const char* key : {"warnings", "notices"}) {
     const auto list = members.find(key);
     if (!list) continue;
     auto notices = read_notices(simdjson::minify(*list));

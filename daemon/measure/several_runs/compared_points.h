@@ -22,8 +22,8 @@ struct ComparedValue {
 inline constexpr std::array<const char*, 3> kComparedSides = {"forward", "reverse", "reversal"};
 struct ComparedPoint {
   double position_m = 0;  // position of the target in the first run ("before")
-  std::array<std::vector<ComparedValue>, kComparedSides.size()>
-      side;  // index: kComparedSides, then errors of ComparedPoints
+  // index: kComparedSides, then errors of ComparedPoints.
+  std::array<std::vector<ComparedValue>, kComparedSides.size()> side;
 };
 struct ComparedPoints {
   std::vector<std::string> errors;  // names of the errors, "EXX_um"

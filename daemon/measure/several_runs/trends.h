@@ -18,8 +18,8 @@
 namespace mdof::daemon {
 
 struct TrendRequest {
-  std::optional<Axis>
-      axis;  // figures of the runs of this axis; nullopt: figures of all axes, and the squareness
+  // Figures of the runs of this axis; nullopt: figures of all axes, and the squareness.
+  std::optional<Axis> axis;
   std::string figure;  // name of the only requested figure: "EYX_straightness_um", "EC0Y_urad";
                        // empty: all figures
   std::size_t baseline = 0;  // number of values; as in algo::control_chart()

@@ -30,8 +30,8 @@ struct Replayer::Shared {
   std::mutex mutex;  // protects ended and working
   std::condition_variable ended;
   bool working = false;
-  Storekeeper&
-      keeper;  // use it only with the mutex locked and `stopping` false; later it is destroyed
+  // Use it only with the mutex locked and `stopping` false; later it is destroyed.
+  Storekeeper& keeper;
 };
 
 void Replayer::Shared::work(const Make& make, const HistoryEntry& action, const Done& done) {
@@ -83,8 +83,8 @@ void Replayer::start(Make make, const HistoryEntry& action, Done done) {
     return done(
         fail(ErrorCode::conflict,
              "mdofd is replaying or importing another file; try again when mdofd has finished"));
-  if (thread_.joinable())
-    thread_.join();  // waits only briefly: `busy` was false, so the thread is at its end
+  // Waits only briefly: `busy` was false, so the thread is at its end.
+  if (thread_.joinable()) thread_.join();
   {
     const std::lock_guard lock(shared_->mutex);
     shared_->working = true;

@@ -17,16 +17,16 @@ namespace mdof::daemon {
 struct DeviceStatus {
   std::string state = "closed";  // "open", "closed", "failed: reopening", "ended"
   std::string error;             // text of the current error; "": no error
-  std::string
-      last_error;  // text of the last error from which the device has recovered, at recovered_utc
+  // Text of the last error from which the device has recovered, at recovered_utc.
+  std::string last_error;
   std::string recovered_utc;
   std::vector<Trouble> standing;  // current troubles
   drivers::DeviceInfo info;
   double measured_hz = 0;   // scans per second since the device was opened; 0: unknown
   std::uint64_t scans = 0;  // number of scans since start()
   std::uint64_t lost = 0;   // number of scans that are known to be lost
-  std::uint64_t dropped =
-      0;  // number of blocks for which the queue of the measure thread had no space
+  // Number of blocks for which the queue of the measure thread had no space.
+  std::uint64_t dropped = 0;
   std::uint64_t reopened = 0;  // how often the device was opened again
 };
 

@@ -13,7 +13,7 @@
 namespace mdof::daemon {
 namespace {
 
-// Longest wait for a job. The thread must report to the watchdog more often than every 10 s.
+// Longest wait for a job. The thread must report to the watchdog in time (App checks this).
 constexpr std::chrono::milliseconds kLongestPop{500};
 constexpr std::chrono::milliseconds kFileCheckInterval{200};
 constexpr std::chrono::seconds kOpenRetryInterval{1};

@@ -48,15 +48,15 @@ const char* only_approach(const Run& run);
 // The reason why the conformity of the figures of the run cannot be decided. Empty if the
 // conformity can be decided. The text has no full stop at its end. Possible reasons:
 //   - the run is invalid, incomplete or superseded;
-//   - the readings of a probe never change (notice probes_dead);
+//   - the readings of all probes, or of all but one, never change (notice probes_dead);
 //   - a measured run has only one approach, at all or at some targets.
 std::string undecidable_reason(store::Store& store, const Run& run);
 
 // `consequence`: text for the message, "it is not activated". Error (conflict): the data are
 // rejected. The message states the first notice and the option that accepts such data.
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence);
-// The warnings at the beginning of an exported file, one line each: "SIMULATED: ..." and "DOUBTFUL:
-// ...".
+// The warnings at the beginning of an exported file. Each is one line that begins with SIMULATED or
+// DOUBTFUL.
 std::vector<std::string> warning_marks(const Judged& judged,
                                        words::Language language = words::Language::english);
 std::vector<std::string> warning_marks(const Run& run,

@@ -27,8 +27,8 @@ void Resolution::keep(double step) {
   std::size_t i = kept_ - 1;
   for (; i > 0 && smallest_[i - 1] > step; --i) smallest_[i] = smallest_[i - 1];
   smallest_[i] = step;
-  // Of fewer than 16 steps three quarters must agree, otherwise an eighth, but always kFewest. So a
-  // single step is not the resolution.
+  // Three quarters of the steps must agree if there are fewer than 16 steps, otherwise an eighth of
+  // them; at least kFewest in both cases. A single step is thus not taken as the resolution.
   const std::size_t alike = std::max(kFewest, kept_ < 16 ? kept_ * 3 / 4 : kept_ / 8);
   step_ = 0;
   for (std::size_t k = 0; k + alike <= kept_ && step_ == 0; ++k) {

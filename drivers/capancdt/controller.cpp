@@ -139,8 +139,8 @@ Status read_settings(CommandPort& port, const Options& options, Setup& setup) {
                     " us, which is not from 1 to " + std::to_string(kMostSample_us));
   setup.sample_time_us = *time_us;
   MDOF_CHECK(check_filter(setup.sample_time_us, setup.window, options.settle_s));
-  // The controller uses the nearest sample time that it supports. The driver uses this actual
-  // sample time.
+  // The controller selects a sample time that it supports (1200 -> 960, manual). The driver uses
+  // the actual sample time.
   return options.configure ? Status{} : check("sample_time_us", options.sample_time_us, time_us);
 }
 

@@ -43,7 +43,7 @@ async function measured(axis, targets_mm, note) {
   return run;
 }
 
-// Of a recorded log, its readings larger by a part that goes up and down: what a control chart has limits of.
+// Replays a recorded log whose readings are larger by a varying part, so that a control chart has limits.
 async function replayed() {
   const lines = zlib.gunzipSync(fs.readFileSync(`${kData}/log_X.csv.gz`)).toString().trim().split("\n");
   const [head, ...rows] = lines.filter((line) => !line.startsWith("#"));
@@ -76,7 +76,7 @@ async function world() {
   return {x, later, y, table, volume: volume.table, laser: await imported()};
 }
 
-// Of an axis or of the volume: both at once would correct twice.
+// Activates a table of an axis or of the volume. Both at once would correct twice.
 async function activate(table, other) {
   await daemon.call("compensation.deactivate", {axis: other});
   await daemon.call("compensation.activate", {table, simulated: true, despite_warnings: true, reason: "for the picture"});

@@ -69,8 +69,8 @@ void warn_wrapped(std::string_view words) {
   say(wrapped("warning: " + std::string(words), terminal_columns(), 2));
 }
 
-// "point 3 of 26, next 15.000 mm"; a run without targets or repeats shows less. Of the requested
-// points only solved points count, each once; the line also reports further points.
+// "point 3 of 26, next 15.000 mm"; a run without targets or repeats shows less. The count
+// contains each requested point once, when it is solved. The line also reports further points.
 std::string progress_line(const auto& event) {
   const std::int64_t all = integer(event, "points").value_or(0);
   const std::int64_t points = integer(event, "done").value_or(all);

@@ -1,4 +1,4 @@
-// A table is activated only if it is the table that was built.
+// A table can be activated only if its data equal the table that was built.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -48,7 +48,8 @@ TEST_F(ActivationTest, ActivatesTheTableThatWasBuilt) {
   EXPECT_TRUE(done->changed);
 }
 
-// The ledger of the store contains the hash of the built table.
+// The ledger contains the hash of the table that was built. Another table with the same id has
+// another hash.
 TEST_F(ActivationTest, RejectsAnotherTableWithItsId) {
   const auto id = store_->add_table(table_).value();
   store_.reset();

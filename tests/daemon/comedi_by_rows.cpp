@@ -1,8 +1,11 @@
-// Preloaded into mdofd by each_device_test.py: a simulated Comedi board that replaces comedilib, so
-// that the real program reads a simulated machine. "/dev/comedi0" is here the address of a
-// csv_stream of mdof-simulate. Its columns, µm, are the inputs of the board, 10 µm/V, and each row
-// is a scan. The board reads 5 % and 50 mV too high, which the calibration file named in
-// MDOF_COMEDI_CALIBRATION corrects. Functions that are not defined here are those of comedilib.
+// A replacement of comedilib that each_device_test.py preloads into mdofd. It simulates a Comedi
+// board, so that the real program reads a simulated machine.
+// - The device "/dev/comedi0" stands for the address of a csv_stream of mdof-simulate.
+// - Each row of the stream is one scan. Its columns, µm, are the inputs of the board, with 10
+//   µm/V.
+// - The readings of the board have an error of gain of 5 % and an offset of 50 mV. The calibration
+//   file MDOF_COMEDI_CALIBRATION corrects both.
+// - comedilib itself provides the functions that are not defined here.
 #include <comedilib.h>
 #include <netdb.h>
 #include <sys/socket.h>
@@ -46,7 +49,7 @@ sampl_t code_of(double volts) {
   return static_cast<sampl_t>(std::clamp(code, 0.0, static_cast<double>(kMost)));
 }
 
-// Voltages of one row "time_s,A_um,…"; empty for the header.
+// Converts a row "time_s,A_um,…" to voltages; empty for the header.
 std::vector<double> volts_of(const char* row) {
   std::vector<double> volts;
   char* end = nullptr;
@@ -62,9 +65,9 @@ std::vector<double> volts_of(const char* row) {
 }  // namespace
 
 struct comedi_t_struct {       // NOLINT(readability-identifier-naming): comedilib names it
-  int rows = -1;               // from mdof-simulate
-  int ends[2] = {-1, -1};      // of the pipe of samples: read end, write end
-  std::vector<unsigned> list;  // channels
+  int rows = -1;               // the connection to mdof-simulate
+  int ends[2] = {-1, -1};      // read end and write end of the pipe of samples
+  std::vector<unsigned> list;  // numbers of the channels
   std::thread scanning;
 
   void scan() const {
@@ -82,7 +85,7 @@ struct comedi_t_struct {       // NOLINT(readability-identifier-naming): comedil
     ::shutdown(ends[1], SHUT_WR);
   }
 
-  // False: the read end is closed.
+  // Returns false if the read end of the pipe is closed.
   bool pass_on(const std::string& row) const {
     const auto volts = volts_of(row.c_str());
     if (volts.empty()) return true;
@@ -171,7 +174,7 @@ int comedi_get_cmd_src_mask(comedi_t*, unsigned subdevice, comedi_cmd* mask) {
   return 0;
 }
 
-// Accepts any rate; the rate must be that of the rows.
+// Every rate is accepted. The caller must request the rate of the rows.
 int comedi_command_test(comedi_t*, comedi_cmd* command) {
   const bool fits = command->start_src == TRIG_NOW && command->scan_begin_src == TRIG_TIMER &&
                     command->convert_src == TRIG_NOW && command->stop_src == TRIG_NONE &&

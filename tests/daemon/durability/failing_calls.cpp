@@ -1,8 +1,10 @@
-// Preloaded into mdofd by failing_call_test.py: the n-th call that writes or flushes a file fails;
-// with MDOF_FAIL_STICKY=1 all later calls fail too.
-//   MDOF_FAIL_CALL = n (1 is the first), MDOF_FAIL_ERRNO = errno
-//   MDOF_FAIL_TOLD = a file that is created when the call has failed
-// Includes only the calls that SQLite uses on its files: pwrite, fsync, fdatasync, ftruncate,
+// failing_call_test.py preloads this library into mdofd. The n-th call that writes or flushes a
+// file fails.
+// - MDOF_FAIL_CALL: n (the first call is 1)
+// - MDOF_FAIL_ERRNO: errno of the failed call
+// - MDOF_FAIL_STICKY=1: all later calls fail too
+// - MDOF_FAIL_TOLD: a file that is created when the call has failed
+// Only the calls that SQLite makes on its files are counted: pwrite, fsync, fdatasync, ftruncate,
 // fallocate.
 #include <dlfcn.h>
 #include <fcntl.h>

@@ -1,8 +1,9 @@
-// Preloaded into mdofd by crash_state_test.py: records all calls that change or flush a file below
-// MDOF_RECORD_BELOW, in their order, in the file MDOF_RECORD_TO. A record is the line
-//   time_ns op offset length path
-// with op W (pwrite), S (fsync, fdatasync), T (ftruncate: length) or U (unlink). For W, `length`
-// bytes follow. The time is CLOCK_MONOTONIC after the call returned.
+// crash_state_test.py preloads this library into mdofd. It records all calls that change or flush
+// a file below the folder MDOF_RECORD_BELOW, in their order, in the file MDOF_RECORD_TO.
+// Each record is a line: time_ns op offset length path
+// - time_ns: CLOCK_MONOTONIC after the call has returned
+// - op: W (pwrite), S (fsync or fdatasync), T (ftruncate; length is the new length) or U (unlink)
+// After the line of a W follow its `length` bytes.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/uio.h>
@@ -49,7 +50,7 @@ void note(char op, long offset, long length, const std::string& path, const void
   const iovec parts[] = {{line, static_cast<std::size_t>(n)},
                          {const_cast<void*>(bytes), bytes ? static_cast<std::size_t>(length) : 0}};
   if (::writev(record_file(), parts, 2) < n)
-    std::abort();  // the result is worthless without the record
+    std::abort();  // without the record, the test proves nothing
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ MeasuredPoint point(int target, int direction, int run = 1, const std::string& r
   return p;
 }
 
-// Points of `repeats` passes forward and back.
+// The points of `repeats` passes; each pass goes forward and back.
 std::vector<MeasuredPoint> passes(int repeats) {
   std::vector<MeasuredPoint> points;
   for (int run = 1; run <= repeats; ++run) {
@@ -38,7 +38,7 @@ TEST(Completeness, AllTargetsOfAllRepeatsFromBothSidesAreComplete) {
 
 TEST(Completeness, ReportsMissingPointsByTargetAndApproach) {
   auto points = passes(2);
-  points.resize(9);  // the second repeat lacks its reverse pass
+  points.resize(9);  // removes the points on the way back of the second repeat
   EXPECT_FALSE(all_measured(kTargets_m, 2, points));
   const auto missing = missing_notices(kTargets_m, 2, points);
   EXPECT_EQ(shown(missing),
@@ -75,7 +75,7 @@ TEST(Completeness, MostPointsUnsolvedIsNotComplete) {
 
 TEST(Completeness, ARunWithoutTargetsHasNoMissingPoints) {
   EXPECT_TRUE(missing_notices({}, 0, passes(1)).empty());
-  EXPECT_FALSE(all_measured({}, 0, passes(1)));  // it ends when it is stopped
+  EXPECT_FALSE(all_measured({}, 0, passes(1)));  // a run without targets ends when a user stops it
   EXPECT_FALSE(all_measured(kTargets_m, 0, passes(1)));
 }
 
@@ -94,7 +94,7 @@ TEST(Completeness, ManyMissingTargetsAreCountedNotListed) {
   EXPECT_LT(text.size(), 400u);
 }
 
-// In a run without targets, points have no valid target number.
+// In a run without targets, the target numbers of the points are invalid.
 TEST(Completeness, IgnoresInvalidTargetNumbers) {
   EXPECT_FALSE(all_measured(kTargets_m, 1, {point(0, 1), point(99, 1), point(-3, 1)}));
 }

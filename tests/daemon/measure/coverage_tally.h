@@ -1,4 +1,4 @@
-// Counts how often stated 95 % intervals contain the true value, by figure.
+// Counts for each figure how often its stated 95 % interval contains the true value.
 #pragma once
 
 #include <gtest/gtest.h>

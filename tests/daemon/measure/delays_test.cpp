@@ -1,4 +1,5 @@
-// delay_us of channels: invalid values, options of the alignment, and the effect on a run.
+// The option delay_us of channels: invalid values, the resulting options of the alignment, and the
+// effect on a run.
 #include "daemon/measure/delays.h"
 #include "daemon/words/error_text.h"
 

@@ -1,4 +1,4 @@
-// Probes and encoder on two devices, each with its own scans and faults.
+// Probes on two devices, the encoder on the first. Each device has its own scans and faults.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace {
 
 const std::vector<std::string> kTop = {kEncoderChannel, "A", "B", "C"}, kSide = {"D", "E"};
 
-// `side_falls_silent`: the scan from which on the second device delivers nothing.
+// `side_falls_silent`: from this scan on, the second device delivers nothing.
 class TwoDevices {
  public:
   explicit TwoDevices(std::size_t side_falls_silent = SIZE_MAX) : silent_(side_falls_silent) {
     axis_.pass_both_ways({0, 5, 10, 15, 20});
     axis_.pass_both_ways({0, 5, 10, 15, 20});
   }
-  // Feeds the samples of 50 ms; false: no more samples.
+  // Feeds the samples of 50 ms. Returns false if there are no more samples.
   bool feed(Pipeline& pipeline) {
     const std::size_t begin = at_;
     at_ += 50;
@@ -28,7 +28,8 @@ class TwoDevices {
     EXPECT_TRUE(pipeline.push(top));
     if (begin < silent_) {
       SampleBlock side = axis_.block(begin, at_, kSide, "capa");
-      for (auto& time_ns : side.time_ns) time_ns += 300'000;  // it samples at other instants
+      // The second device samples 0.3 ms later.
+      for (auto& time_ns : side.time_ns) time_ns += 300'000;
       EXPECT_TRUE(pipeline.push(side));
     }
     return at_ < axis_.scans();
@@ -52,7 +53,7 @@ TEST(PipelineOfTwoDevices, MeasuresAsOneDeviceDoes) {
 }
 
 TEST(PipelineOfTwoDevices, ReportsASilentDeviceAndContinuesAfterAWhile) {
-  constexpr std::size_t kSilent = 3000;  // scans: 3 s, at the sixth stop
+  constexpr std::size_t kSilent = 3000;  // 3000 scans are 3 s; the axis is then at its sixth stop
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   TwoDevices devices(kSilent);
   while (devices.feed(pipeline) && devices.at() < kSilent + 1000) continue;
@@ -78,8 +79,9 @@ TEST(PipelineOfTwoDevices, ReportsASilentDeviceAndContinuesAfterAWhile) {
   }
 }
 
-// A live run alternates between devices every few scans, its recording every 0.1 s. The samples of
-// the second device arrive late and in batches, and scans are lost from the third stop on.
+// In a live run, blocks of the two devices alternate every few scans. In the recording, a block
+// has the samples of 0.1 s. The samples of the second device arrive late and in batches. After
+// scan 700, in the second stop, every 37th scan of the second device is lost.
 TEST(PipelineOfTwoDevices, TheOrderOfBlocksChangesNoBit) {
   TestAxis axis;
   axis.pass_both_ways({0, 5, 10, 15, 20});
@@ -133,7 +135,8 @@ TEST(PipelineOfTwoDevices, ASilentEncoderUsesNoMemory) {
               side = axis.block(0, axis.scans(), kSide, "capa");
   ASSERT_TRUE(pipeline.push(all));
   ASSERT_TRUE(pipeline.push(side));
-  // An hour of the other device, whose samples belong to no frame.
+  // The second device alone delivers samples for about an hour. Without the encoder, these samples
+  // cannot be used.
   SampleBlock more = side;
   for (std::int64_t k = 0; k < 600; ++k) {
     more = axis.block(0, axis.scans(), kSide, "capa");

@@ -1,4 +1,5 @@
-// From samples to points: the errors at each position, or the reason why there are none.
+// The pipeline from samples to points. Each point has the errors at its position, or a reason why
+// it has no errors.
 #include "daemon/measure/pipeline.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ Pipeline pipeline_of(const Rig& rig = five_probe_rig(), const PipelineOptions& o
   return Pipeline::create(rig, options).value();
 }
 
-// Measures the samples after `spoil` has changed them.
+// Changes the samples of `axis` with `spoil`, then measures a run from them.
 Result<Run> measured(const TestAxis& axis, const Rig& rig, const PipelineOptions& options,
                      const std::function<void(SampleBlock&)>& spoil = {}) {
   Pipeline pipeline = pipeline_of(rig, options);
@@ -36,7 +37,8 @@ Result<Run> measured(const TestAxis& axis, const std::function<void(SampleBlock&
   return measured(axis, five_probe_rig(), {}, spoil);
 }
 
-// Channel `c` of the blocks of both_ways(), and the scans of one stop, 0 ... 9.
+// kWay, kStand: scans of a movement and of a stop in both_ways(). kC: index of channel C in a
+// block.
 constexpr std::size_t kWay = 100, kStand = 400, kC = 3;
 std::size_t stop_begin_scan(std::size_t stop) {
   return kWay + stop * (kWay + kStand) + (stop >= kStops_mm.size() ? kWay : 0);
@@ -97,8 +99,9 @@ TEST(Pipeline, AnAxisThatNeverStopsIsNotComplete) {
   EXPECT_EQ(between_two->header.state, RunState::complete) << all_notices(*between_two);
 }
 
-// A table that moves in the - direction of M as the encoder increases, and a fixture that moves in
-// the + direction: in both cases the travel of the target is minus the encoder.
+// First case: the table moves, and it moves in the - direction of M as the encoder increases.
+// Second case: the fixture moves in the + direction. In both cases the travel of the target is
+// minus the position of the encoder.
 TEST(Pipeline, TheMovingBodyAndItsDirectionGiveTheTravel) {
   for (const Sides sides : {Sides{false, true}, Sides{true, false}}) {
     Rig rig = five_probe_rig();
@@ -119,7 +122,8 @@ TEST(Pipeline, TheDivisionIntoBlocksChangesNoBit) {
     for (std::size_t i = 0; i < axis.scans(); i += per_block) {
       SampleBlock block = axis.block(i, i + per_block);
       ASSERT_TRUE(pipeline.push(block));
-      if (per_block == 500) pipeline.points();  // read in between, or only at the end
+      // Points are read after each block, or only at the end.
+      if (per_block == 500) pipeline.points();
     }
     const auto run = pipeline.finish();
     ASSERT_EQ(run->points.size(), whole.points.size());
@@ -148,8 +152,9 @@ TEST(Pipeline, AProbeMissingAtOneStopCostsOnlyThatPoint) {
   EXPECT_TRUE(algo::has_flag(lost.point, Flag::lost, "C")) << lost.point.flags.size();
 }
 
-// A probe vibrates across the end of its range. The mean of the readings within the range is then
-// wrong. It vibrates by 0.9 um about 99 um, and each tenth reading is beyond 100 um.
+// Probe C vibrates with an amplitude of 0.9 um about 99 um, and its range ends at 100 um. Each
+// tenth reading is beyond the range. The mean of the readings within the range would therefore be
+// wrong.
 TEST(Pipeline, AProbeAtTheEndOfItsRangeGivesNoReading) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
     for (std::size_t i = 0; i < kStand; ++i)
@@ -191,7 +196,7 @@ TEST(Pipeline, AProbeThatIsAlwaysDeadIsTheReasonOfTheFailure) {
   EXPECT_SAYS(saturated, "range_um");
 }
 
-// With six probes one is not needed: a notice is given, and the run is measured.
+// Five probes are sufficient. If the sixth probe fails, the run is measured and has a notice.
 TEST(Pipeline, ADeadProbeThatIsNotNeededGivesANotice) {
   Rig rig = five_probe_rig();
   Probe more = rig.probes[0];
@@ -275,8 +280,8 @@ TEST(Pipeline, TheTemperatureIsTheMeanOfItsReadings) {
 TEST(Pipeline, LostScansAreCountedAndHideTheTravel) {
   const TestAxis axis = both_ways();
   Pipeline pipeline = pipeline_of();
-  const std::size_t unseen =
-      stop_begin_scan(7) - kWay;  // the travel to that stop, and a little more
+  // Before the movement to stop 7; the lost scans include this movement and 50 scans of the stop.
+  const std::size_t unseen = stop_begin_scan(7) - kWay;
   SampleBlock before = axis.block(0, unseen), after = axis.block(unseen + kWay + 50, axis.scans());
   after.lost = kWay + 50;
   ASSERT_TRUE(pipeline.push(before));
@@ -326,7 +331,7 @@ TEST(Pipeline, RejectsDecreasingTimeWithTheDevice) {
 TEST(Pipeline, RejectsARigThatCannotDetermineAnError) {
   Rig rig = five_probe_rig();
   rig.probes[4].position_m[0] =
-      rig.probes[3].position_m[0];  // E beside D: yaw cannot be determined
+      rig.probes[3].position_m[0];  // E is at the same x as D, so yaw cannot be determined
   rig.probes[4].position_m[2] = 0;
   const auto pipeline = Pipeline::create(rig, {});
   ASSERT_FALSE(pipeline);

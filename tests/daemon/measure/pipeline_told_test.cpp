@@ -1,5 +1,5 @@
-// Additional data of a run beside its points: its axis, the datum of its positions, lost scans and
-// omitted stops.
+// Data that a run contains in addition to its points: its axis, the datum of its positions, lost
+// scans and omitted stops.
 #include <gtest/gtest.h>
 
 #include "algo/points/flags.h"
@@ -15,7 +15,7 @@ TestAxis pass_over_five() {
   return axis;
 }
 
-// First scans of the stops of pass_over_five(), 0 ... 9.
+// First scan of each stop (0 ... 9) of pass_over_five().
 constexpr std::size_t kToStop = 100, kAtStop = 400;
 constexpr std::size_t stop_first_scan(std::size_t stop) {
   return kToStop + stop * (kToStop + kAtStop) + (stop >= 5 ? kToStop : 0);
@@ -76,7 +76,7 @@ TEST(PipelineTold, ReportsPositionsWithoutADatum) {
   EXPECT_EQ(run->header.notices.front(), notice(NoticeCode::datum_missing, "t7"));
 }
 
-// The encoder is suspect during one whole stop.
+// The quality of the encoder is suspect during one whole stop.
 TEST(PipelineTold, AStopWithoutAPositionIsOmittedWithItsTime) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
@@ -106,7 +106,8 @@ TEST(PipelineTold, ReportsAHoleInTheRecording) {
   EXPECT_HAS_PART(shown_notices(*run), "recording_hole length_s=0.15");
 }
 
-// The gap is shorter than a window of the dwells, so no movement can be hidden in it.
+// The lost scans are fewer than the scans of one window of the stop detection. The axis cannot
+// have moved and returned in this time.
 TEST(PipelineTold, AFewLostScansDoNotEndAStop) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
@@ -121,7 +122,7 @@ TEST(PipelineTold, AFewLostScansDoNotEndAStop) {
     EXPECT_FALSE(algo::has_flag(p.point, Flag::approach_assumed)) << p.target;
 }
 
-// An axis that turns at its end targets visits them once.
+// The axis reverses at its end target and measures this target once.
 TEST(PipelineTold, ReportsAnAssumedSequence) {
   TestAxis axis;
   for (const double mm : {0.0, 5.0, 10.0, 15.0, 20.0, 15.0, 10.0, 5.0, 0.0}) axis.stop_at(mm);
@@ -132,7 +133,7 @@ TEST(PipelineTold, ReportsAnAssumedSequence) {
   EXPECT_HAS_PART(shown_notices(*run), "pendulum");
 }
 
-// The samples of a second device are further apart than the longest interpolated gap.
+// The sampling interval of the second device is longer than max_gap_s.
 TEST(PipelineTold, ReportsATooSlowProbeWithTheRemedy) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();

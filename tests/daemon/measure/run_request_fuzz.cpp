@@ -1,5 +1,5 @@
-// The request of a run, as JSON in its recording, is read, or rejected with a reason. A request
-// that was read is written such that it is read back unchanged.
+// The JSON of a run's request, as it is in a recording. For any input, the request is read or
+// rejected with a reason. If an accepted request is written and read again, it is unchanged.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// JSON's -0 is read as the integer 0: a zero may lose its sign, nothing else may change.
+// JSON's -0 is read as the integer 0. Therefore a zero may lose its sign; nothing else may change.
 std::string without_signed_zeros(std::string text) {
   for (std::size_t at = 0; (at = text.find("-0", at)) != std::string::npos; ++at)
     if (at + 2 == text.size() || std::strchr(",]}", text[at + 2])) text.erase(at, 1);

@@ -1,4 +1,4 @@
-// If the uncertainty of a run's figures is omitted, the reason is given instead.
+// If a figure of a run has no uncertainty, the run contains the reason.
 #include <gtest/gtest.h>
 
 #include "daemon/measure/budgets.h"

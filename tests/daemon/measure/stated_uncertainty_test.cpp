@@ -1,7 +1,6 @@
-// Checks that stated 95 % intervals contain the true value, from samples through the whole
-// pipeline. Runs along X and Y are simulated for five rigs; every declared contributor is drawn
-// from its distribution. Figures: errors of a point, straightness, slope, ranges, EC0Y, table
-// values. Set MDOF_COVERAGE_RUNS=2000 (total number of pairs of runs) for figures worth quoting.
+// Checks how often the stated 95 % intervals of figures contain the true value. Runs along X and Y
+// are simulated for five rigs. Each declared contributor is drawn from its distribution.
+// Set MDOF_COVERAGE_RUNS=2000 (total number of pairs of runs) for figures that may be published.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -26,23 +25,24 @@ using algo::test_faults::FaultyFixture;
 using test::coverage_runs;
 
 constexpr double kRate_hz = 250, kDwell_s = 0.5, kMove_s = 0.1;
-constexpr double kWhite_m = 60e-9;   // of a reading
-constexpr double kBeside_m = 20e-9;  // pink: rms; random walk: at the end of the log
+constexpr double kWhite_m = 60e-9;   // sd of the white noise of one reading
+constexpr double kBeside_m = 20e-9;  // pink: rms; random walk: sd at the end of the log
 constexpr double kDrift_um_per_h = 3, kSquare_urad = 1;
 constexpr int kRepeats = 3;
-constexpr int kWatched = 6;  // the target whose errors are checked
-// A tool below the fixture, and a distant position: the lever arms of a small machine.
+constexpr int kWatched = 6;  // number of the target, from 1, whose table values are checked
+// Two positions in the frame of the fixture: a tool below the fixture, and a distant position.
+// Their distances are typical of a small machine.
 const Eigen::Vector3d kTool_m(6e-3, -4e-3, -30e-3), kFar_m(40e-3, 20e-3, 10e-3);
 
-enum class Noise { white, pink, walk };  // added to the white noise
+enum class Noise { white, pink, walk };  // pink and walk are added to white noise
 enum class Declares { all, nothing };
 
 struct Lengths {
   double l_mm, h_mm, z_mm;
-  bool sixth, reversed;  // a sixth probe; the probes listed in reverse order
+  bool sixth, reversed;  // has a sixth probe; lists the probes in reverse order
   double flatness_length_mm = 30;
-  // Declares what a careful user of a typical shop knows: a gain of 0.1 %, a drift of 0.2 µm over
-  // the 33 s of a run, a fixture rotated by 2 mrad. The readings are quantised.
+  // The rig declares only what a careful user in a typical workshop knows: u = 0.1 % of the gain,
+  // a drift of 0.2 µm in the 33 s of a run, a fixture rotated by 2 mrad. Readings are quantised.
   bool shop = false;
 };
 constexpr Lengths kRigs[] = {{10, 15, 20, false, false},
@@ -54,7 +54,7 @@ constexpr Lengths kRigs[] = {{10, 15, 20, false, false},
 constexpr double kStep_m = 10e-9;
 const char* const kOfShop = "[installation]\nu_angle_mrad = [2, 2, 2]\n[drift]\nu_um_per_h = 22\n";
 
-// Inserts the lines before each occurrence of a key.
+// Inserts `lines` before each occurrence of `key`.
 std::string insert_before_key(std::string toml, const std::string& key, const std::string& lines) {
   for (std::size_t at = 0; (at = toml.find(key, at)) != std::string::npos; at += key.size()) {
     toml.insert(at, lines);
@@ -63,7 +63,7 @@ std::string insert_before_key(std::string toml, const std::string& key, const st
   return toml;
 }
 
-// The rig as a user writes it, for axis X or Y; Y's frame is x = +Y, y = -X.
+// The rig of axis X or Y, parsed from TOML. In the frame of Y: x = +Y, y = -X.
 Rig rig_of(const Lengths& of, Axis axis, Declares declares) {
   const bool y = axis == Axis::y;
   const auto probe = [&](const char* id, double along, double across, double up, bool top) {
@@ -101,8 +101,8 @@ Rig rig_of(const Lengths& of, Axis axis, Declares declares) {
       .value();
 }
 
-// Noise of one probe: white noise plus a sum of slow and fast parts with a power of 1/f, or plus a
-// random walk.
+// Noise of one probe. The white noise may have one of two additions: a sum of parts with different
+// time constants, whose power is proportional to 1/f, or a random walk.
 class ProbeNoise {
  public:
   double next(Noise kind, FaultyFixture& random) {
@@ -203,7 +203,7 @@ class MeasuredAxis {
   double at_mm_ = -1, step_m_ = 0;
 };
 
-// The same run without any fault.
+// The run that an axis without faults of the fixture would give.
 Run true_run(const Rig& rig) {
   std::vector<double> targets_m;
   for (const double mm : kTargets_mm) targets_m.push_back(1e-3 * mm);
@@ -212,7 +212,7 @@ Run true_run(const Rig& rig) {
   return exact.measure();
 }
 
-// Counts one point of the run, a different one each time.
+// Counts one point of the run. The seed selects the point.
 void count_points(Coverage& coverage, const Rig& rig, const Run& run, const Run& truth,
                   std::uint64_t seed) {
   const auto u = algo::run_uncertainty(rig, run);
@@ -227,7 +227,7 @@ void count_points(Coverage& coverage, const Rig& rig, const Run& run, const Run&
           true_value[k], u.points[at].U[k]);
   if (rig.declares_uncertainty()) return;
   const auto control =
-      algo::stop_uncertainty(rig, run);  // control: without the run's repeatability
+      algo::stop_uncertainty(rig, run);  // control: does not contain the repeatability of the run
   for (std::size_t k = 0; k < kErrorCount; ++k)
     count(coverage, "by stops", value[k], true_value[k], control.points[at].U[k]);
 }
@@ -267,14 +267,14 @@ double count_figures(Coverage& coverage, const Rig& rig, const Run& run, const R
   return slope;
 }
 
-// Measures a pair of runs. Without `declare_calibration`, the rig of the solution has no u of the
-// zeros.
+// Measures a run along X and a run along Y, and counts their figures. If `declare_calibration` is
+// false, the rig of the evaluation has u = 0 for the zeros of the probes.
 void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64_t seed,
                   bool declare_calibration, Declares declares) {
   std::map<Axis, Rig> rigs, faulty;
   std::map<Axis, Run> runs;
   double slopes = 0, square = 0;
-  std::vector<double> gains;  // X and Y use the same probes and the same top of the target
+  std::vector<double> gains;  // X and Y use the same probes and the same top surface of the target
   std::optional<algo::test_faults::DrawnSurface> top;
   for (const Axis axis : {Axis::x, Axis::y}) {
     faulty[axis] = rigs[axis] = rig_of(of, axis, declares);
@@ -307,7 +307,8 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
   const auto budget =
       algo::squareness_budget(rigs[Axis::x], runs[Axis::x], rigs[Axis::y], runs[Axis::y], artefact)
           .value();
-  // The error of the square itself is unknown, and the slopes of the runs do not include it.
+  // The true EC0Y includes the error of the square. This error is unknown and the slopes of the
+  // runs do not include it.
   count(coverage, "EC0Y", budget.value, -slopes - square, budget.U);
 }
 
@@ -321,7 +322,7 @@ Coverage coverage_of(Noise kind, int pairs, Declares declares = Declares::all,
   return coverage;
 }
 
-// Coverage for one fixture.
+// Coverage for one rig.
 Coverage coverage_of(const Lengths& of, int pairs) {
   Coverage coverage;
   for (int i = 0; i < pairs; ++i)
@@ -345,7 +346,8 @@ TEST(StatedUncertainty, HoldsTheTruthWithARandomWalk) {
   expect_covered(coverage_of(Noise::walk, pairs), pairs, 94);
 }
 
-// The repeatability of the run itself must be sufficient for its points.
+// Without declared contributors, u of a point contains only noise and the repeatability of the
+// run. This must be sufficient.
 TEST(StatedUncertainty, HoldsThePointsOfARigThatDeclaresNothing) {
   const int pairs = coverage_runs(100);
   for (const Noise kind : {Noise::white, Noise::pink}) {
@@ -360,7 +362,8 @@ TEST(StatedUncertainty, HoldsThePointsOfARigThatDeclaresNothing) {
   }
 }
 
-// From a tenth of the travel of 40 mm to ten times the travel.
+// The travel is 40 mm. The flatness lengths are from a tenth of the travel to ten times the
+// travel.
 TEST(StatedUncertainty, HoldsTheTruthWhateverTheLengthOfTheFlatness) {
   const int pairs = coverage_runs(8);
   for (const double length_mm : {4.0, 13.0, 400.0}) {
@@ -375,7 +378,7 @@ TEST(StatedUncertainty, HoldsTheTruthOfATypicalShopThatDeclaresIt) {
   expect_covered(coverage_of({10, 15, 20, false, false, 30, true}, pairs), pairs, 93);
 }
 
-// Control: an undeclared contributor is not covered.
+// Control: if the rig does not declare a contributor, the intervals are too short.
 TEST(StatedUncertainty, DoesNotHoldTheTruthWithoutOneContributor) {
   const Coverage coverage =
       coverage_of(Noise::white, std::max(25, coverage_runs(25) / 10), Declares::all, false);

@@ -1,5 +1,5 @@
-// A simulated axis that moves and stops as a test requires, measured by an encoder and five probes:
-// a separate first-order model that shares no code with the code under test.
+// A simulated axis that moves and stops as a test requires. An encoder and five probes measure it.
+// It is a separate first-order model and shares no code with the tested code.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,19 +21,20 @@ inline Rig five_probe_rig(char axis = 'X') {
   return load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_" + axis + ".toml").value();
 }
 
-// The five errors of the target in the axis' frame at travel d, as they act on the rig's readings.
+// The five errors of the target at travel d, in the frame of the axis.
 struct TrueErrors {
-  double dy_um, dz_um, ex_urad, ey_urad, ez_urad;  // of the point of the target at the origin of C
+  // dy, dz: displacement of the target's point at the origin of frame C.
+  double dy_um, dz_um, ex_urad, ey_urad, ez_urad;
 
   static TrueErrors at(double d_mm) {
     return {1 + 0.2 * d_mm, 0.5 - 0.1 * d_mm, 3 + d_mm, 2 - 0.5 * d_mm, -4 + 0.7 * d_mm};
   }
-  // Errors of the point at the fixture's origin; m, rad.
+  // Errors of the target's point at the origin of the fixture; m, rad.
   std::array<double, 5> at_fixture(double d_mm) const {
     return {1e-6 * (dy_um - 1e-3 * d_mm * ez_urad), 1e-6 * (dz_um + 1e-3 * d_mm * ey_urad),
             1e-6 * ex_urad, 1e-6 * ey_urad, 1e-6 * ez_urad};
   }
-  // Readings of probes A ... E of the default fixture.
+  // Readings of the probes A ... E in the default fixture.
   std::array<double, 5> readings_um(double d_mm) const {
     const auto top = [&](double x, double y) {
       return dz_um + 1e-3 * (ex_urad * y + ey_urad * (d_mm - x));
@@ -45,7 +46,7 @@ struct TrueErrors {
   }
 };
 
-// Thread-bound. Scans at 1 kHz.
+// Thread-bound. Samples at 1 kHz.
 class TestAxis {
  public:
   static constexpr std::int64_t kPeriod_ns = 1'000'000;
@@ -67,7 +68,7 @@ class TestAxis {
     move_to(mm);
     stand(s);
   }
-  // Forward over the targets and back, reversing 1 mm beyond both ends.
+  // Stops at each target on the way forward and on the way back. Reverses 1 mm beyond both ends.
   void pass_both_ways(std::vector<double> targets_mm) {
     for (const double mm : targets_mm) stop_at(mm);
     move_to(targets_mm.back() + 1);
@@ -82,7 +83,7 @@ class TestAxis {
   }
   double encoder_mm(std::size_t scan) const { return encoder_mm_[scan]; }
 
-  // Scans begin ... end - 1 of these channels, of one device.
+  // Scans begin ... end - 1 of the channels `ids`, as one block of the device `device`.
   SampleBlock block(std::size_t begin, std::size_t end, const std::vector<std::string>& ids,
                     const std::string& device = "daq") const {
     SampleBlock block;
@@ -96,7 +97,7 @@ class TestAxis {
       const auto probes = TrueErrors::at(d_mm).readings_um(d_mm);
       for (std::size_t c = 0; c < ids.size(); ++c) {
         const auto k = static_cast<std::size_t>(ids[c][0] - 'A');
-        // Every amplifier has some noise.
+        // Noise of the amplifier: 7 values from -3 nm to 3 nm, repeated.
         const double noise_um = 1e-3 * (static_cast<double>((i + 3 * k) % 7) - 3);
         block.value[c].push_back(ids[c] == kEncoderChannel ? encoder_mm_[i] : probes[k] + noise_um);
       }

@@ -1,4 +1,4 @@
-// compensation.build, activate, deactivate, status, grid, at, list, table.
+// The methods compensation.build, activate, deactivate, status, grid, at, list and table.
 #include "tests/daemon/methods/methods_fixture.h"
 
 namespace mdof::daemon {
@@ -8,7 +8,7 @@ namespace {
 
 class CompensationMethods : public MethodsTest {
  protected:
-  // Activates a table of a run of X; returns its generation.
+  // Adds a run of X, builds a table from it and activates the table. Returns the generation.
   std::string activate() {
     add_run();
     EXPECT_EQ(call("compensation.build", R"({"runs":[1],"keep_slope":true})").code(), 0);
@@ -110,7 +110,8 @@ TEST_F(CompensationMethods, StoredTablesAreListedAndReadActiveOrNot) {
   EXPECT_EQ(table.at("/result/active"), "true");
   const Answer other = call("compensation.table", R"({"table":2})");
   EXPECT_EQ(other.at("/result/active"), "false");
-  EXPECT_NE(other.at("/result/points/1"), table.at("/result/points/0"));  // its slope was removed
+  // table 2 was built without its slope
+  EXPECT_NE(other.at("/result/points/1"), table.at("/result/points/0"));
   EXPECT_EQ(call("compensation.table", R"({"table":9})").code(), rpc::kNotFound);
 }
 
@@ -132,7 +133,7 @@ TEST_F(CompensationMethods, ValuesAreTheErrorsOfPositionAndApproach) {
     const Answer at = value_at(15, direction);
     EXPECT_NEAR(at.number("/result/error/EYX_um"), 1e6 * truth.at_fixture(15)[0], 1e-2)
         << at.text();
-    // Angles relative to the start.
+    // Angles are relative to the angle at the start.
     EXPECT_NEAR(at.number("/result/error/EAX_urad"), truth.ex_urad - first.ex_urad, 1e-2);
     EXPECT_NEAR(at.number("/result/error/EBX_urad"), truth.ey_urad - first.ey_urad, 1e-2);
     EXPECT_EQ(at.number("/result/direction"), direction);
@@ -141,7 +142,7 @@ TEST_F(CompensationMethods, ValuesAreTheErrorsOfPositionAndApproach) {
   EXPECT_EQ(value_at(15, 1).at("/result/inside"), "true");
   EXPECT_EQ(value_at(25, 1).at("/result/inside"), "false");
   EXPECT_EQ(value_at(-5, 1).at("/result/inside"), "false");
-  // Between two grid points, on the straight line of the angles.
+  // Between two grid points. The true angle is proportional to the position here.
   EXPECT_NEAR(value_at(7.5, 1).number("/result/error/EAX_urad"), 7.5, 1e-2);
   EXPECT_GT(value_at(5, 1).number("/result/u/EYX_um"), 0);
 }
@@ -161,7 +162,7 @@ TEST_F(CompensationMethods, RejectsOtherDirectionsThanTheThree) {
   }
   EXPECT_EQ(call("compensation.at", R"({"axis":"X"})").code(), rpc::kInvalidParams);
   EXPECT_EQ(call("compensation.at", R"({"axis":"Q","position_mm":1})").code(), rpc::kInvalidParams);
-  // Parameters of the other kind of table are rejected, not ignored.
+  // A parameter that belongs to the other kind of table is rejected and not ignored.
   for (const char* params :
        {R"({"axis":"volume","direction":1})", R"({"axis":"volume","position_mm":1})",
         R"({"axis":"X","position_mm":1,"Y_mm":7})"})
@@ -223,7 +224,8 @@ TEST_F(CompensationMethods, RejectsARequestForAnotherGeneration) {
             "true");
 }
 
-// A simulated table replaces an active measured table only on request, and every reply marks it.
+// A simulated table replaces an active measured table only if the client requests it. Every reply
+// then states that the table is simulated.
 TEST_F(CompensationMethods, ASimulatedTableIsActivatedOnlyOnRequest) {
   activate();
   simulated_ = true;

@@ -15,7 +15,7 @@ TEST_F(MachineMethodTest, GivesTheErrorAtACommandWithItsU) {
   const Answer answer =
       call("machine.at", at(R"(EXX_um = [[0, 0], [20, 4]]\nu_EXX_um = 0.1)", R"(,"X_mm":10)"));
   ASSERT_EQ(answer.code(), 0) << answer.text();
-  EXPECT_NEAR(answer.number("/result/error/x_um"), -2, 1e-9);  // the work moves 2 µm too far
+  EXPECT_NEAR(answer.number("/result/error/x_um"), -2, 1e-9);  // the workpiece moves 2 µm too far
   EXPECT_NEAR(answer.number("/result/u/x_um"), 0.1, 1e-12);
 }
 
@@ -24,10 +24,11 @@ TEST_F(MachineMethodTest, AnUndeclaredUIsNullWithAReason) {
   ASSERT_EQ(answer.code(), 0) << answer.text();
   EXPECT_NE(answer.text().find(R"("u":{"x_um":null)"), std::string::npos) << answer.text();
   EXPECT_NE(answer.text().find("u_reason"), std::string::npos);
-  EXPECT_NE(answer.text().find(R"("EBX")"), std::string::npos);  // not measured
+  EXPECT_NE(answer.text().find(R"("EBX")"), std::string::npos);  // EBX was not measured
 }
 
-// EYX has a value without u: u = 0 would mean that it is known exactly.
+// EYX has a value but no u. The reply must not contain u = 0, because this would mean an exactly
+// known value.
 TEST_F(MachineMethodTest, UOfAComponentWithoutKnownUIsNull) {
   const Answer answer = call("machine.at", at(R"(EXX_um = 3\nu_EXX_um = 0.1\nEYX_um = 1)", ""));
   ASSERT_EQ(answer.code(), 0) << answer.text();

@@ -1,5 +1,5 @@
-// All methods of mdofd with a separate store and axis, called with lines of JSON-RPC as from the
-// socket, but without a socket. It uses no test framework, so that fuzzers can use it too.
+// All methods of mdofd, with their own store and axis. A caller passes lines of JSON-RPC directly,
+// without a socket. No test framework is used here, because fuzzers use this class too.
 #pragma once
 
 #include <unistd.h>
@@ -20,7 +20,8 @@
 
 namespace mdof::daemon {
 
-// Identity and rights of the caller. Subscribes to the topics of the daemon.
+// The caller of the methods, with its credentials and rights. Records the topics to which it
+// subscribes.
 class BenchCaller final : public rpc::Caller {
  public:
   std::optional<rpc::Credentials> who = rpc::Credentials{1234, 5678, 42};
@@ -45,7 +46,7 @@ class BenchCaller final : public rpc::Caller {
   }
 };
 
-// Thread-bound. `folder` must exist; its database is created.
+// Thread-bound. `folder` must exist; the constructor creates the database in it.
 class MethodsBench {
  public:
   MethodsBench(const std::filesystem::path& folder, store::Durability durability)
@@ -77,7 +78,7 @@ class MethodsBench {
     keeper.reset();
   }
 
-  // The reply to one message; empty: no reply.
+  // Processes one message. Returns the reply, or an empty text if there is no reply.
   std::string call(std::string_view message) {
     std::string padded(message), out;
     padded.append(rpc::Dispatcher::kPadding, '}');
@@ -91,7 +92,7 @@ class MethodsBench {
     if (open) out = *sink->reply;
     return out;
   }
-  // Calls a method by name, with its parameters as JSON.
+  // Calls a method by name. `params`: its parameters as JSON.
   std::string call(const std::string& method, const std::string& params) {
     return call(R"({"jsonrpc":"2.0","id":1,"method":")" + method + R"(","params":)" + params + "}");
   }
@@ -114,7 +115,7 @@ class MethodsBench {
     void finish(std::string_view text) override { reply = text; }
     std::optional<std::string> reply;
   };
-  // Executes one posted task, or waits a short time for it.
+  // Runs one posted task, or waits a short time for a task.
   void turn() {
     auto& context = *loop.core()->context;
     if (context.stopped()) context.restart();

@@ -1,4 +1,5 @@
-// Methods with stored runs and an axis whose device a test feeds.
+// The methods of mdofd, with stored runs and an axis. A test feeds the samples of the axis'
+// device.
 #pragma once
 
 #include <simdjson.h>
@@ -9,12 +10,12 @@
 
 namespace mdof::daemon {
 
-// One reply, read by JSON pointer: "/result/runs/0/note".
+// One reply of a method. Its values are found by JSON pointer, for example "/result/runs/0/note".
 class Answer {
  public:
   explicit Answer(std::string text) : text_(std::move(text)) {}
   const std::string& text() const { return text_; }
-  // The value as minified JSON; empty: none.
+  // The value as minified JSON; empty if the reply has no such value.
   std::string at(std::string_view pointer) const {
     simdjson::dom::parser parser;
     simdjson::dom::element e;
@@ -25,13 +26,13 @@ class Answer {
     const std::string text = at(pointer);
     return text.empty() ? kNaN : std::strtod(text.c_str(), nullptr);
   }
-  // Size of a list; 0 if there is none.
+  // Number of elements of the list; 0 if the reply has no such list.
   std::size_t size(std::string_view pointer) const {
     simdjson::dom::parser parser;
     simdjson::dom::array list;
     return parser.parse(text_).at_pointer(pointer).get(list) ? 0 : list.size();
   }
-  // 0: no error.
+  // The code of the error; 0 if the reply is not an error.
   int code() const {
     const double code = number("/error/code");
     return std::isnan(code) ? 0 : static_cast<int>(code);
@@ -42,7 +43,7 @@ class Answer {
   std::string text_;
 };
 
-// Two runs of X and one of Y, as solved from an axis with known errors.
+// A fixture for tests. Its runs are measured on a simulated axis with known errors.
 class MethodsTest : public FedStation {
  protected:
   void SetUp() override {
@@ -65,7 +66,7 @@ class MethodsTest : public FedStation {
         AxisConfig{five_probe_rig(), {fed_by(feed_, live)}}, PipelineOptions(), "",
         folder_ / "recordings", *bench_->keeper, events_.sink()));
   }
-  // Adds a run measured by the pipeline in both directions; returns its id.
+  // Adds a run that the pipeline measures in both directions. Returns the id of the run.
   std::int64_t add_run(char axis = 'X', const std::string& note = "", bool whole = true) {
     const Rig rig = five_probe_rig(axis);
     Pipeline pipeline = Pipeline::create(rig, {}).value();
@@ -73,7 +74,7 @@ class MethodsTest : public FedStation {
     moved.pass_both_ways({0, 5, 10, 15, 20});
     SampleBlock block = moved.whole();
     for (auto& time_ns : block.time_ns)
-      time_ns += runs_ * 1'000'000'000'000;  // each run has its own time range
+      time_ns += runs_ * 1'000'000'000'000;  // each run has its own range of time
     EXPECT_TRUE(pipeline.push(block));
     mdof::Run run = pipeline.finish().value();
     run.header.note = note;
@@ -99,10 +100,10 @@ class MethodsTest : public FedStation {
 
   std::unique_ptr<MethodsBench> bench_;
   int runs_ = 0;
-  bool simulated_ = false;  // for runs added from now on
+  bool simulated_ = false;  // applies to runs that are added from now on
   std::optional<std::int64_t> supersedes_;
-  std::string recorded_utc_;  // for runs added from now on: when a recording began; empty: a log
-                              // without time
+  // Start of the recording, for runs that are added from now on; empty: the run is from a CSV log.
+  std::string recorded_utc_;
 };
 
 }  // namespace mdof::daemon

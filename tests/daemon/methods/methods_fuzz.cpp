@@ -1,6 +1,6 @@
-// Lines of JSON-RPC through every method of mdofd, with one store and one axis for all inputs. For
-// any input, the output is empty or one line of JSON within the limit, and every call has an
-// answer. Data stored by one input are visible to the next.
+// Calls every method of mdofd with lines of JSON-RPC. For any input, the output is empty or one
+// line of JSON within the size limit, and every call is answered. All inputs use the same store
+// and axis. Therefore an input can read data that an earlier input stored.
 #include <simdjson.h>
 
 #include <cstddef>
@@ -25,7 +25,7 @@ Rig rig_of(char axis) {
   return load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_" + axis + ".toml").value();
 }
 
-// As from a short log: six stops in both directions, with slightly different errors.
+// A run as from a short log: six stops in both directions, with slightly different errors.
 Run made_run(char axis, std::int64_t number) {
   const Rig rig = rig_of(axis);
   Run run;
@@ -54,7 +54,7 @@ Run made_run(char axis, std::int64_t number) {
   return run;
 }
 
-// An axis that is read from an empty log: its runs begin and end at once.
+// A driver without samples: a run of its axis ends immediately after its start.
 class NoSamples final : public drivers::Driver {
  public:
   drivers::DeviceInfo info() const override { return {}; }
@@ -85,7 +85,7 @@ struct Served {
   simdjson::dom::parser parser;
 
   Served() {
-    // The data that the lock keeps for the whole process must outlive this object.
+    // The lock stores data for the whole process. These data must outlive this object.
     (void)store::WriterLock::open_runs_claimed(folder.path() / "mdof.db");
     const auto stored = bench.keeper->run([](store::Store& store) -> Result<std::string> {
       std::int64_t number = 0;
@@ -97,7 +97,8 @@ struct Served {
     answer(R"({"jsonrpc":"2.0","id":1,"method":"compensation.build","params":{"runs":[1]}})");
     answer(R"({"jsonrpc":"2.0","id":1,"method":"compensation.activate",)"
            R"("params":{"table":1,"simulated":true,"despite_warnings":true}})");
-    if (!bench.active.axes[0]) std::abort();  // otherwise half of the methods cannot be tested
+    // Without an active table, half of the methods cannot be tested.
+    if (!bench.active.axes[0]) std::abort();
   }
 
   void answer(std::string_view line) {

@@ -7,8 +7,8 @@
 namespace mdof::daemon {
 namespace {
 
-// Clients whose calls are answered on the thread "query". The first call of a test blocks the
-// thread until the test releases it.
+// Clients whose calls are answered on the thread "query". A test first sends a call that blocks
+// this thread, and later releases the thread.
 class Queries : public MethodsTest {
  protected:
   struct Client : rpc::ReplySink {
@@ -52,7 +52,7 @@ class Queries : public MethodsTest {
     bench_->dispatcher->handle(std::string_view(text).substr(0, bytes), bench_->caller, client, out,
                                client->batch, rpc::Dispatcher::Clock::time_point::max());
   }
-  // Messages sent from now on are not processed before go_on().
+  // Blocks the query thread: it processes no message until go_on().
   void hold() {
     holder_ = std::make_shared<Client>();
     send(holder_, "slow");
@@ -131,7 +131,7 @@ TEST_F(Queries, TooManyCallsOfOneClientAreRejectedAndCounted) {
   EXPECT_EQ(noted(), 257);
 }
 
-// Every method that reads the database or calculates waits while the query thread is busy.
+// While the query thread is blocked, no method that reads the database or calculates may answer.
 TEST_F(Queries, NoMethodThatReadsTheDatabaseRunsOnTheLoop) {
   add_run('X');
   add_run('Y');

@@ -1,4 +1,5 @@
-// run.start, run.stop, run.resume, run.list, run.get, run.points, squareness.fit, history.list.
+// The methods run.start, run.stop, run.resume, run.list, run.get, run.points, squareness.fit and
+// history.list.
 #include "tests/daemon/methods/methods_fixture.h"
 
 namespace mdof::daemon {
@@ -61,7 +62,7 @@ TEST_F(RunMethods, ARunIsStartedAsRequestedAndStopped) {
   EXPECT_EQ(call("history.list").at("/result/history/1/deed"), "\"run.resume\"");
 }
 
-// A fixture is moved from axis to axis with its probes.
+// One fixture with its probes is moved from axis to axis.
 TEST_F(RunMethods, TheProbesOfADeviceMeasureOneAxisAtATime) {
   feed_ = std::make_shared<Feed>();
   SharedDevices devices;
@@ -98,7 +99,7 @@ TEST_F(RunMethods, TargetsByIntervalEqualAListOfTargets) {
     EXPECT_NEAR(moved.number("/result/targets_mm/" + std::to_string(i)), 30.0 * i, 2);
 }
 
-// The JSON of a recording has no -0, and a replay must give the same bits.
+// A recording writes -0 as 0 in its JSON. A replay of it must give bit-identical results.
 TEST_F(RunMethods, ATargetOfMinusZeroIsZero) {
   add_axis();
   const Answer begun = call("run.start", R"({"axis":"X","targets_mm":[-0.0,5]})");
@@ -251,7 +252,8 @@ TEST_F(RunMethods, SquarenessNeedsARunAlongXAndOneAlongY) {
   add_run('X'), add_run('Y');
   const Answer plain = call("squareness.fit", R"({"run_x":1,"run_y":2})");
   ASSERT_EQ(plain.code(), 0) << plain.text();
-  // -(slope of EXY over y) - (slope of EYX over x); EXY = -dy of the axis' frame.
+  // EC0Y = -(slope of EXY over y) - (slope of EYX over x). For axis Y, EXY = -dy, with dy in the
+  // frame of the axis.
   const auto slope_urad = [](int k) {
     return 1e6 * (TrueErrors::at(20).at_fixture(20)[k] - TrueErrors::at(0).at_fixture(0)[k]) /
            20e-3;
@@ -284,7 +286,8 @@ TEST_F(RunMethods, APartialRunIsUsedOnlyOnRequest) {
 
 TEST_F(RunMethods, HistoryIsPaged) {
   add_run('X'), add_run('Y');
-  // The same fit is stored only once, a different one additionally.
+  // If the same fit is requested twice, it is stored only once. A different fit is stored in
+  // addition.
   for (const char* artefact : {"0", "0", "1", "2"})
     call("squareness.fit",
          R"({"run_x":1,"run_y":2,"artefact_angle_error_urad":)" + std::string(artefact) + "}");

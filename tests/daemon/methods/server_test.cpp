@@ -1,4 +1,5 @@
-// server.info, device.list, live.subscribe, live.unsubscribe, encoder.set, run.replay.
+// The methods server.info, device.list, live.subscribe, live.unsubscribe, encoder.set and
+// run.replay.
 #include <fstream>
 
 #include "drivers/clock/monotonic.h"
@@ -12,7 +13,8 @@ namespace {
 
 class ServerMethods : public MethodsTest {
  protected:
-  // A log of an axis with known errors, as a user would export it.
+  // Writes the CSV log of an axis with known errors, in the format that a user exports. Returns
+  // its path.
   std::string write_log() {
     TestAxis axis;
     axis.pass_both_ways({0, 5, 10});
@@ -91,9 +93,9 @@ TEST_F(ServerMethods, ReportsTheFixtureWithTheEndsOfItsRanges) {
 TEST_F(ServerMethods, ReportsTheFreeDiskSpace) {
   const Answer health = call("server.health");
   EXPECT_GT(health.number("/result/free_bytes"), 0) << health.text();
-  EXPECT_GE(health.number("/result/database_bytes"), 4096);  // one page of SQLite
+  EXPECT_GE(health.number("/result/database_bytes"), 4096);  // the size of one SQLite page
   EXPECT_EQ(health.at("/result/newest_recording"), "null");
-  add_run();  // from a CSV log, not from a recording
+  add_run();  // this run is from a CSV log, so there is still no recording
   EXPECT_EQ(call("server.health").at("/result/newest_recording"), "null");
 }
 
@@ -142,7 +144,8 @@ TEST_F(ServerMethods, SetsTheEncoderOnlyWhileThePositionIsKnown) {
   TestAxis axis(3);
   axis.stand(2);
   Answer set = nothing;
-  for (int i = 0; i < 20 && set.code() != 0; ++i) {  // a busy machine may be too slow
+  // Repeated, because a busy machine may be too slow.
+  for (int i = 0; i < 20 && set.code() != 0; ++i) {
     SampleBlock block = axis.whole();
     const std::int64_t shift_ns = drivers::monotonic_ns() - block.time_ns.back();
     for (auto& time_ns : block.time_ns) time_ns += shift_ns;
@@ -201,7 +204,8 @@ TEST_F(ServerMethods, RejectsALogThatTheCallerMayNotRead) {
   EXPECT_TRUE(may_read(kOther, kAnother, 0004));
   EXPECT_FALSE(may_read(kOther, kAnother, 0440)) << "anybody else";
   EXPECT_TRUE(may_read(0, 0, 0));
-  // A file of the daemon's own group, such as a recording, is open to all users of the socket.
+  // A file whose group is the group of mdofd, for example a recording, may be read by all users of
+  // the socket.
   ASSERT_EQ(::chown(log.c_str(), kOwner, ::getegid()), 0);
   EXPECT_TRUE(may_read(kOther, kAnother, 0440));
   bench_->caller.who.reset();

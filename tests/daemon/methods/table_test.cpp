@@ -1,4 +1,5 @@
-// Properties of each method in the table: who may call it, and which parameters it rejects by name.
+// Properties of each method: the permission that it needs, and the parameters that it rejects by
+// name.
 #include <set>
 
 #include "tests/daemon/methods/methods_fixture.h"
@@ -10,7 +11,7 @@ using rpc::ParamType;
 
 class MethodTableTest : public MethodsTest {
  protected:
-  // The parameters of the example, with another value for one of them.
+  // The parameters of the method's example. The parameter `name` has the value `value`.
   static std::string with(const rpc::Method& method, const std::string& name,
                           const std::string& value) {
     std::string all = "{";
@@ -26,7 +27,8 @@ class MethodTableTest : public MethodsTest {
   }
 };
 
-// Without these marks a client on TCP could change data, or any user could activate a table.
+// Without the correct permissions, a client on TCP could change data, or any user could activate a
+// table.
 TEST_F(MethodTableTest, PermissionsAreAsListed) {
   const std::set<std::string> writing = {"run.start",
                                          "run.resume",
@@ -147,7 +149,7 @@ TEST_F(MethodTableTest, ReportsMissingAndUnknownParametersByName) {
   }
 }
 
-// Users copy the examples.
+// The examples must be valid, because users copy them.
 TEST_F(MethodTableTest, EveryExampleIsAccepted) {
   for (const auto& [name, method] : methods()) {
     const Answer answer = call(name, method.example);

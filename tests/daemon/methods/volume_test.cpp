@@ -1,4 +1,4 @@
-// compensation.build_volume, and compensation.* of the volume.
+// The method compensation.build_volume, and the methods compensation.* for the volume.
 #include "schema/units.h"
 #include "tests/daemon/methods/methods_fixture.h"
 
@@ -7,7 +7,8 @@ namespace {
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
-// All errors of X and Y, 0 except EXX, EBX and EC0Y; X moves the work. As JSON text.
+// A machine as JSON text. All errors of X and Y are 0 except EXX, EBX and EC0Y. X moves the
+// workpiece. `more`: further lines of TOML.
 std::string a_machine(const std::string& more = "") {
   std::string text =
       R"(name = \"mill\"\nmachine = {chain = \"w-X-b-Y-t\"}\ntool = {point_mm = [0, 0, 20]}\n)" +
@@ -64,7 +65,7 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndDeactivated) {
   EXPECT_EQ(status.at("/result/volume/generation"), generation);
   EXPECT_EQ(status.at("/result/generation"), generation);
 
-  // As stored, active or not, in pages.
+  // compensation.table returns a stored table in pages, whether or not the table is active.
   const Answer stored = call("compensation.table", R"({"table":1,"offset":24,"count":9})");
   EXPECT_EQ(stored.at("/result/nodes"), "25") << stored.text();
   EXPECT_EQ(stored.at("/result/active"), "true");
@@ -78,9 +79,12 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndDeactivated) {
   EXPECT_EQ(call("compensation.list", R"({"axis":"X"})").at("/result/volumes"), "[]");
   EXPECT_EQ(call("compensation.list", R"({"axis":"volume"})").at("/result/tables/0/table"), "1");
 
-  // At the end of X the work moves 2 µm too far and rotates by 100 µrad about Y. The tool is 20 mm
-  // above, where the material is therefore another 2 µm too far; X corrects both. EC0Y: at 20 mm of
-  // Y the tool is 1 µm at -X; X, which moves the work, corrects this 1 µm as well.
+  // Expected correction at X = 20 mm, Y = 20 mm:
+  // - The workpiece moves 2 µm too far (EXX).
+  // - The workpiece rotates by 100 µrad about Y (EBX). At the tool, 20 mm higher, this displaces
+  //   the material by another 2 µm.
+  // - At 20 mm of Y the tool is displaced by 1 µm towards -X (EC0Y). X moves the workpiece and
+  //   corrects this displacement too.
   const Answer at = value_at(R"(,"X_mm":20,"Y_mm":20)");
   EXPECT_NEAR(at.number("/result/correction/X_um"), -(2 + 2 + 1), 1e-3) << at.text();
   EXPECT_NEAR(at.number("/result/correction/Y_um"), 0, 1e-3);
@@ -92,7 +96,8 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndDeactivated) {
   const Answer outside = value_at(R"(,"X_mm":10,"Y_mm":7,"Z_mm":3)");
   EXPECT_EQ(outside.at("/result/inside"), "false");
   EXPECT_EQ(outside.at("/result/u/X_um"), "null");
-  EXPECT_SAYS(value_at(R"(,"X_mm":10)").message(), "Y_mm is missing");  // no command is assumed
+  // a missing coordinate is an error, not 0
+  EXPECT_SAYS(value_at(R"(,"X_mm":10)").message(), "Y_mm is missing");
 
   EXPECT_EQ(activate(1).at("/result/changed"), "false");
   EXPECT_EQ(call("compensation.deactivate", R"({"axis":"volume"})").at("/result/changed"), "true");
@@ -123,7 +128,7 @@ TEST_F(VolumeMethods, TheGridIsPagedAndEqualsAt) {
   EXPECT_EQ(nodes, 1681u);
   EXPECT_EQ(call("compensation.grid", R"({"axis":"volume","offset":1681})").size("/result/points"),
             0u);
-  // The parts of u are unknown for errors from files.
+  // If errors are from files, the parts of their u are unknown.
   const Answer parts = call("compensation.grid", R"({"axis":"volume","count":1,"u_parts":true})");
   EXPECT_EQ(parts.size("/result/points/0"), 15u);
   EXPECT_EQ(parts.at("/result/points/0/14"), "null");
@@ -133,7 +138,7 @@ TEST_F(VolumeMethods, TheGridIsPagedAndEqualsAt) {
 }
 
 TEST_F(VolumeMethods, TheLargestTableStaysWithinAReply) {
-  std::string wide = a_machine();  // with commands of many digits
+  std::string wide = a_machine();  // its positions have many digits
   for (const char* from : {"[0, 20]\\nEXX", "[0, 20]\\nEXY"})
     wide.replace(wide.find(from), 7, from[11] == 'X' ? "[0.1, 19.966666666666665]" : "[0.1, 8]");
   const Answer table = build(R"("axes": "XY", "step_mm": 0.04)", wide);

@@ -10,7 +10,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Members that ask for another turn after each turn; a turn costs the price of its member.
+// Members that request another turn after each turn. Each member has a price: the time of one of
+// its turns.
 class Busy {
  public:
   explicit Busy(std::map<char, int> price_ms) : price_ms_(std::move(price_ms)) {
@@ -34,7 +35,7 @@ class Busy {
 
  private:
   std::map<char, int> price_ms_;
-  std::map<char, bool> leaves_;  // after one turn
+  std::map<char, bool> leaves_;  // members that leave after one turn
   std::map<char, FairShare> shares_;
   FairOrder<char> order_;
 };
@@ -76,7 +77,7 @@ TEST(FairOrder, NewMembersDoNotBlockTheOthers) {
       ++served;
       order.add('s', stays);
     } else {
-      come();  // replaces the member that leaves
+      come();  // a new member replaces the member that leaves
     }
   }
   EXPECT_NEAR(served, 100, 10);

@@ -1,4 +1,4 @@
-// Handlers that answer later and from any thread.
+// Handlers of methods that answer later, from any thread.
 #include <condition_variable>
 #include <deque>
 
@@ -8,7 +8,7 @@
 namespace mdof::rpc::test {
 namespace {
 
-// A thread that answers calls in the requested order; it replaces the storage thread.
+// A thread that answers calls in the order that a test requests. It stands for the storage thread.
 class Worker {
  public:
   void take(Reply reply, std::string result) {
@@ -142,7 +142,7 @@ TEST_F(Replies, ADestroyedReplyIsAnInternalError) {
             "-32603");
   client.send(later(2) + "\n");
   worker_.wait_for(1);
-  worker_.drop_all();  // on this thread, not on the loop
+  worker_.drop_all();  // called on this thread, not on the thread of the loop
   const auto reply = client.line();
   EXPECT_EQ(at(reply, "/error/code"), "-32603");
   EXPECT_EQ(at(reply, "/id"), "2");
@@ -165,7 +165,7 @@ TEST_F(Replies, WaitingCallsAreBoundedPerClient) {
   std::string all;
   for (int i = 1; i <= 200; ++i) all += later(i) + "\n";
   client.send(all);
-  worker_.wait_for(21);  // 1 MiB holds 21 replies of 48 KiB
+  worker_.wait_for(21);  // 1 MiB is sufficient for 21 replies of 48 KiB
   std::this_thread::sleep_for(50ms);
   EXPECT_EQ(worker_.size(), 21u);
   EXPECT_EQ(RawClient(server_.path).ask(R"({"jsonrpc":"2.0","method":"at_once","id":3})"),
@@ -213,7 +213,7 @@ TEST_F(Replies, EveryErrorCodeIsConvertedBothWays) {
   }
 }
 
-// A client branches on the code; the text is for people.
+// A program uses the code of an error; its text is for people.
 TEST_F(Replies, AnErrorHasItsRemedyAsTextAndAsCode) {
   RawClient client(server_.path);
   for (const std::string method : {"fail_at_once", "fail_later"})

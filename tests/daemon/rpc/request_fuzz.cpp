@@ -1,5 +1,5 @@
-// Lines of JSON-RPC through the dispatcher and a method with a parameter of each type: for any
-// input, the output is empty or one line of JSON within the limit.
+// Passes lines of JSON-RPC to the dispatcher and to a method that has a parameter of each type.
+// For any input, the output is empty or one line of JSON within the size limit.
 #include <simdjson.h>
 
 #include <cstddef>

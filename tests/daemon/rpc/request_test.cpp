@@ -36,7 +36,7 @@ TEST_F(Requests, RejectsAnIdOfAnotherType) {
       "-32600");
 }
 
-// RFC 8259, 4: it is undefined which of two members with the same name is used.
+// RFC 8259, section 4: if two members have the same name, it is undefined which of them is used.
 TEST_F(Requests, RejectsADuplicateMemberByName) {
   const std::string whole = R"("jsonrpc":"2.0","method":"get_data","params":[],"id":8)";
   const std::string twice[][3] = {{R"("jsonrpc":"2.0")", "jsonrpc", "8"},
@@ -109,7 +109,8 @@ TEST_F(Requests, ALongNameIsNotReturnedInFull) {
 }
 
 TEST_F(Requests, TooLargeResultsAskForPages) {
-  // The envelope for id 1 has 36 bytes with the quotes of the string; a line feed follows.
+  // For id 1, the reply around the string has 36 bytes. This number includes the quotes of the
+  // string, but not the line feed.
   EXPECT_EQ(call("bytes", "[49115]").size(), 49151u);
   const auto reply = call("bytes", "[49116]");
   EXPECT_EQ(at(reply, "/error/code"), "-32013");
@@ -159,7 +160,7 @@ TEST_F(Requests, PipelinedRequestsAreAllAnswered) {
   for (int i = 0; i < 5000; ++i)
     all += R"({"jsonrpc":"2.0","method":"bytes","params":[1000],"id":)" + std::to_string(i) + "}\n";
   std::thread sender([&] { client.send(all); });
-  std::this_thread::sleep_for(100ms);  // the server reaches its limit and must wait
+  std::this_thread::sleep_for(100ms);  // the server reaches its limit and must stop reading
   for (int i = 0; i < 5000; ++i) ASSERT_EQ(at(client.line(), "/id"), std::to_string(i));
   sender.join();
 }

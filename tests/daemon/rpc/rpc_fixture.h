@@ -1,4 +1,5 @@
-// A server on its own thread and a client that may misbehave, for the tests of this folder.
+// For the tests of this folder: a server on its own thread, and a client that may violate the
+// protocol.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +28,8 @@ namespace mdof::rpc::test {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// JSON with sorted members and one form of numbers: equal text means equal value.
+// The value as JSON with sorted members and a fixed format of numbers. Two values are equal if
+// these texts are equal.
 inline std::string canonical(simdjson::dom::element e) {
   std::string out;
   if (simdjson::dom::array array; !e.get(array)) {
@@ -50,7 +52,8 @@ inline std::string canonical(const std::string& text) {
   return parser.parse(text).get(e) ? "not JSON: " + text : canonical(e);
 }
 
-// The text of a member: path "/error/code", as minified JSON; empty: no such member.
+// The member at a path such as "/error/code", as minified JSON; empty if the member does not
+// exist.
 inline std::string at(const std::string& json, std::string_view path) {
   simdjson::dom::parser parser;
   simdjson::dom::element e;
@@ -69,7 +72,7 @@ class RawClient {
 
   int fd() const { return fd_.get(); }
 
-  // False: the server has closed the connection.
+  // Returns false if the server has closed the connection.
   bool send(std::string_view bytes) {
     while (!bytes.empty()) {
       const ssize_t n = ::send(fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -79,7 +82,7 @@ class RawClient {
     return true;
   }
 
-  // The next line; "<closed>" or "<time out>" if there is none.
+  // Returns the next line, "<closed>" after the server has closed, or "<time out>".
   std::string line(std::chrono::milliseconds timeout = 20s) {
     for (;;) {
       if (const auto lf = text_.find('\n'); lf != std::string::npos) {
@@ -106,7 +109,7 @@ class RawClient {
   std::string text_;
 };
 
-// The methods of the specification's examples and some additional ones.
+// Adds the methods of the specification's examples and some more.
 inline void add_methods(MethodTable& table) {
   using Text = Result<std::string>;
   const auto sum = [](const Params& p) -> Text {
@@ -189,7 +192,7 @@ class TestServer {
   std::size_t connections() {
     return on_loop([this] { return service->session_count(); });
   }
-  // Waits until the number of connections is n.
+  // Waits until there are n connections; returns false after `timeout`.
   bool connections_become(std::size_t n, std::chrono::milliseconds timeout = 20s) {
     for (const auto end = Clock::now() + timeout; Clock::now() < end;
          std::this_thread::sleep_for(2ms))
@@ -207,7 +210,7 @@ class TestServer {
   EventLoop loop;
   std::unique_ptr<Service> service;
   std::unique_ptr<LineServer> server;
-  std::unique_ptr<HttpServer> page;  // if the test creates one
+  std::unique_ptr<HttpServer> page;  // only if the test creates it
 
  private:
   static inline int count_ = 0;

@@ -1,4 +1,4 @@
-// Every example of section 7 of the JSON-RPC 2.0 specification, literally.
+// Every example of section 7 of the JSON-RPC 2.0 specification, word for word.
 #include "tests/daemon/rpc/rpc_fixture.h"
 
 namespace mdof::rpc::test {
@@ -8,7 +8,7 @@ class Specification : public ::testing::Test {
  protected:
   Specification() { server_.start(); }
 
-  // An empty reply is verified by the answer to a later request being the next line.
+  // If the expected reply is empty, the next line must be the answer to a later request.
   void expect(const std::string& request, const std::string& reply) {
     RawClient client(server_.path);
     std::string line = request;

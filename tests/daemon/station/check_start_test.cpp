@@ -49,7 +49,7 @@ TEST_F(CheckStart, MissingFoldersThatCanBeCreatedAreAccepted) {
   EXPECT_EQ(refusal("[store]\ndatabase = \"" + in_folder("a/b/mdof.db") + "\"\n[rpc]\nsocket = \"" +
                     in_folder("c/d/s") + "\"\n"),
             "");
-  EXPECT_FALSE(fs::exists(folder_ / "a"));  // checked, not created
+  EXPECT_FALSE(fs::exists(folder_ / "a"));  // the check does not create the folder
 }
 
 TEST_F(CheckStart, NamesAnInvalidPathWithLineAndKey) {
@@ -115,7 +115,7 @@ TEST_F(CheckStart, OthersMayEnterTheFolderOfTheSocket) {
   EXPECT_FALSE(make_socket_folder(in_folder("file/below/s")));
 }
 
-// The example printed if there is no configuration must be valid.
+// If there is no configuration, mdofd prints an example. The example must be valid.
 TEST_F(CheckStart, ThePrintedFirstConfigurationIsAccepted) {
   const std::string text = first_configuration("/etc/mdof/mdofd.toml");
   const auto config = text.find("# --- /etc/mdof/mdofd.toml"), rig = text.find("# --- rig_X.toml");

@@ -16,7 +16,7 @@ TEST(ClockWatch, ReportsEachStepOnceWithItsSize) {
   EXPECT_EQ(watch.look(4 * kSecond, 5 * kSecond), -(kYears + 3600 * kSecond));
 }
 
-// NTP corrects a clock by at most half a millisecond a second.
+// NTP slews a clock by at most 0.5 ms per second.
 TEST(ClockWatch, ASlewedClockIsNotAStep) {
   ClockWatch watch;
   for (std::int64_t s = 0; s < 1000; ++s)

@@ -1,5 +1,5 @@
-// An encoder that restarts counting at 0 during a run: points before it remain valid, and later
-// points get no wrong position.
+// An encoder that starts again to count from 0 during a run. Earlier points remain valid, and
+// later points get no wrong position.
 #include "daemon/measure/pipeline.h"
 
 #include <gtest/gtest.h>
@@ -12,10 +12,10 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr int kStop = 500, kMove = 100;  // scans, at 1 kHz
+constexpr int kStop = 500, kMove = 100;  // numbers of scans, at 1 kHz
 
-// Stops at 0, 5, 10, 15, 20 mm and back. From stop `restart` on, the encoder shows 7 mm less and is
-// suspect.
+// Stops at -1, 0, 5, 10, 15, 20, 21 mm and at the same positions on the way back. From stop
+// `restart` on, the encoder shows 7 mm less and is suspect.
 class LostCountAxis {
  public:
   explicit LostCountAxis(int restart) {
@@ -78,7 +78,7 @@ std::string notices(const Run& run) {
   return test::shown(run.header.notices);
 }
 
-constexpr int kRestart = 8;  // at 15 mm on the way back
+constexpr int kRestart = 8;  // the stop at 15 mm on the way back
 constexpr std::size_t kBefore = kRestart * (kMove + kStop);
 
 TEST(Datum, StopsAfterItsLossAreOmittedAndCounted) {
@@ -103,7 +103,7 @@ TEST(Datum, StopsAfterItsLossAreOmittedAndCounted) {
 }
 
 TEST(Datum, AWrongPositionIsNotAGivenTarget) {
-  const LostCountAxis axis(kRestart);  // 7 mm less: 15 mm looks like 8, 12 would look like 5
+  const LostCountAxis axis(kRestart);  // encoder shows 7 mm less: 8 at 15 mm
   const auto run = measured(axis, axis.scans(), 100, {0, 0.005, 0.008, 0.010, 0.015, 0.020});
   ASSERT_TRUE(run) << run.error().message;
   for (const auto& p : run->points) EXPECT_NE(p.target, 3) << "a stop at 15 mm counted as 8 mm";
@@ -132,7 +132,7 @@ TEST(Datum, SingleSuspectReadingsCostNoStop) {
   EXPECT_EQ(notices(*run).find("stops_not_placed"), std::string::npos) << notices(*run);
 }
 
-// The encoder of a device has no position yet when the run begins.
+// When the run begins, the encoder has no position yet.
 TEST(Datum, AFirstScanWithoutPositionFailsNoRun) {
   const LostCountAxis axis(99);
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();

@@ -1,4 +1,5 @@
-// The position of an axis as a user sets it: found, then applied, and the notice after it is lost.
+// The position of an axis that a user sets: it is found and then applied. If the position is lost
+// later, a notice reports this.
 #include "daemon/station/encoder_zero.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ drivers::DriverSpec counting() {
   return device;
 }
 
-// 0.3 s of an axis at rest, up to now.
+// 0.3 s of samples of an axis at rest. The last sample is now.
 SampleBlock resting_at(double mm) {
   SampleBlock block{"t7", {{kEncoderChannel, Unit::mm}}, {}, {{}}, {{}}, 0};
   const std::int64_t end_ns = drivers::monotonic_ns();
@@ -57,7 +58,7 @@ TEST(EncoderZero, AFoundOffsetIsAppliedOnlyOnceItIsPut) {
 TEST(EncoderZero, VoltsAreOffsetByTheirScale) {
   EncoderZero zero({counting()}, std::nullopt, -500);
   SampleBlock block = resting_at(2);
-  block.channels[0].unit = Unit::volt;  // 2 V at -500 um/V: -1 mm
+  block.channels[0].unit = Unit::volt;  // 2 V at -500 um/V are -1 mm
   zero.apply(block);
   const auto found = zero.find(mdof::Axis::x, 0.004, "now");
   ASSERT_TRUE(found) << found.error().message;
@@ -94,7 +95,7 @@ TEST(EncoderZero, AnOffsetFoundBeforeALossIsRejected) {
 
 TEST(EncoderZero, ItsCountContinuesFromItsStartOrLastLoss) {
   EncoderZero zero({counting()});
-  EXPECT_FALSE(zero.has_counted_since(6));  // from an earlier start
+  EXPECT_FALSE(zero.has_counted_since(6));  // datum from an earlier start of mdofd
   zero.begins(7);
   EXPECT_TRUE(zero.has_counted_since(7));
   SampleBlock block = resting_at(3);
@@ -111,7 +112,7 @@ TEST(EncoderZero, ItsCountContinuesFromItsStartOrLastLoss) {
   EXPECT_TRUE(EncoderZero({absolute}).has_counted_since(6));
 }
 
-// The notice for Y at 12.5 mm, for any cause.
+// The notice that Y has lost its position 12.5 mm. The parameters give the cause of the loss.
 Notice lost_position(const char* utc, bool without_power, bool configured, bool counted) {
   return notice(NoticeCode::position_lost, "Y",
                 {{"position_mm", 12.5},
@@ -200,9 +201,10 @@ TEST(EncoderZero, AnOffsetFoundBeforeTheMarkIsRejected) {
   ASSERT_TRUE(zero.pass_mark("t7", "now"));
   EXPECT_FALSE(zero.put(*found, "me"));
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::index);
-  // The readings at rest before the mark cannot be used either.
+  // Readings at rest from before the mark cannot be used, even in a new search.
   EXPECT_FALSE(zero.find(mdof::Axis::y, 0.1, "now"));
-  // A position set after the mark is applied on top of the mark.
+  // If a user sets a position after the mark was passed, this position replaces the datum of the
+  // mark.
   block = resting_at(3);
   zero.apply(block);
   ASSERT_TRUE(zero.put(zero.find(mdof::Axis::y, 0.1, "now").value(), "me"));

@@ -1,5 +1,5 @@
-// A station with its own store, whose device delivers the samples that a test feeds, in the time of
-// the test.
+// A station with its own store. Its device delivers the samples that a test feeds, with the time
+// stamps of the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +25,8 @@
 
 namespace mdof::daemon {
 
-// The test's handle of a device; the station owns the driver. Thread-safe.
+// The object through which a test controls a device. The station owns the driver of the device.
+// Thread-safe.
 class Feed {
  public:
   void give(SampleBlock block) {
@@ -34,7 +35,7 @@ class Feed {
     ++given_;
     changed_.notify_all();
   }
-  // From now on, the encoder counts from its reference mark.
+  // The encoder passes its reference mark after the blocks that were given until now.
   void pass_mark() {
     const std::lock_guard lock(mutex_);
     mark_before_.push_back(given_);
@@ -44,7 +45,7 @@ class Feed {
     return static_cast<int>(std::count_if(mark_before_.begin(), mark_before_.end(),
                                           [this](std::size_t block) { return block < read_; }));
   }
-  // The device was away and counts from 0 again.
+  // Simulates a restart of the device: one read fails, then the encoder counts from 0.
   void lose_datum() {
     const std::lock_guard lock(mutex_);
     lost_ = mark_before_.size() + 1;
@@ -55,15 +56,15 @@ class Feed {
     const std::lock_guard lock(mutex_);
     return lost_ > mark_before_.size() ? "it counts from 0 again; drive it over its mark" : "";
   }
-  // The device answers neither reading nor opening until come_back().
+  // From go() to come_back(), open() and read() fail.
   void go() { set_gone(true); }
   void come_back() { set_gone(false); }
-  void end() {  // end of a file
+  void end() {  // the end of a log file
     const std::lock_guard lock(mutex_);
     ended_ = true;
     changed_.notify_all();
   }
-  // Waits until all samples were read and the reader, having processed them, asks for more.
+  // Waits until the station has read and processed all blocks.
   void wait_until_read() {
     std::unique_lock lock(mutex_);
     EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(20),
@@ -101,9 +102,9 @@ class Feed {
   std::condition_variable changed_;
   std::deque<SampleBlock> blocks_;
   bool gone_ = false, ended_ = false, gone_once_ = false;
-  bool in_hand_ = false;              // the reader has a block that is not processed yet
-  std::size_t lost_ = 0;              // greater than the number of marks: the datum is lost
-  std::size_t given_ = 0, read_ = 0;  // blocks
+  bool in_hand_ = false;  // the station has read a block and not processed it yet
+  std::size_t lost_ = 0;  // the datum is lost if this is greater than the size of mark_before_
+  std::size_t given_ = 0, read_ = 0;  // numbers of blocks
   std::vector<std::size_t> mark_before_;
 };
 
@@ -144,7 +145,7 @@ inline drivers::DriverSpec fed_by(std::shared_ptr<Feed> feed, bool live = true) 
   return spec;
 }
 
-// The events of a station, in order. Thread-safe.
+// Collects the events of a station in their order. Thread-safe.
 class Events {
  public:
   StationEvents sink() {
@@ -156,7 +157,8 @@ class Events {
     };
     return events;
   }
-  // Waits for the first run event with all these parts. Empty: none arrived.
+  // Waits for the first event of a run that contains all these texts. Returns it, or "" if none
+  // arrived.
   std::string wait_for(const std::vector<std::string>& parts) { return wait(run_events_, parts); }
   std::string wait_for_live(const std::vector<std::string>& parts) { return wait(live_, parts); }
   std::string wait_for_trouble(const std::vector<std::string>& parts) {
@@ -216,7 +218,7 @@ class FedStation : public ::testing::Test {
                   options, {[](std::int64_t, std::int64_t) {}, [](std::int64_t, const Error&) {}})
                   .value();
   }
-  // `index_mm`: position of the encoder's reference mark.
+  // `index_mm`: machine position of the encoder's reference mark.
   void make_station(bool live = true, std::optional<double> index_mm = std::nullopt) {
     feed_ = std::make_shared<Feed>();
     auto spec = fed_by(feed_, live);
@@ -225,7 +227,7 @@ class FedStation : public ::testing::Test {
                                          "# mdofd.toml of a test\n", folder_ / "recordings",
                                          *keeper_, events_.sink());
   }
-  // Begins or resumes a run.
+  // Begins the run of the request, or resumes an interrupted run.
   Result<std::int64_t> start(const RunRequest& request = {}) {
     std::promise<Result<std::int64_t>> id;
     station_->start_run(request, [&](const auto& begun) { id.set_value(begun); });
@@ -237,7 +239,7 @@ class FedStation : public ::testing::Test {
     station_->stop_run(abort, action, [&](const auto& ended) { id.set_value(ended); });
     return id.get_future().get();
   }
-  // Feeds scans begin ... end - 1, 100 a block.
+  // Feeds scans begin ... end - 1 in blocks of 100 scans.
   void give(const TestAxis& axis, std::size_t begin = 0, std::size_t end = SIZE_MAX) {
     for (std::size_t i = begin; i < std::min(end, axis.scans()); i += 100)
       feed_->give(axis.block(i, std::min(i + 100, end)));
@@ -256,7 +258,7 @@ class FedStation : public ::testing::Test {
   PipelineOptions options_;
   std::filesystem::path folder_;
   std::unique_ptr<Storekeeper> keeper_;
-  Events events_;  // outlives the station
+  Events events_;  // must outlive the station
   std::shared_ptr<Feed> feed_;
   std::unique_ptr<Station> station_;
 };

@@ -1,8 +1,12 @@
-// Faulty links during a run, in virtual time: two capaNCDT-like devices with the probes and a
-// T7-like one with the encoder, each with its own clock and packets of 4 ms. In each scenario one
-// link is slow, becomes slow, stalls and then delivers everything at once, loses or garbles
-// packets, or the time of a device stops. A point is wrong if its readings do not belong to its
-// position; no wrong point may be without a flag. The full campaign is MDOF_LINK_SCENARIOS=200.
+// Faulty links during a run, in virtual time. Two devices like the capaNCDT measure the probes,
+// and a device like the T7 counts the encoder. Each device has its own clock and packets of 4 ms.
+// In each scenario one link has one of these faults:
+// - it is slow, or becomes slow
+// - it stalls and then delivers everything at once
+// - it loses or damages packets
+// - the time of the device stops
+// A point is wrong if its readings do not belong to its position. Each wrong point must have a
+// flag. MDOF_LINK_SCENARIOS=200 runs the full campaign.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,15 +22,16 @@ namespace mdof::daemon {
 namespace {
 
 constexpr double kTick_s = 1e-3, kWrong_m = 20e-9;
-constexpr std::int64_t kPacket = 4;                            // ticks
-constexpr double kDwell_s = 0.5, kMove_s = 0.1, kStep_mm = 1;  // 10 mm/s
-constexpr int kLinkTargets = 8, kPasses = 8;                   // four runs, both directions
+constexpr std::int64_t kPacket = 4;                            // ticks in one packet
+constexpr double kDwell_s = 0.5, kMove_s = 0.1, kStep_mm = 1;  // the axis moves at 10 mm/s
+constexpr int kLinkTargets = 8, kPasses = 8;                   // four runs in both directions
 constexpr double kEnd_s = (kLinkTargets + 1) * kPasses * (kDwell_s + kMove_s);
-// Slopes of the probes A to E, µm per mm of travel: between two targets a reading changes by 1 µm
-// or more.
+// Slopes of the probes A to E in µm per mm of travel. Between two targets each reading changes by
+// at least 1 µm.
 constexpr std::array<double, 5> kSlope = {1.0, -1.3, 1.7, 2.1, -1.1};
 
-// From the reversal at -1 mm over the targets to beyond the last, and back.
+// Travel at time t_s. A pass begins at the reversal position of -1 mm, goes over the targets and
+// reverses beyond the last target; the next pass goes back.
 double travel_mm(double t_s) {
   const double step_s = kDwell_s + kMove_s;
   const auto place = [](std::int64_t stop) {
@@ -62,7 +67,7 @@ LinkFault trouble_of(std::uint32_t scenario) {
   return t;
 }
 
-// A device that samples by its own clock; its packets use a separate link.
+// A device that samples with its own clock and sends packets over its own link.
 class Device {
  public:
   Device(std::string name, std::vector<Channel> channels, double ppm, std::uint32_t seed)
@@ -72,7 +77,7 @@ class Device {
     return static_cast<double>(tick) * kTick_s / (1 + 1e-6 * ppm_) + stood_s_;
   }
 
-  // Time at which the next packet arrives. Packets do not overtake each other.
+  // Time at which the next packet arrives. A packet never arrives before an earlier packet.
   double received_s(const LinkFault* trouble) const {
     const Philox r = philox({static_cast<std::uint32_t>(next_), 0, 0, seed_}, 5);
     const double sent_s = true_s(next_ + kPacket - 1);
@@ -86,7 +91,7 @@ class Device {
     return std::max(last_received_s_, sent_s + delay_s);
   }
 
-  // Empty: the packet was lost.
+  // Returns the next packet; the block is empty if the packet was lost.
   SampleBlock take(const LinkFault* trouble, bool marks) {
     const double received = last_received_s_ = received_s(trouble);
     if (trouble && trouble->kind == Kind::stood_still && !stood_ && trouble->at(true_s(next_))) {
@@ -122,7 +127,7 @@ class Device {
       for (std::size_t c = 0; c < channels_.size(); ++c)
         block.value[c].push_back(reading(channels_[c].id, at_mm));
     }
-    if (marks && clock_.state().doubtful)  // as in daemon/acquisition
+    if (marks && clock_.state().doubtful)  // as daemon/acquisition does
       block.quality.assign(channels_.size(), std::vector<Quality>(block.scans(), Quality::suspect));
     return block;
   }
@@ -151,7 +156,7 @@ bool is_wrong(const Point& point) {
   for (std::size_t c = 0; c < kSlope.size(); ++c) {
     const double expected_m = kSlope[c] * 1e-3 * point.position_m;
     if (std::abs(point.probe_m[c] - expected_m) > kWrong_m)
-      return true;  // NaN: lost, which has a flag
+      return true;  // a reading that is NaN was lost, and its point has a flag
   }
   return false;
 }
@@ -178,7 +183,7 @@ Outcome measure(const LinkFault& trouble, bool marks) {
   }
   Outcome outcome;
   const auto run = pipeline.finish();
-  if (!run) return outcome;  // rejected with a reason
+  if (!run) return outcome;  // the run was rejected with a reason
   for (const MeasuredPoint& p : run->points) {
     const bool flagged = !p.point.flags.empty(), wrong = is_wrong(p.point);
     ++outcome.points;
@@ -211,17 +216,17 @@ TEST(LinkTrouble, NoPointIsWrongWithoutAFlag) {
     sum.unflagged += one.unflagged;
     sum.wrong += one.wrong;
   }
-  // Flagging every point would be useless.
+  // Most points must have no flag. Otherwise flags on all points would pass the test.
   EXPECT_GT(sum.unflagged, scenarios() * 25);
   RecordProperty("points", sum.points);
   RecordProperty("unflagged", sum.unflagged);
   RecordProperty("wrong_flagged", sum.wrong);
 }
 
-// Control: without the quality of the clock some points are wrong and have no flag.
+// Control: if the quality of the clock is ignored, some points are wrong and have no flag.
 TEST(LinkTrouble, WithoutTheClockQualitySomePointsAreWrong) {
   int wrong = 0;
-  for (int i = kKinds - 1; i < 30; i += kKinds)  // a device whose time stopped
+  for (int i = kKinds - 1; i < 30; i += kKinds)  // scenarios in which the time of a device stops
     wrong += measure(trouble_of(static_cast<std::uint32_t>(i)), false).wrong_unflagged;
   EXPECT_GT(wrong, 0);
 }

@@ -1,4 +1,4 @@
-// The entry of a device in device.list.
+// The JSON object of one device in device.list.
 #include "daemon/station/live_json.h"
 
 #include <gtest/gtest.h>

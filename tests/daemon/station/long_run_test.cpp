@@ -1,6 +1,7 @@
-// A run of 10,000 points: the cost of a point does not increase with the number of points before
-// it, its end costs less than its measurement, and the result equals that of a pipeline that is
-// read only at the end.
+// A run of 10,000 points.
+// - The CPU time for a point does not increase with the number of earlier points.
+// - The end of the run needs less CPU time than the measurement.
+// - The result equals the result of a pipeline that is read only at the end.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,10 +13,11 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr int kTargets = 6, kPoints = 10'000, kStopScans = 40, kMoveScans = 8;  // scans, at 100 Hz
+// KStopScans, kMoveScans: numbers of scans, at 100 Hz.
+constexpr int kTargets = 6, kPoints = 10'000, kStopScans = 40, kMoveScans = 8;
 
-// An axis over 20 targets and back, reversing 1 mm beyond both ends. Returns the scans of one stop
-// after the other, with the travel to it.
+// An axis that moves over the six targets and back, and reverses 1 mm beyond both ends. Each call
+// returns the scans of one stop and of the movement to it.
 class LongAxis {
  public:
   SampleBlock next_stop() {
@@ -79,14 +81,14 @@ TEST(LongRun, APointCostsTheSameAtTheEndAsAtTheStart) {
     early_s += points >= 1'000 && points < 2'000 ? took_s : 0;
     late_s += points >= 5'000 ? took_s : 0;
   }
-  // If the cost increased with the number of points before, five times as many points would cost
-  // five times as much each.
+  // If the time of a point increased with the number of earlier points, a point would need about
+  // five times as long after five times as many points.
   RecordProperty("early_us_a_point", std::to_string(1e3 * early_s));
   RecordProperty("late_us_a_point", std::to_string(1e6 * late_s / 5'000));
   EXPECT_LT(late_s / 5, 2.5 * early_s);
   const double measured_s = cpu_s();
   const auto a = asked.finish();
-  // With six targets there are 833 runs; the last one lacks visits.
+  // 10,000 points at six targets are 833 runs and an incomplete run.
   EXPECT_LT(cpu_s() - measured_s, 0.5 * (measured_s - begin_s));
   const auto b = silent.finish();
   ASSERT_TRUE(a && b);

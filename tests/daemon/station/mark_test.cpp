@@ -1,4 +1,5 @@
-// An encoder with a reference mark: before the axis passes it, after it, and during a run.
+// An encoder with a reference mark, in three cases: before the axis passes the mark, after it, and
+// during a run.
 #include "daemon/measure/replay/request_json.h"
 #include "daemon/station/resume.h"
 #include "daemon/words/error_text.h"
@@ -18,7 +19,7 @@ class StationMark : public FedStation {
     FedStation::SetUp();
     make_station(true, kMark_mm);
   }
-  // Feeds the first scan after the mark and waits until the station has the datum.
+  // Feeds 100 scans after the mark and waits until the station has the datum.
   void pass_mark(std::size_t scan = 0) {
     feed_->pass_mark();
     give(axis_, scan, scan + 100);
@@ -75,7 +76,7 @@ TEST_F(StationMark, OnlyARunAfterTheMarkHasMachinePositions) {
   EXPECT_NEAR(run.points[1].point.position_m, 0.0175, 1e-6);
 }
 
-// The new process has not seen the mark.
+// The axis has not passed the mark since the new process started.
 TEST_F(StationMark, AfterARestartItMustBePassedAgain) {
   pass_mark();
   make_station(true, kMark_mm);
@@ -96,7 +97,7 @@ TEST_F(StationMark, ARunEndsWhereTheMarkIsPassed) {
   EXPECT_EQ(datum_of(run).kind, EncoderDatum::Kind::none);
   for (const auto& p : run.points) EXPECT_LT(p.point.position_m, 0.0101);
   EXPECT_LE(run.header.scans, 1500u);
-  // Two datums cannot be combined in one run.
+  // A run may not contain positions of two datums.
   EXPECT_SAYS(resume_refusal(*id), "start a new run");
   EXPECT_EQ(measured().header.state, RunState::complete);
 }
@@ -138,7 +139,7 @@ TEST_F(StationMark, AfterAPowerLossTheSameMarkIsTheSameDatum) {
   EXPECT_EQ(station_->encoder().datum.offset_m, 1e-3 * kMark_mm);
   wait_for([this] { return station_->devices()[0].standing.empty(); });
   EXPECT_EQ(station_->run(), *id);
-  // A second loss is reported again.
+  // The datum is lost again, and the loss must be reported again.
   feed_->lose_datum();
   wait_for([this] { return kind() == EncoderDatum::Kind::none; });
   const auto ended = stop(true);

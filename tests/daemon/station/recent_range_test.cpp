@@ -10,7 +10,7 @@
 namespace mdof::daemon {
 namespace {
 
-// Readings of one probe, one each millisecond from `begin_ms`.
+// Readings of one probe. The first reading is at `begin_ms`, and the interval is 1 ms.
 FrameBlock frames(std::int64_t begin_ms, const std::vector<double>& readings_m) {
   FrameBlock block;
   for (std::size_t i = 0; i < readings_m.size(); ++i)
@@ -30,7 +30,7 @@ TEST(RecentRange, IsTheRangeOfTheLastSecond) {
   recent.add(frames(1000, {1.5}));
   EXPECT_EQ(recent.of(0).low_m, 1.0);
   EXPECT_EQ(recent.of(0).high_m, 2.0);
-  recent.add(frames(60'000, {5.0}));  // after a pause no earlier reading remains
+  recent.add(frames(60'000, {5.0}));  // after a pause, no earlier reading is kept
   EXPECT_EQ(recent.of(0).low_m, 5.0);
   EXPECT_EQ(recent.of(0).high_m, 5.0);
 }
@@ -78,7 +78,8 @@ double number_of(const std::string& json, const std::string& member) {
                                  : std::strtod(json.c_str() + at + member.size() + 3, nullptr);
 }
 
-// One scan of a probe is an outlier, later ones are not; an update shows only the newest scan.
+// Only one scan of a probe is an outlier. An update shows the newest scan, but its range must
+// contain the outlier.
 TEST_F(FedStation, ASpikeBetweenTwoUpdatesIsInTheNextOne) {
   station_->watch(std::chrono::milliseconds(20));
   TestAxis axis(0);

@@ -22,7 +22,8 @@ TEST(Continuation, AClockThatRestartedContinuesAfterTheRecording) {
   SampleBlock first = block("t7", 1'000'000), late = block("capa", 1'000'000 - 2'000'000'000),
               next = block("t7", 1'500'000);
   for (SampleBlock* b : {&first, &late, &next}) continuation.shift(*b);
-  EXPECT_GT(late.time_ns.front(), kEnd_ns);  // also for a device that is behind
+  // Also for the device whose time stamps are 2 s earlier.
+  EXPECT_GT(late.time_ns.front(), kEnd_ns);
   EXPECT_EQ(first.time_ns.front() - late.time_ns.front(), 2'000'000'000);
   EXPECT_EQ(next.time_ns.front() - first.time_ns.front(), 500'000);
   EXPECT_EQ(first.time_ns[1] - first.time_ns[0], 250'000);
@@ -55,7 +56,7 @@ std::string why_not(const EncoderDatum& of_run, const EncoderDatum& now, bool co
   return same ? "goes on" : words::text(same.error());
 }
 
-// Positions 10 mm apart must not be combined under one target number.
+// The two datums differ by 10 mm. Their positions must not have the same target number.
 TEST(SameDatum, ALostDatumMustBeSetAgainFirst) {
   using Kind = EncoderDatum::Kind;
   for (const Kind known : {Kind::set, Kind::configured}) {
@@ -63,7 +64,8 @@ TEST(SameDatum, ALostDatumMustBeSetAgainFirst) {
     EXPECT_NE(why.find("run 7 cannot be continued"), std::string::npos) << why;
     EXPECT_NE(why.find("mdof encoder set"), std::string::npos) << why;
     EXPECT_NE(why.find("30 mm"), std::string::npos) << why;
-    // After a new setting its count may differ: the positions are machine positions again.
+    // After a user has set the position again, the offset may differ, because the positions are
+    // machine positions again.
     EXPECT_EQ(why_not(datum(known, 0.03), datum(Kind::set, 0.04), false), "goes on");
   }
   EXPECT_EQ(why_not(datum(Kind::set, 0.03), datum(Kind::set, 0.03), true), "goes on");
@@ -75,7 +77,7 @@ TEST(SameDatum, WithoutADatumARunResumesOnlyInTheSameCount) {
   EXPECT_EQ(why_not(none, none, true), "goes on");
   EXPECT_NE(why_not(none, none, false).find("start a new run"), std::string::npos);
   EXPECT_NE(why_not(none, datum(Kind::set, 0.01), true).find("start a new run"), std::string::npos);
-  // offset_mm is valid only for the count that it was intended for.
+  // A configured offset_mm is valid only for the count for which the user determined it.
   const EncoderDatum configured = datum(Kind::configured, 0.01);
   EXPECT_EQ(why_not(configured, configured, true), "goes on");
   EXPECT_NE(why_not(configured, configured, false).find("mdof encoder set"), std::string::npos);

@@ -8,7 +8,8 @@
 namespace mdof::daemon {
 namespace {
 
-// As for a long run that is resumed: one line cannot hold all points, and none may be lost.
+// A resumed long run has many points. One message cannot contain all of them, and none may be
+// lost.
 TEST(RunEvents, ManyPointsAreDividedIntoMessages) {
   std::vector<MeasuredPoint> points(500);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -17,7 +18,7 @@ TEST(RunEvents, ManyPointsAreDividedIntoMessages) {
     for (double& x : points[i].errors.local) x = 1.23456789012345e-6;
     for (double& x : points[i].errors.covariance) x = 1.23456789012345e-14;
   }
-  points.insert(points.begin(), 40, points.front());  // already sent
+  points.insert(points.begin(), 40, points.front());  // these points were already sent
   const auto messages = points_messages(7, test::rig_x(), Model::exact, points, 40);
   EXPECT_GT(messages.size(), 1u);
   std::uint64_t next = 40;

@@ -1,4 +1,4 @@
-// A run as its user sees it: started, measured and ended, also by other causes.
+// A run from the user's view: start, measurement and end. Other causes may also end a run.
 #include "daemon/station/station.h"
 
 #include "daemon/measure/replay/replay.h"
@@ -81,7 +81,7 @@ TEST_F(StationTest, ARunEndsByItselfWhenItIsFull) {
 
 TEST_F(StationTest, PointsAreReportedOnceStoredAndTheEndLast) {
   const auto id = start(both_ways_once());
-  give(axis_, 0, 1400);  // three stops, the third still in progress
+  give(axis_, 0, 1400);  // three stops; the third is still in progress
   EXPECT_SAYS(events_.wait_for({"\"points\":["}), "\"offset\":0");
   EXPECT_GE(stored(*id).points.size(), 1u);
   const std::string progress = events_.wait_for({"\"progress\"", "\"done\":2"});
@@ -92,7 +92,8 @@ TEST_F(StationTest, PointsAreReportedOnceStoredAndTheEndLast) {
   EXPECT_SAYS(events_.wait_for({"\"ended\""}), "\"state\":\"complete\"");
 }
 
-// Reported once, while the run continues; without targets each stop is a point.
+// A stop that is near no target is reported while the run continues, and only once. In a run
+// without targets, each stop is a point.
 TEST_F(StationTest, AStopNearNoTargetIsReportedAtOnce) {
   RunRequest request = both_ways_once();
   const double left_out_m = request.targets_m[1];
@@ -168,7 +169,7 @@ TEST_F(StationTest, ARunThatMeasuredNothingFailsWithTheReason) {
 
 TEST_F(StationTest, AnEarlyStopGivesAPartialRunThatCanBeResumed) {
   const auto id = start(both_ways_once());
-  give(axis_, 0, 1700);  // three stops and the reversal
+  give(axis_, 0, 1700);  // three stops and the movement after them
   ASSERT_TRUE(stop());
   const mdof::Run first = stored(*id);
   EXPECT_EQ(first.header.state, RunState::partial);
@@ -184,7 +185,7 @@ TEST_F(StationTest, AnEarlyStopGivesAPartialRunThatCanBeResumed) {
   const auto next = start(*request);
   ASSERT_TRUE(next) << next.error().message;
   EXPECT_GT(*next, *id);
-  give(axis_, 1400);  // from the last stop on
+  give(axis_, 1400);  // from the last stop to the end
   ASSERT_FALSE(events_.wait_for({"\"ended\"", "\"complete\""}).empty());
   const mdof::Run whole = stored(*next);
   EXPECT_EQ(whole.header.state, RunState::complete);

@@ -1,4 +1,4 @@
-// Interruptions: a device that is lost and returns, the end of the program, a log instead of a
+// Interruptions of a run: a device is lost and returns, the program ends, or a log replaces the
 // device.
 #include "daemon/station/resume.h"
 #include "drivers/clock/monotonic.h"
@@ -12,7 +12,7 @@ namespace {
 class StationTrouble : public FedStation {
  protected:
   StationTrouble() { axis_.pass_both_ways({0, 5, 10}); }
-  static constexpr std::size_t kAtThird = 1400;  // scans: the third stop is in progress
+  static constexpr std::size_t kAtThird = 1400;  // scan at which the third stop is in progress
   TestAxis axis_;
 };
 
@@ -24,9 +24,9 @@ TEST_F(StationTrouble, ADeviceLossCostsOnlyTheUnseenPoints) {
   EXPECT_EQ(station_->devices().front().state, "failed: reopening");
   EXPECT_EQ(station_->run(), *id) << "the run goes on";
   feed_->come_back();
-  give(axis_, kAtThird + 300);  // 0.3 s without samples
+  give(axis_, kAtThird + 300);  // 0.3 s of samples are missing
   ASSERT_FALSE(events_.wait_for_trouble({"back"}).empty());
-  const auto read = stop();  // the approach of the last stop is known only then
+  const auto read = stop();  // the approach of the last stop is known only now
   ASSERT_TRUE(read) << read.error().message;
   const mdof::Run run = stored(*read);
   EXPECT_EQ(run.header.state, RunState::complete) << notices(run);
@@ -68,19 +68,19 @@ TEST_F(StationTrouble, TheEndOfTheProgramEndsAnOpenRunAsAborted) {
 
 TEST_F(StationTrouble, TheProgramEndsInEveryStateWithoutALongWait) {
   const auto begin = std::chrono::steady_clock::now();
-  station_.reset();  // without a run
+  station_.reset();  // ends without a run
   make_station();
-  feed_->go();  // with a lost device
+  feed_->go();  // the device is lost
   ASSERT_FALSE(events_.wait_for_trouble({"lost"}).empty());
-  ASSERT_TRUE(start());  // and with a run on it
+  ASSERT_TRUE(start());  // a run starts although the device is lost; the program then ends
   station_.reset();
   make_station();
   ASSERT_TRUE(start());
   station_->stop_run(false, action_now("run.stop", this_process()), {});
-  station_.reset();  // with a run that is ending
+  station_.reset();  // ends while a run is ending
   make_station();
   station_->start_run({}, [](const auto&) {});
-  station_.reset();  // with a run that is starting
+  station_.reset();  // ends while a run is starting
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
   keeper_.reset();
   auto store = store::Store::open(folder_ / "mdof.db", store::Access::read_only);
@@ -100,7 +100,7 @@ TEST_F(StationTrouble, AnEndWhileResumingLeavesTheRunAborted) {
   std::promise<Result<std::int64_t>> resumed;
   station_->start_run(*request, [&](const auto& run) { resumed.set_value(run); });
   station_.reset();
-  const auto next = resumed.get_future().get();  // answered in any case
+  const auto next = resumed.get_future().get();  // the request is answered in any case
   keeper_.reset();
   EXPECT_EQ(stored(*id).header.state, RunState::aborted);
   if (next)
@@ -121,7 +121,8 @@ TEST_F(StationTrouble, ALogIsReadOnceForEachRunAndEndsIt) {
     const std::string run = "\"run\":" + std::to_string(*id);
     EXPECT_TEXT_CONTAINS(events_.wait_for({"\"ended\"", run}), pass == 0 ? "complete" : "failed");
     const mdof::Run read = stored(*id);
-    EXPECT_EQ(read.points.size(), pass == 0 ? 6u : 0u);  // the feed is empty the second time
+    // In the second pass the log has no samples.
+    EXPECT_EQ(read.points.size(), pass == 0 ? 6u : 0u);
     EXPECT_EQ(read.header.provenance.recording_kind, "replay");
     EXPECT_EQ(read.header.provenance.recording_path, "/logs/of_a_test.csv");
   }
@@ -139,10 +140,10 @@ TEST_F(StationTrouble, TheLiveViewShowsTheAxisWithAndWithoutARun) {
   EXPECT_FALSE(events_.wait_for_live({"\"stale\":true"}).empty()) << "nothing comes any more";
 }
 
-// For an encoder that counts from where it was switched on.
+// For an encoder that counts from its position at switch-on.
 class StationDatum : public FedStation {
  protected:
-  // Two seconds at rest, up to now: the position of the axis can then be set.
+  // Two seconds of samples at rest, until now. After this a user can set the position of the axis.
   void rest_until_now(double mm) {
     TestAxis parked(mm);
     parked.stand(2);
@@ -168,7 +169,7 @@ TEST_F(StationDatum, IsThePositionThatTheUserSets) {
   EXPECT_TEXT_CONTAINS(nothing.error().message, "the encoder has sent no sample");
   EXPECT_EQ(station_->run(), 0);
   Result<EncoderDatum> datum = nothing;
-  for (int i = 0; i < 20 && !datum; ++i) {  // a busy machine may be too slow
+  for (int i = 0; i < 20 && !datum; ++i) {  // repeated, because a busy machine may be too slow
     rest_until_now(2);
     datum = set(12.5);
   }

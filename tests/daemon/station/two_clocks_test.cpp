@@ -1,5 +1,6 @@
-// Probe and encoder on two devices: clocks 100 ppm apart, packets with 3 ms of jitter, an axis
-// moving at 20 mm/s over a slope of 50 µm/m. The misalignment changes a reading by less than 5 nm.
+// Probe and encoder on two devices. Their clocks differ by 100 ppm, and their packets have 3 ms of
+// jitter. The axis moves at 20 mm/s over a slope of 50 µm/m. The remaining error of time changes a
+// reading by less than 5 nm.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +16,7 @@ constexpr double kSpeed_m_s = 0.020, kSlope = 50e-6, kBound_m = 5e-9;
 constexpr double kJitter_ns = 3e6;
 constexpr std::int64_t kPacket = 8;
 
-// A device that samples `rate_hz` by its own clock; its packets are delayed.
+// A device that samples at `rate_hz` of its own clock. Its packets arrive late.
 class Device {
  public:
   enum class Times { fitted, nominal };
@@ -34,7 +35,8 @@ class Device {
     const Philox r = philox({static_cast<std::uint32_t>(next_), 0, 0, seed_}, 5);
     return true_s(next_ + kPacket - 1) + 1e-9 * kJitter_ns * uniform(r[0], r[1]);
   }
-  // The next packet: `value` at the true time of each sample, with the time stamp of the clock.
+  // Returns the next packet. Each sample is `value` at its true time; its time stamp is calculated
+  // by the clock model.
   template <class Value>
   SampleBlock packet(Value value) {
     clock_.add(next_ + kPacket - 1, std::llround(received_s() * 1e9));
@@ -60,7 +62,7 @@ class Device {
   std::int64_t next_ = 0;
 };
 
-// The largest error of a reading in 100 s, m.
+// The largest error of a reading in 100 s; m.
 double worst_m(Device::Times times) {
   const auto travel_m = [](double t_s) { return kSpeed_m_s * t_s; };
   Device encoder(kEncoderChannel, 4000, -50, 1, times), probe("A", 3900, 50, 2, times);
@@ -92,7 +94,8 @@ TEST(TwoClocks, AProbeIsAlignedToTheEncodersTimeWithin5nm) {
   RecordProperty("worst_nm", std::to_string(worst * 1e9));
 }
 
-// Control: the nominal rate of each device is assumed to be its true rate.
+// Control: if the nominal rates of the devices are used as true rates, the error exceeds the
+// limit.
 TEST(TwoClocks, NominalRatesAreNotSufficient) {
   EXPECT_GT(worst_m(Device::Times::nominal), kBound_m);
 }

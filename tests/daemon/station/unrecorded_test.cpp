@@ -40,7 +40,7 @@ TEST(Unrecorded, TheBlocksOfADeviceAreJoined) {
   EXPECT_TRUE(unrecorded.take().empty());
 }
 
-// A loss is reported in the block that follows it.
+// The number of lost scans belongs to the block after the loss.
 TEST(Unrecorded, ANewBlockBeginsAfterALoss) {
   Unrecorded unrecorded;
   unrecorded.add(block("capa", 0, 2));
@@ -67,7 +67,7 @@ TEST(Unrecorded, ANewBlockBeginsWithOtherChannels) {
   EXPECT_EQ(taken[1].channels, other.channels);
 }
 
-// Missing qualities of a device mean good.
+// If a device reports no qualities, its samples are good.
 TEST(Unrecorded, MissingQualityMeansGood) {
   Unrecorded unrecorded;
   SampleBlock silent = block("capa", 0, 2);

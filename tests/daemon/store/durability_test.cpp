@@ -1,4 +1,4 @@
-// Full disks, killed writers, concurrent readers.
+// The store with a full disk, with a killed writer and with concurrent readers.
 #include <fcntl.h>
 #include <sys/resource.h>
 
@@ -14,7 +14,8 @@
 namespace mdof::store {
 namespace {
 
-// Adds runs until the disk is full, frees space, and continues.
+// Adds runs until the disk is full. Then frees space and adds a run again. Returns true if all
+// stored runs are valid and the store works again.
 bool survives_full_disk(const fs::path& folder) {
   const fs::path ballast = folder / "ballast", file = folder / "mdof.db";
   {
@@ -32,7 +33,7 @@ bool survives_full_disk(const fs::path& folder) {
     return false;
   if (store->count_runs().value() != stored || !store->verify()->empty()) return false;
   fs::remove(ballast);
-  const auto again = store->add_run(make_run(200));  // the same object, without a restart
+  const auto again = store->add_run(make_run(200));  // the same store object must work again
   return again && *again == stored + 1 && store->verify()->empty();
 }
 
@@ -63,7 +64,7 @@ bool recording_survives_full_disk(const fs::path& folder) {
   std::fprintf(stderr, "%s\n", acknowledged.error().message.c_str());
   if (last != appended - 1) return false;
   fs::remove(ballast);
-  // Data accepted before the disk was full are not lost.
+  // If the store accepted data before the disk was full, it must still have them.
   return writer->commit().value_or(0) == appended && writer->finish("later");
 }
 
@@ -77,7 +78,7 @@ TEST_F(StoreTest, ARecordingSurvivesAFullDisk) {
                       [&] { return recording_survives_full_disk(folder_); });
 }
 
-// The same without root: a limit on the size of files.
+// A limit of the file size has the same effect as a full disk, and needs no root.
 TEST_F(StoreTest, AFileThatCannotGrowStoresNothingPartly) {
   const pid_t child = fork();
   if (child == 0) {
@@ -97,11 +98,11 @@ TEST_F(StoreTest, AFileThatCannotGrowStoresNothingPartly) {
   int status = 0;
   waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
-  EXPECT_TRUE(writer()->add_run(make_run(100)));  // without the limit
+  EXPECT_TRUE(writer()->add_run(make_run(100)));  // the limit no longer applies
   EXPECT_TRUE(reader()->verify()->empty());
 }
 
-// Appends to a live run and reports each acknowledged row through the pipe, until it is killed.
+// Appends points to a run until the process is killed. Reports each stored row through the pipe.
 [[noreturn]] void append_until_killed(const fs::path& file, int pipe_fd) {
   auto store = Store::open(file, Access::read_write);
   if (!store) _exit(1);
@@ -137,7 +138,8 @@ TEST_F(StoreTest, NothingAcknowledgedIsLostBySigkill) {
   }
 }
 
-// Each reader sees only complete runs, and at least those that existed when it began.
+// Each reader gets only complete runs. It gets at least the runs that existed when it began to
+// read.
 TEST_F(StoreTest, TwoReadersSeeWholeRunsWhileOneWrites) {
   auto store = writer();
   ASSERT_TRUE(store->add_run(make_run(40)));

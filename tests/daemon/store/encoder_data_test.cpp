@@ -1,4 +1,5 @@
-// Positions of an axis that a user set: stored with the user and under the hashes of the ledger.
+// Positions of an axis that a user set. The store keeps the user's name, and the hashes of the
+// ledger cover both.
 #include <gtest/gtest.h>
 
 #include "daemon/store/file/migrate.h"
@@ -75,7 +76,7 @@ TEST_F(EncoderData, IsAppendOnly) {
     EXPECT_TRUE(contains(db->execute(sql).error().message, "append only")) << sql;
 }
 
-// With schema version 9, which had no actions of encoders.
+// A database of schema version 9, which had no actions of encoders.
 TEST_F(EncoderData, ActionsOfOlderVersionsKeepTheirHashes) {
   constexpr std::size_t kBefore = 9;
   {

@@ -1,4 +1,5 @@
-// A separate folder for each test, runs to store, and changes that a test makes to a file system.
+// For the tests of the store: a separate folder for each test, example runs, and changes to a file
+// system.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ class StoreTest : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
   Result<Store> writer() { return Store::open(file_, Access::read_write, {Durability::full, 50}); }
   Result<Store> reader() { return Store::open(file_, Access::read_only, {Durability::full, 50}); }
-  // Executes SQL from outside, as an accidental change or a disk fault.
+  // Executes SQL that does not use the store. It simulates an accidental change or a disk fault.
   void tamper(const std::string& sql) {
     auto connection = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
     ASSERT_TRUE(connection);
@@ -108,10 +109,11 @@ inline CompensationTable make_table(std::vector<std::int64_t> runs, Axis axis = 
   return table;
 }
 
-inline constexpr int kCannot = 77;  // exit code of a child if the machine does not permit the test
+// Exit code of a child process if the machine does not permit the test.
+inline constexpr int kCannot = 77;
 
-// Runs `body` in a child with its own mounts, which `prepare` makes. Skips the test if the machine
-// does not permit this.
+// Runs `body` in a child process after `prepare` has made the mounts of that process. Skips the
+// test if the machine does not permit mounts.
 template <class Prepare, class Body>
 void with_private_mounts(Prepare prepare, Body body) {
   const pid_t child = fork();

@@ -1,4 +1,5 @@
-// Who made a change: stored together with the change and under the hashes of the ledger.
+// The user who made a change. The store keeps the user together with the change, and the hashes of
+// the ledger cover both.
 #include "daemon/store/store.h"
 #include "tests/daemon/store/fixtures.h"
 
@@ -11,7 +12,8 @@ HistoryEntry by_anna(const std::string& name) {
 
 class Deeds : public StoreTest {
  protected:
-  // A run that anna started and stopped and whose points were renumbered; returns the run to read.
+  // The user anna starts and stops a run. At the end its points are renumbered, so a second run
+  // has the result. Returns the second run.
   static std::int64_t measured(Store& store) {
     mdof::Run run = make_run(3);
     const auto id = store.begin_run(run.header, by_anna("run.start")).value();
@@ -29,7 +31,8 @@ class Deeds : public StoreTest {
   }
 };
 
-// The run that supersedes it has the result. A run that was interrupted and resumed remains listed.
+// The second run supersedes the first run and has the result. A run that was interrupted and
+// resumed is still listed.
 TEST_F(Deeds, ARenumberedRunIsNotListedAsAResult) {
   using Listed = store::Store::Listed;
   auto store = writer();
@@ -53,7 +56,7 @@ TEST_F(Deeds, EachChangeHasItsAction) {
   const auto run = measured(*store);
   const auto actions = store->run_actions(run).value();
   EXPECT_EQ(names(actions),
-            "run.start run 1; run.stop run 1; ");  // the actions of the run that it supersedes
+            "run.start run 1; run.stop run 1; ");  // actions of the superseded run
   EXPECT_EQ(actions[1].by.uid, 1000);
   EXPECT_EQ(actions[1].by.gid, 100);
   EXPECT_EQ(actions[1].by.pid, 4711);

@@ -1,6 +1,6 @@
-// No bit of the data that an active table depends on may change undetected. Each bit is flipped in
-// the file; then the store must serve the stored values or refuse, and verify() must report the
-// change.
+// An active table depends on data of the store, and no bit of these data may change undetected.
+// The test inverts each bit in the file. Then the store must return the stored values or an error,
+// and verify() must report the change.
 #include <fstream>
 #include <regex>
 
@@ -21,7 +21,7 @@ std::string contents(const fs::path& file) {
 
 class LedgerTest : public StoreTest {
  protected:
-  // Two tables for X, the second of them active, and one for Y, deactivated.
+  // Two tables for X, of which the second is active. One table for Y, which is deactivated.
   void store_all() {
     auto store = writer();
     ASSERT_TRUE(store) << store.error().message;
@@ -38,7 +38,7 @@ class LedgerTest : public StoreTest {
     ASSERT_TRUE(store->add_squareness(squareness));
   }
 
-  // The values that a client is served; empty if refused.
+  // The values that a client gets; empty if the store returns an error.
   static std::string served(Result<Store>& store) {
     std::string all;
     for (const Axis axis : {Axis::x, Axis::y}) {
@@ -60,7 +60,7 @@ class LedgerTest : public StoreTest {
     return !findings || !findings->empty();
   }
 
-  // Makes one plain file, as it is on the disk.
+  // Merges the journal into the database, so that all data are in one file.
   void close_journal() {
     auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
     ASSERT_TRUE(db->execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE"));
@@ -83,8 +83,8 @@ TEST_F(LedgerTest, EveryBitOfTheActivationsIsUnderAHash) {
     ASSERT_TRUE(before.starts_with("2X") && before.ends_with("none|")) << before;
     ASSERT_FALSE(found_by_verify(store));
   }
-  // The rows as SQLite stores them: length, generation, five (four) types, axis, table (none for
-  // 1).
+  // A row in SQLite's format: length of the header, generation, four or five types, axis, table.
+  // The value of table 1 needs no bytes.
   const std::regex row(std::string("([^]{12}[XYZ][\\x02-\\x7f]|[^]{12}X|[^]{11}Y)") + kActor +
                        "2026-11-21T05:00:0[0-9]");
   std::fstream file(file_, std::ios::binary | std::ios::in | std::ios::out);
@@ -106,10 +106,11 @@ TEST_F(LedgerTest, EveryBitOfTheActivationsIsUnderAHash) {
     }
   }
   EXPECT_GE(bits, 904);
-  EXPECT_LE(unread, rows);  // one bit of the type of each key, which SQLite takes from elsewhere
+  // SQLite does not use one bit of the type of each key, because it stores the key elsewhere.
+  EXPECT_LE(unread, rows);
 }
 
-// Accidental changes: the triggers are dropped first.
+// The test drops the triggers first, so that SQL can change the data as by accident.
 TEST_F(LedgerTest, EveryFactIsCheckedWhenServedAndByVerify) {
   store_all();
   close_journal();
@@ -160,8 +161,8 @@ TEST_F(LedgerTest, EveryFactIsCheckedWhenServedAndByVerify) {
   }
 }
 
-// A consistent chain over other facts, which the database alone cannot distinguish from the true
-// one.
+// An attacker replaces data and recalculates the whole chain of hashes. The database alone cannot
+// show this; only the head that was announced earlier can.
 TEST_F(LedgerTest, ARecalculatedChainDiffersFromTheAnnouncedHead) {
   store_all();
   ChainHead reported;
@@ -176,7 +177,7 @@ TEST_F(LedgerTest, ARecalculatedChainDiffersFromTheAnnouncedHead) {
   ASSERT_TRUE(write_announced_head(file_, {reported, generation}));
   EXPECT_TRUE(reader()->active(Axis::x));
   EXPECT_TRUE(reader()->verify()->empty());
-  {  // an ordinary change continues the chain
+  {  // a permitted change extends the chain
     ASSERT_TRUE(writer()->add_run(make_run(4)));
     auto store = reader();
     EXPECT_NE(store->chain_head()->link, reported.link);
@@ -214,7 +215,7 @@ TEST_F(LedgerTest, ChangedRowsAreServedOnNoPage) {
   ASSERT_EQ(page.size(), 5u);
   EXPECT_EQ(page[0].target, make_run(22).points[10].target);
   tamper("DROP TRIGGER point_no_update; UPDATE point SET ez_rad = ez_rad + 1e-9 WHERE row = 12");
-  EXPECT_TRUE(store->points(run, 0, 10));  // these rows are unchanged
+  EXPECT_TRUE(store->points(run, 0, 10));  // this part of the points did not change
   EXPECT_FALSE(store->points(run, 10, 5));
   EXPECT_FALSE(reader()->points(run, 0, 10)) << "of a run that is not what was stored";
 }

@@ -1,4 +1,5 @@
-// Opening files that are not the store's own, not complete, or of another version.
+// Files that the store must not open, or must repair first: foreign files, incomplete files, and
+// files of other versions.
 #include <fstream>
 
 #include "daemon/store/file/migrate.h"
@@ -88,7 +89,8 @@ TEST_F(StoreTest, RejectsASecondWriter) {
   EXPECT_TRUE(writer());
 }
 
-// A second program with another name would write beside the first and mark its run as aborted.
+// If a second program opened the file under another name, it would write at the same time and mark
+// the run of the first program as aborted.
 TEST_F(StoreTest, RejectsASecondWriterByAnyName) {
   const auto first = writer();
   ASSERT_TRUE(first);
@@ -105,7 +107,8 @@ TEST_F(StoreTest, RejectsASecondWriterByAnyName) {
   }
 }
 
-// Two names have two journals, and a program that opens one name does not see the other journal.
+// SQLite names its journal after the file. If a file has two names, a program that uses one name
+// does not find the journal of the other name.
 TEST_F(StoreTest, RejectsAHardLinkUntilTheOtherNameIsRemoved) {
   { ASSERT_TRUE(writer()); }
   const fs::path other = folder_ / "other.db";
@@ -119,7 +122,8 @@ TEST_F(StoreTest, RejectsAHardLinkUntilTheOtherNameIsRemoved) {
   EXPECT_TRUE(reader());
 }
 
-// Closing the file after the query must not drop the locks of SQLite in this process.
+// Closing a file drops all locks of the process on this file. The query of the lock must not drop
+// SQLite's locks in this way.
 TEST_F(StoreTest, QueryingTheLockKeepsTheLocksOfAReader) {
   { ASSERT_TRUE(writer()); }
   auto held = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
@@ -136,7 +140,8 @@ TEST_F(StoreTest, QueryingTheLockKeepsTheLocksOfAReader) {
   EXPECT_EQ(status, 0) << "another process could begin to write";
 }
 
-// A program that is killed in the middle of a transaction that has begun to change the file itself.
+// Simulates a program that was killed during a transaction, after it had begun to change the
+// database file.
 void leave_half_written(const fs::path& file) {
   const pid_t child = fork();
   if (child == 0) {
@@ -148,7 +153,7 @@ void leave_half_written(const fs::path& file) {
                                 "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 "
                                 "FROM n WHERE i < 500) INSERT INTO half SELECT "
                                 "zeroblob(2000) FROM n");
-    _exit(done ? 0 : 1);  // without closing SQLite
+    _exit(done ? 0 : 1);  // ends without closing the database
   }
   int status = -1;
   waitpid(child, &status, 0);
@@ -192,7 +197,7 @@ TEST_F(StoreTest, AMigrationMakesABackupFirst) {
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::create);
   const sql::Migration steps[] = {{1, "001", kOne}, {2, "002", kTwo}};
   ASSERT_TRUE(migrate(*db, std::span(steps, 1)));
-  EXPECT_EQ(files_in(folder_), 1u);  // there was nothing to back up
+  EXPECT_EQ(files_in(folder_), 1u);  // a new database needs no backup
   ASSERT_TRUE(migrate(*db, steps));
   EXPECT_EQ(db->integer("SELECT x FROM b").value(), 1);
   EXPECT_EQ(db->integer("PRAGMA user_version").value(), 2);
@@ -204,7 +209,8 @@ TEST_F(StoreTest, AMigrationMakesABackupFirst) {
   EXPECT_EQ(old->integer("PRAGMA application_id").value(), kApplication);
 }
 
-// Made by mdof with schema version 2: two runs, one of them interrupted, and an active table.
+// This database was written by mdof with schema version 2. It has three runs, of which the third
+// was interrupted, and an active table.
 TEST_F(StoreTest, AnOldDatabaseKeepsItsDataAndAcceptsPartialRuns) {
   const auto columns = [&](sqlite::Connection& db) {
     auto row = db.prepare("SELECT group_concat(name) FROM pragma_table_info('run_end')");
@@ -247,7 +253,7 @@ TEST_F(StoreTest, AFailingMigrationChangesNothing) {
   const sql::Migration steps[] = {{1, "001", kOne}, {2, "002", kTwo}, {3, "003_broken", kBroken}};
   ASSERT_TRUE(migrate(*db, std::span(steps, 1)));
   for (int turn = 0; turn < 2;
-       ++turn) {  // a backup from the first turn does not disturb the second
+       ++turn) {  // the second attempt must work although the backup of the first exists
     const Status done = migrate(*db, steps);
     ASSERT_FALSE(done);
     EXPECT_TRUE(contains(done.error().message, "003_broken")) << done.error().message;

@@ -70,7 +70,8 @@ TEST_F(StoreTest, ReturnsARunBitForBit) {
   EXPECT_EQ(result_sha256(run), store->result_sha256(*id).value());
 }
 
-// Runs stored before the notice existed have it too; later runs have it once.
+// The store adds the notice to runs that were stored before this notice existed. A later run
+// already has the notice and must not get it twice.
 TEST_F(StoreTest, ARunWithoutADatumHasItsNoticeOnce) {
   auto store = writer();
   mdof::Run run = make_run();
@@ -122,7 +123,8 @@ TEST_F(StoreTest, KeepsThePlausibilityOfARun) {
   EXPECT_EQ(back->n_ij[1].forward, (std::vector<int>{1, 2}));
   EXPECT_EQ(back->left_out[0].reason, p.left_out[0].reason);
   EXPECT_TRUE(std::isnan(back->probes[1].sd_m));
-  EXPECT_EQ(result_sha256(run), result_sha256(make_run()));  // not part of the result
+  EXPECT_EQ(result_sha256(run),
+            result_sha256(make_run()));  // the plausibility is not part of the result
   EXPECT_FALSE(store->run(store->add_run(make_run()).value()).value().plausibility);
   tamper("DROP TRIGGER run_plausibility_no_update; UPDATE run_plausibility SET json = '{'");
   EXPECT_TRUE(
@@ -169,7 +171,8 @@ TEST_F(StoreTest, ALiveRunIsStoredInParts) {
   header.provenance.recording_sha256.clear();
   const std::int64_t id = store->begin_run(header).value();
   EXPECT_EQ(store->run_header(id)->state, RunState::open);
-  EXPECT_EQ(reader()->run_header(id)->state, RunState::open);  // also from another process
+  // Another process reads the same state.
+  EXPECT_EQ(reader()->run_header(id)->state, RunState::open);
   for (std::size_t i = 0; i < 30; i += 10) {
     const auto at = run.points.begin() + static_cast<std::ptrdiff_t>(i);
     ASSERT_TRUE(store->append_points(id, {at, at + 10}));
@@ -203,13 +206,15 @@ TEST_F(StoreTest, ARunWithoutItsEndIsAbortedWithANotice) {
     ASSERT_TRUE(store->append_points(store->begin_run(run.header).value(), run.points));
   }
   {
-    const auto beginning = WriterLock::acquire(file_, 0);  // a writer that has not started writing
+    // This writer holds the lock and has not written anything.
+    const auto beginning = WriterLock::acquire(file_, 0);
     ASSERT_TRUE(beginning);
     const RunHeader seen = reader()->run_header(1).value();
     EXPECT_EQ(seen.state, RunState::aborted);
     EXPECT_EQ(test::shown(seen.notices), "interrupted\n");
   }
-  EXPECT_EQ(reader()->run_header(1)->state, RunState::aborted);  // before anyone writes again
+  // The lock is released, and no writer has started since.
+  EXPECT_EQ(reader()->run_header(1)->state, RunState::aborted);
   auto store = writer();
   EXPECT_EQ(store->run_header(1)->state, RunState::aborted);
   EXPECT_EQ(test::shown(store->run_header(1)->notices), "interrupted\n");
@@ -261,7 +266,8 @@ TEST_F(StoreTest, SharesRigsAndRecordings) {
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(store->add_run(make_run(1)));
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_only);
   EXPECT_EQ(db->integer("SELECT count(*) FROM recording").value(), 1);
-  EXPECT_EQ(db->integer("SELECT count(*) FROM document").value(), 3);  // rig, options, ""
+  // The documents are the rig, the options and an empty text.
+  EXPECT_EQ(db->integer("SELECT count(*) FROM document").value(), 3);
 }
 
 TEST_F(StoreTest, ACorrectionMustSupersedeAnExistingRun) {
@@ -274,7 +280,7 @@ TEST_F(StoreTest, ACorrectionMustSupersedeAnExistingRun) {
   const auto refused = store->add_run(run);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::not_found);
-  EXPECT_EQ(store->count_runs().value(), 2);  // nothing is partly stored
+  EXPECT_EQ(store->count_runs().value(), 2);  // the rejected run left no data
 }
 
 TEST_F(StoreTest, ReportsMissingRowsByName) {
@@ -307,7 +313,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrDeleted) {
         store->change_volumetric(store->add_volumetric(make_volume({1})).value(), "me", "now"));
   }
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
-  int tables = 0;  // all except checkpoints, which are not results
+  int tables = 0;  // number of tables, except checkpoints, which are not results
   auto names = db->prepare(
       "SELECT m.name, c.name FROM sqlite_schema AS m JOIN pragma_table_info(m.name) AS c "
       "WHERE m.type = 'table' AND m.name <> 'study_checkpoint' AND c.cid = 0");

@@ -1,4 +1,5 @@
-// Sensitivity studies in the store: begun, interrupted, continued, complete; append only.
+// Sensitivity studies in the store: begin, interruption, continuation and end. No result is ever
+// changed.
 #include "tests/daemon/store/fixtures.h"
 
 namespace mdof::store {
@@ -53,7 +54,7 @@ TEST_F(StoreTest, ACheckpointIsReplacedAndDeletedAtCompletion) {
                                  StudyCheckpoint{3000, bytes}));
     EXPECT_TRUE(store->verify()->empty());
   }
-  auto store = writer();  // a new store may continue the study
+  auto store = writer();  // another store object may continue the study
   const auto kept = store->study_checkpoint(id).value();
   ASSERT_TRUE(kept);
   EXPECT_EQ(kept->trials, 3000u);

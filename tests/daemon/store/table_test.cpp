@@ -1,4 +1,4 @@
-// Squareness, compensation tables and the activations of tables.
+// Squareness results, compensation tables, and the activation of tables.
 #include "schema/sample.h"
 #include "tests/daemon/store/fixtures.h"
 
@@ -24,10 +24,10 @@ TEST_F(StoreTest, KeepsSquareness) {
   EXPECT_EQ(list[0].form_rad, 9e-6);
   EXPECT_TRUE(list[0].simulated);
   EXPECT_EQ(list[0].axes, AxisPair{});
-  s.run_b = 3;  // the axes are those of the runs
+  s.run_b = 3;  // the axes are taken from the two runs
   ASSERT_TRUE(store->add_squareness(s));
   EXPECT_EQ(store->squareness_of(1, 3).value().front().axes, (AxisPair{Axis::x, Axis::z}));
-  s.artefact.u_rad = 0;  // declared as 0, which differs from undeclared
+  s.artefact.u_rad = 0;  // a declared u of 0 differs from no declaration
   ASSERT_TRUE(store->add_squareness(s));
   EXPECT_EQ(store->list_squareness(0, 1).value().front().artefact.u_rad, 0);
   s.artefact.u_rad = std::nullopt;
@@ -104,12 +104,13 @@ TEST_F(StoreTest, ARepeatedActivationOrDeactivationChangesNothing) {
   EXPECT_EQ(store->active(Axis::y)->table.id, 3);
   EXPECT_EQ(store->generation().value(), out->generation);
   EXPECT_FALSE(store->deactivate(Axis::x, "ben", "t5")->changed);
-  const auto back = store->activate(1, "ben", "t6");  // active again
+  const auto back = store->activate(1, "ben", "t6");  // activates the table again
   EXPECT_GT(back->generation, out->generation);
   EXPECT_EQ(store->active(Axis::x)->generation, back->generation);
 }
 
-// A change of any table invalidates decisions that were based on the previous state.
+// A user decides from the state that a client shows. If any table has changed since then, the
+// store rejects the change.
 TEST_F(StoreTest, RejectsAChangeThatExpectsAnotherGeneration) {
   auto store = writer();
   ASSERT_TRUE(store->add_run(make_run(1)));
@@ -143,7 +144,8 @@ TEST_F(StoreTest, RejectsAChangeThatExpectsAnotherGeneration) {
   EXPECT_TRUE(store->deactivate(Axis::x, "anna", "t5", {}, volume->generation)->changed);
 }
 
-// Clients cache by generation, so no generation is used twice, even in a new database.
+// Clients cache tables by generation. Therefore no generation is used twice, even if the database
+// is replaced by a new one.
 TEST_F(StoreTest, GenerationsContinueInANewDatabase) {
   std::int64_t last = 0;
   for (int database = 0; database < 2; ++database) {
@@ -152,7 +154,8 @@ TEST_F(StoreTest, GenerationsContinueInANewDatabase) {
     ASSERT_TRUE(store->add_table(make_table({1})));
     const std::string utc = "2026-11-22T15:30:0" + std::to_string(database) + ".5Z";
     const auto first = store->activate(1, "anna", utc);
-    EXPECT_EQ(first->generation, 1'795'361'400 + database);  // date -ud ... +%s
+    // The first part is the time utc: date -ud ... +%s.
+    EXPECT_EQ(first->generation, 1'795'361'400 + database);
     EXPECT_GT(first->generation, last);
     last = first->generation;
     fs::remove(file_);

@@ -1,4 +1,5 @@
-// Volumetric tables: stored bit for bit, numbered with the tables of axes, one active at a time.
+// Volumetric tables. They are stored without changing a bit, they share the numbers of the axis
+// tables, and only one is active.
 #include "schema/sample.h"
 #include "tests/daemon/store/fixtures.h"
 
@@ -59,7 +60,7 @@ TEST_F(StoreTest, ReturnsAVolumetricTableBitForBit) {
   EXPECT_EQ(store->add_volumetric(make_volume({9})).error().code, ErrorCode::not_found);
 }
 
-// Columns that were added later are covered by the hash of the table only.
+// These columns were added in a later version. Only the hash of the table covers them.
 TEST_F(StoreTest, RejectsAVolumetricTableWithChangedColumns) {
   for (const char* change :
        {"noise = zeroblob(length(noise))", "reversal_m = NULL",

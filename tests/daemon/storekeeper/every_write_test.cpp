@@ -1,6 +1,8 @@
-// A run that is recorded, measured and ended, with a crash between any two writes, and with a disk
-// that is full from any write on: acknowledged data are not lost, nothing is partly stored, and the
-// program continues.
+// A run is recorded, measured and ended. In one test the program crashes between any two writes.
+// In another test the disk is full from any write on. In all cases:
+// - acknowledged data are not lost
+// - nothing is partly stored
+// - the program continues
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -44,13 +46,13 @@ SampleBlock some_scans(std::int64_t k) {
   return block;
 }
 
-// Acknowledgements to a client so far. On the store's thread.
+// Acknowledgements that a client has received so far. Used on the store's thread only.
 struct Told {
-  std::int64_t run = 0;    // id of the begun run
-  std::size_t points = 0;  // stored points
+  std::int64_t run = 0;    // id of the run that was started
+  std::size_t points = 0;  // number of stored points
   std::int64_t chunks = 0;
-  std::int64_t ended = 0;  // id of the run to read
-  bool refused = false;    // a write was refused or the run has failed
+  std::int64_t ended = 0;  // id of the run that has the result
+  bool refused = false;    // true if a write failed or the run has failed
 };
 
 class EveryWrite : public ::testing::Test {
@@ -63,7 +65,7 @@ class EveryWrite : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // Copies the database of a mdofd that has run before.
+  // Makes a data folder with the database of an earlier start of mdofd.
   fs::path make_data_folder(const std::string& name) {
     const fs::path life = folder_ / name;
     fs::create_directories(life);
@@ -103,8 +105,8 @@ class EveryWrite : public ::testing::Test {
     });
     done.get_future().get();
   }
-  // A run of three points in two portions. `otherwise`: its points are renumbered at the end, and
-  // the run that supersedes it has four.
+  // Measures a run of three points in two portions. If `otherwise` is true, the points are
+  // renumbered at the end, and a second run with four points supersedes the run.
   static void measure(Storekeeper& keeper, const fs::path& recording, bool otherwise,
                       Told& reported) {
     if (!begin(keeper, recording, reported)) return;
@@ -123,7 +125,7 @@ class EveryWrite : public ::testing::Test {
     done.get_future().get();
   }
 
-  // Checks the state that the next program finds.
+  // Checks the data that the next start of the program finds.
   static void expect_sound(store::Store& store, const fs::path& recording, const Told& reported,
                            std::size_t points_at_end) {
     const auto findings = store.verify();
@@ -163,7 +165,7 @@ class EveryWrite : public ::testing::Test {
   fs::path folder_;
 };
 
-// All files of a folder except SQLite's shared memory, as they are now.
+// A copy of all files of a folder at this moment, without SQLite's shared memory.
 class Snapshot {
  public:
   Snapshot(const fs::path& folder, const Told& reported) : told_(reported) {
@@ -245,7 +247,7 @@ TEST_F(EveryWrite, AFullDiskFromAnyWriteLosesNothingAndRecovers) {
       EXPECT_TRUE(reported.run != 0 || !fs::exists(life / "run.mdofrec")) << "of no run";
       const Told before = reported;
       measure(*keeper, life / "next.mdofrec", otherwise, next);
-      reported.chunks = before.chunks;  // those of the next run were counted there as well
+      reported.chunks = before.chunks;  // the chunks of the next run were counted here too
       reported.refused = before.refused;
       keeper.reset();
     }
@@ -266,7 +268,8 @@ TEST_F(EveryWrite, AFullDiskFromAnyWriteLosesNothingAndRecovers) {
     fs::remove_all(life);
     refused_lives += !whole;
     whole_lives += whole;
-    if (whole && writes <= first_refused) break;  // there was no write left to refuse
+    // All writes succeeded, so there is no further case.
+    if (whole && writes <= first_refused) break;
     ASSERT_LT(first_refused, 1000);
   }
   EXPECT_GT(refused_lives, 20);

@@ -69,7 +69,8 @@ class StorekeeperTest : public ::testing::Test {
     keeper_->append_points(run, points, [&](const Status& status) { kept.set_value(status); });
     return kept.get_future().get();
   }
-  // Executes SQL from outside that makes the file refuse certain changes.
+  // Executes SQL on the database without the store, so that the database rejects certain changes
+  // later.
   static void spoil(const std::filesystem::path& file, const std::string& sql) {
     auto db = sqlite::Connection::open(file, sqlite::OpenMode::read_write);
     ASSERT_TRUE(db && db->execute(sql));
@@ -109,7 +110,7 @@ TEST_F(StorekeeperTest, ARenumberedRunIsSupersededByACompleteOne) {
                          [](const Status& kept) { EXPECT_TRUE(kept); });
   const std::int64_t other = end(id, {point(1, 1), point(2, 1)}, true);
   ASSERT_NE(other, id);
-  EXPECT_EQ(stored(id).header.state, RunState::failed);  // must not be used
+  EXPECT_EQ(stored(id).header.state, RunState::failed);  // nobody may use a run in this state
   const mdof::Run run = stored(other);
   EXPECT_EQ(run.header.state, RunState::complete);
   EXPECT_EQ(run.header.supersedes, id);
@@ -117,8 +118,8 @@ TEST_F(StorekeeperTest, ARenumberedRunIsSupersededByACompleteOne) {
   EXPECT_EQ(run.points[1].target, 2);
 }
 
-// The end of a run and the start of its successor are stored together: a power cut keeps both or
-// neither.
+// One transaction stores the end of a run and the start of the run that supersedes it. After a
+// power cut, both or none of them are stored.
 TEST_F(StorekeeperTest, TheSuccessorIsStoredInOneTransactionWithTheEnd) {
   const std::int64_t id = begin();
   ASSERT_TRUE(append(id, {point(1, 1), point(1, 1)}));
@@ -126,13 +127,13 @@ TEST_F(StorekeeperTest, TheSuccessorIsStoredInOneTransactionWithTheEnd) {
         "CREATE TRIGGER full BEFORE INSERT ON run BEGIN SELECT raise(ABORT, 'full'); END");
   const auto ended = try_to_end(id, {point(1, 1), point(2, 1)}, true);
   ASSERT_FALSE(ended);
-  keeper_.reset();  // writes all pending data
+  keeper_.reset();  // this writes all pending data
   const mdof::Run run = stored(id);
   EXPECT_EQ(run.header.state, RunState::failed);
   EXPECT_EQ(test::shown(run.header.notices), "renumbering_refused\n");
 }
 
-// A point must not be stored if its samples are not.
+// If the samples of a point are not stored, the point must not be stored either.
 TEST_F(StorekeeperTest, APointWithoutStoredSamplesIsNotAcknowledged) {
   const auto recording = folder_ / "run.mdofrec";
   const std::int64_t id = begin(recording);
@@ -162,13 +163,13 @@ TEST_F(StorekeeperTest, DetectsADeletedOrReplacedDatabase) {
   std::promise<Result<std::int64_t>> begun;
   keeper_->begin_run(NewRun{}, [&](const auto& id) { begun.set_value(id); });
   EXPECT_FALSE(begun.get_future().get());
-  std::filesystem::rename(aside, database);  // the original file
+  std::filesystem::rename(aside, database);  // the original file is restored
   EXPECT_EQ(fault_after(false), "");
   std::filesystem::resize_file(database, 100);
   EXPECT_NE(fault_after(true).find("was cut short"), std::string::npos);
 }
 
-// A transaction of another program that does not end.
+// Another program that holds a transaction open and thereby locks the database.
 class ForeignLock {
  public:
   explicit ForeignLock(const std::filesystem::path& file)
@@ -228,8 +229,8 @@ TEST_F(HeldDatabase, IsWaitedForAndReceivesAllPointsAndTheEnd) {
   EXPECT_EQ(keeper_->storage().state, "ok");
 }
 
-// Points that cannot be stored use bounded memory. Acknowledgements stay in order, and the end of
-// the run contains all points.
+// Points that cannot be stored yet use a bounded amount of memory. They are acknowledged in their
+// order, and the end of the run stores all of them.
 TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredAtTheEnd) {
   const std::int64_t id = begin(), other = begin();
   ForeignLock foreign(folder_ / "mdof.db");
@@ -245,7 +246,7 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredAtTheEnd) {
     all.push_back(point(target, 1));
     append(id, all.back());
   }
-  EXPECT_FALSE(kept[3].get());  // immediately, while the lock is still held
+  EXPECT_FALSE(kept[3].get());  // the rejection is immediate, although the database is still locked
   EXPECT_FALSE(kept[4].get());
   EXPECT_EQ(keeper_->dropped_points(), 2u);
   EXPECT_EQ(keeper_->storage().state, "held");
@@ -255,9 +256,9 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredAtTheEnd) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(kept[i].get()) << i;
   EXPECT_EQ(stored(id).points.size(), 3u);
   all.push_back(point(6, 1));
-  append(id, all.back());  // no gap before a stored point
+  append(id, all.back());  // rejected, because points 4 and 5 before it are not stored
   EXPECT_FALSE(kept.back().get());
-  append(other, point(1, 1));  // points of another run are stored normally
+  append(other, point(1, 1));  // the other run is not affected
   EXPECT_TRUE(kept.back().get());
   EXPECT_EQ(keeper_->dropped_points(), 3u);
   const std::int64_t read = end(id, all, false);
@@ -265,7 +266,7 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredAtTheEnd) {
   EXPECT_EQ(stored(read).points.size(), 6u);
   EXPECT_TRUE(stored(read).header.notices.empty());
   EXPECT_EQ(test::shown(stored(id).header.notices.front()), "points_not_stored points=3");
-  // After the lock is released there is room again.
+  // When the database is no longer locked, further points are accepted.
   ForeignLock again(folder_ / "mdof.db");
   for (int target = 2; target <= 4; ++target) append(other, point(target, 1));
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -275,7 +276,7 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredAtTheEnd) {
   EXPECT_EQ(end(other, {point(1, 1), point(2, 1), point(3, 1), point(4, 1)}, false), other);
 }
 
-// Each check whether the lock is still held takes the whole timeout.
+// Each attempt to write to the locked database takes the whole timeout.
 TEST_F(HeldDatabase, DoesNotDelayOtherWork) {
   restart(std::chrono::milliseconds(300));
   const std::int64_t id = begin();
@@ -310,7 +311,7 @@ TEST_F(HeldDatabase, ARunThatDoesNotBeginLeavesNoRecording) {
   const ForeignLock foreign(folder_ / "mdof.db");
   NewRun run;
   run.recording = folder_ / "orphan.mdofrec";
-  run.begun.emplace(keeper_->create_recording(run).value());  // as for a resumed run
+  run.begun.emplace(keeper_->create_recording(run).value());  // a resumed run has this state
   std::promise<Result<std::int64_t>> begun;
   ASSERT_TRUE(keeper_->begin_run(std::move(run), [&](const auto& id) { begun.set_value(id); }));
   EXPECT_FALSE(begun.get_future().get());

@@ -1,5 +1,5 @@
-// A file layer for SQLite that a test observes: each change is reported before it is made, and may
-// be refused.
+// A file layer (VFS) for SQLite. It calls a function of the test before each change of a file, and
+// the function may reject the change.
 #pragma once
 
 #include <sqlite3.h>
@@ -10,12 +10,12 @@
 
 namespace mdof::daemon {
 
-// Only one object may exist at a time, and files opened with it must be closed before it is
-// destroyed. A flush succeeds immediately, because these tests do not concern power cuts.
+// Only one object may exist at a time. Files that were opened with it must be closed before it is
+// destroyed. A flush succeeds immediately, because these tests do not simulate power cuts.
 class WatchedDisk {
  public:
-  // SQLITE_OK: the change is made; otherwise SQLite gets this error. Called on the thread that
-  // writes.
+  // If it returns SQLITE_OK, the change is made; otherwise SQLite receives the returned error.
+  // Runs on the thread that writes.
   using Before = std::function<int()>;
 
   explicit WatchedDisk(Before before) : real_(sqlite3_vfs_find(nullptr)), vfs_(*real_) {
@@ -46,7 +46,8 @@ class WatchedDisk {
     static Current one;
     return one;
   }
-  // The real file follows in memory; SQLite's memory is aligned for both.
+  // In memory, SQLite's object of the real file follows this one. SQLite aligns the memory for
+  // both objects.
   struct File {
     sqlite3_file base;
     sqlite3_file* real() { return reinterpret_cast<sqlite3_file*>(this + 1); }

@@ -29,7 +29,7 @@ int bound_socket(const std::string& path, int type) {
   return fd;
 }
 
-// A service manager that only listens.
+// A service manager that receives messages and sends none.
 class Notify : public testing::Test {
  protected:
   void SetUp() override {
@@ -82,15 +82,15 @@ TEST_F(Notify, TheWatchdogIsFedTwicePerTimeout) {
   ::setenv("WATCHDOG_USEC", "10000000", 1);
   ::setenv("WATCHDOG_PID", std::to_string(::getpid()).c_str(), 1);
   EXPECT_EQ(watchdog_interval(), std::chrono::seconds(5));
-  ::setenv("WATCHDOG_PID", "1", 1);  // intended for another process
+  ::setenv("WATCHDOG_PID", "1", 1);  // the watchdog of another process
   EXPECT_FALSE(watchdog_interval());
   ::setenv("WATCHDOG_PID", std::to_string(::getpid()).c_str(), 1);
   ::setenv("WATCHDOG_USEC", "soon", 1);
   EXPECT_FALSE(watchdog_interval());
 }
 
-// Runs a child whose descriptors from 3 on are `sockets`, as systemd starts it; returns the results
-// of calling take_listen_sockets() twice.
+// Starts a child process in the same way as systemd does: its descriptors from 3 on are `sockets`.
+// The child calls take_listen_sockets() twice. Returns the results of both calls.
 std::string list_child_sockets(const std::vector<int>& sockets, const char* listen_fds) {
   int pipe_fds[2];
   EXPECT_EQ(::pipe(pipe_fds), 0);

@@ -40,7 +40,7 @@ TEST(ErrorText, AnErrorEndsWithItsRemedy) {
   EXPECT_EQ(words::text(bad_input("a.csv: is empty").value()), "a.csv: is empty");
 }
 
-// The place is put before the message; the remedy remains at the end.
+// The context is put before the message. The remedy remains at the end.
 TEST(ErrorText, AnErrorInAContextKeepsItsRemedy) {
   const auto error = in_context("rig.toml", bad_input("no rig", Remedy::give_rig).value()).value();
   EXPECT_EQ(words::text(error), "rig.toml: no rig; give the rig file with --rig RIG.toml");

@@ -32,7 +32,8 @@ std::vector<NoticeCode> all_codes() {
 
 constexpr words::Language kLanguages[] = {words::Language::english, words::Language::german};
 
-// A sentence shows only values of its notice, and shows all of its numbers.
+// The sentence of a notice has a field for each key of the notice and no other field, except the
+// subject.
 TEST(Catalogue, EachCodeHasATextWithItsKeys) {
   for (const NoticeCode code : all_codes()) {
     for (const auto language : kLanguages) {
@@ -48,7 +49,8 @@ TEST(Catalogue, EachCodeHasATextWithItsKeys) {
   }
 }
 
-// Both languages name the subject or neither does; only words from the notice are equal.
+// The subject is in the texts of both languages or in neither. Except for values of the notice,
+// the two texts have different words.
 TEST(Catalogue, GermanHasTheSameContentInOtherWords) {
   const auto names_subject = [](const std::string& pattern) {
     return pattern.find("{subject") != std::string::npos;
@@ -72,7 +74,7 @@ TEST(Catalogue, CoveredContributionsHaveBothLanguages) {
   std::set<std::string> sentences;
   for (const Covered each : all)
     for (const auto language : kLanguages) sentences.insert(words::text({each}, language));
-  EXPECT_EQ(sentences.size(), 2 * all.size());  // no text is empty or used twice
+  EXPECT_EQ(sentences.size(), 2 * all.size());  // no text is empty, and no text is used twice
   EXPECT_EQ(sentences.count(""), 0u);
   EXPECT_EQ(words::text({Covered::noise_only, Covered::nothing_declared}, words::Language::german),
             "nur Rauschen (es sind keine Unsicherheiten angegeben)");
@@ -154,7 +156,7 @@ TEST(Catalogue, ALineNamesSourceAndSeverity) {
             "information: run 3: " + words::text(notice(NoticeCode::run_can_go_on)));
 }
 
-// Typical numbers of a real run in their sentence.
+// Numbers as they occur in a real run.
 TEST(Catalogue, NumbersAreReadable) {
   EXPECT_EQ(
       words::text(notice(

@@ -131,14 +131,15 @@ TEST_F(ConfigFile, ChannelsOfAnyDriverMayHaveADelay) {
       << refusal("[measure]\nsettle_s = 0.003\n" + delayed);
   EXPECT_NE(refusal(kAxis + "channel = [{ id = \"B\", input = \"1\" }]\n").find("unknown key"),
             std::string::npos);
-  // Its scans are then interpolated, as with several devices.
+  // A channel with a delay needs interpolated scans. Therefore max_gap_s is checked even if there
+  // is only one device.
   const std::string gap = "[measure]\nmax_gap_s = 0.05\n", slow = "rate_hz = 10\n";
   EXPECT_EQ(refusal(gap + kAxis + slow), "accepted");
   EXPECT_NE(refusal(gap + delayed + slow).find("max_gap_s = 0.05"), std::string::npos);
 }
 
-// Probes of a slow AD7746 beside a counter: accepted by default, rejected with a gap that is
-// shorter than their sampling interval.
+// An AD7746 samples its probes slowly, and a second device counts the encoder. The default
+// max_gap_s is accepted. A max_gap_s shorter than the sampling interval of the probes is rejected.
 TEST_F(ConfigFile, RejectsAGapShorterThanAProbesInterval) {
   std::string axis = "[[axis]]\nrig = \"rig_X.toml\"\n";
   const auto iio = [&](const std::string& name, const std::string& first, const char* second) {

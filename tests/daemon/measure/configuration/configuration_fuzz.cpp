@@ -1,4 +1,4 @@
-// The daemon's configuration as TOML is read, or rejected with a reason.
+// For any input, the configuration of mdofd (TOML) is either read or rejected with a reason.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// Contains the rigs that a configuration may name.
+// A folder with the rigs that a configuration may name.
 struct Folder : mdof::FuzzFolder {
   Folder() {
     for (const char* rig : {"rig_X.toml", "rig_Y.toml"})

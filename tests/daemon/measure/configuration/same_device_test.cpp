@@ -1,4 +1,4 @@
-// One device that several axes share: `same_as`.
+// Several axes that use one device: the key `same_as`.
 #include "daemon/measure/configuration/same_device.h"
 
 #include <gtest/gtest.h>
@@ -75,13 +75,13 @@ TEST_F(SameDevice, EachAxisHasItsEncoderAndBothTheProbes) {
   EXPECT_EQ(x.encoder.offset_mm, std::nullopt);
   EXPECT_EQ(y.encoder.offset_mm, 7.0);
   EXPECT_EQ(config->axes[1].delays,
-            (ChannelDelays{{"A", 200e-6}}));  // not the delay of X's encoder
+            (ChannelDelays{{"A", 200e-6}}));  // the delay of X's encoder does not apply to Y
   std::vector<std::string> read;
   for (const auto& channel : y.make().value()->info().channels) read.push_back(channel.id);
   EXPECT_EQ(read, (std::vector<std::string>{"A", "B", "C", "D", "E", "encoder", "encoder_Y"}));
 }
 
-// A separate fixture at other inputs, and a third axis.
+// Y has its own fixture, whose probes use other inputs. A third axis uses the device too.
 TEST_F(SameDevice, AnAxisMayHaveItsOwnProbes) {
   std::string own = kSame + "channel = [{ id = \"encoder\", input = \"DIO2\", um_per_count = 1 }";
   int ain = 9;

@@ -1,5 +1,5 @@
-// Devices whose sampling interval is longer than the gap: the gap is adapted to their rate, or they
-// are rejected.
+// Devices whose sampling interval is longer than max_gap_s. The gap is increased to suit the rate
+// of the device, or the configuration is rejected.
 #include "daemon/measure/configuration/slow_channels.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Columns of a table as functions of a machine: unknown values, and the reference of angles.
+// Columns of a table as error functions of a machine: unknown values, and the position at which
+// angles are zero.
 #include "daemon/measure/machine/table_functions.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ TEST(TableFunctions, AnUnknownUIsTheLargestOfTheOthers) {
   EXPECT_TRUE(none.u_independent.empty());
 }
 
-// The mean of both approaches is 0, 4, 6 at -2, 0, 4; at 1 it is 4.5.
+// The mean of both approaches is 0, 4, 6 at the positions -2, 0, 4. At position 1 it is 4.5.
 TEST(TableFunctions, AnAngleIsReferredToTheGivenPosition) {
   const ErrorFunction table =
       function_of({-2, 0, 4}, {-1, 3, 5}, {1, 5, 7}, {0.3, 0.4, 0.8}, {0.1, 0.1, 0.1});
@@ -30,11 +31,11 @@ TEST(TableFunctions, AnAngleIsReferredToTheGivenPosition) {
   EXPECT_EQ(f.reverse, (std::vector<double>{-3.5, 0.5, 2.5}));
   EXPECT_EQ(f.u, table.u);
   EXPECT_EQ(f.u_independent, table.u_independent);
-  bound_angle_u(f, 1);  // u at this position is 0.5
+  bound_angle_u(f, 1);  // u at position 1 is 0.5
   EXPECT_NEAR(f.u[0], 0.8, 1e-15);
   EXPECT_NEAR(f.u[2], 1.3, 1e-15);
   ErrorFunction held = table;
-  set_angle_zero_at(held, 9);  // the value at the end is used beyond it
+  set_angle_zero_at(held, 9);  // position 9 is beyond the end, so the value at the end is used
   EXPECT_EQ(held.forward, (std::vector<double>{-7, -3, -1}));
   for (const double first : {-2.0, -9.0}) {
     ErrorFunction same = table;

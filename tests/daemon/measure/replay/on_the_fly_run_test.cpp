@@ -1,4 +1,4 @@
-// Data that a run in motion takes from its samples beside positions and readings.
+// Properties of an on-the-fly run that are not positions or readings.
 #include "daemon/measure/replay/on_the_fly_run.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace mdof::daemon {
 namespace {
 
-// Moves 20 mm forward and back at 20 mm/s.
+// A movement of 20 mm forward and back at 20 mm/s.
 SampleBlock to_and_fro() {
   TestAxis axis(0);
   axis.move_to(20, 1);
@@ -25,7 +25,8 @@ Result<Run> run_on_the_fly(SampleBlock block) {
   return run.finish();
 }
 
-// The encoder is suspect from 0.3 s to 0.4 s after the first scan: from 6 to 8 mm.
+// The encoder is suspect from 0.3 s to 0.4 s after the first scan. In this time the axis moves
+// from 6 mm to 8 mm.
 TEST(OnTheFlyRun, OmitsPointsWhileTheEncoderIsSuspect) {
   const auto all = run_on_the_fly(to_and_fro());
   ASSERT_TRUE(all) << all.error().message;
@@ -56,7 +57,7 @@ TEST(OnTheFlyRun, AnEncoderThatIsAlwaysSuspectGivesNoRun) {
   EXPECT_NE(run.error().message.find("were suspect"), std::string::npos) << run.error().message;
 }
 
-// A single late reading, such as a slow USB reply, affects no point.
+// A single late sample, for example after a slow USB reply, affects no point.
 TEST(OnTheFlyRun, ASingleSuspectScanAffectsNoPoint) {
   SampleBlock block = to_and_fro();
   block.quality.assign(block.channels.size(), {});
@@ -71,7 +72,7 @@ TEST(OnTheFlyRun, RejectsMorePointsThanARunHolds) {
   options.on_the_fly.emplace();
   options.max_stops = 30;
   OnTheFlyRun run = OnTheFlyRun::create(five_probe_rig(), options).value();
-  SampleBlock block = to_and_fro();  // about 20 points, of the finished pass
+  SampleBlock block = to_and_fro();  // the first pass is finished and has about 20 points
   ASSERT_TRUE(run.push(block));
   TestAxis far(0);
   far.move_to(50, 1);

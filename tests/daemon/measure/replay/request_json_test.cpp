@@ -42,8 +42,8 @@ TEST(RequestJson, IsReadBackUnchanged) {
   EXPECT_EQ(back->options.on_the_fly->to_mm, 61.25);
 }
 
-// An option added to PipelineOptions::json() must also be read back. Otherwise a replay of a
-// recording is evaluated with other options than its run.
+// Each option that PipelineOptions::json() writes must also be read back. Otherwise a replay would
+// evaluate the recording with other options than the original run.
 TEST(RequestJson, EveryNumberOfTheOptionsIsReadBack) {
   const std::string text = asked_options().json();
   const std::regex number(R"(("[A-Za-z_]+":)([0-9][0-9.e+-]*))");

@@ -64,7 +64,7 @@ TEST_F(ClientFiles, RejectsALink) {
   EXPECT_NE(refusal(path).find("is a link"), std::string::npos) << refusal(path);
 }
 
-// Opening a pipe for reading waits for a writer indefinitely.
+// If nobody writes to a pipe, opening the pipe for reading never returns.
 TEST_F(ClientFiles, RejectsAPipeAtOnce) {
   const std::string path = (folder_ / "pipe").string();
   ASSERT_EQ(::mkfifo(path.c_str(), 0666), 0);

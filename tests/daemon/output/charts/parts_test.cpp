@@ -1,4 +1,4 @@
-// Components of plots: numbers as text, axes, SVG, colours.
+// Components of plots: number texts, axes, SVG, colours.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -127,7 +127,7 @@ TEST(PlotAxis, IsSensibleForAnyRange) {
   }
 }
 
-// Smallest distance between two labels, px.
+// Smallest distance in px between two neighbouring labels of an axis.
 double least_gap(const Axis& axis, double length_px) {
   double least = length_px;
   for (std::size_t i = 1; i < axis.ticks.size(); ++i) {
@@ -187,7 +187,7 @@ TEST(PlotSvg, IsWellFormedAndHasRoundCoordinates) {
   EXPECT_EQ(text.find("http", text.find("xmlns") + 40), std::string::npos);
 }
 
-// Checks that the XML check can fail.
+// The check of XML must find faults.
 TEST(PlotSvg, TheXmlCheckFindsFaults) {
   const std::string head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   EXPECT_EQ(xml_fault(head + "<svg a=\"1\"><g>x</g></svg>\n"), "");
@@ -208,7 +208,7 @@ double luminance(const char* colour) {
   return 0.2126 * channel(colour, 1) + 0.7152 * channel(colour, 3) + 0.0722 * channel(colour, 5);
 }
 
-// WCAG 2.1, "contrast ratio".
+// Contrast ratio as defined in WCAG 2.1.
 double contrast(const char* a, const char* b) {
   const auto [low, high] = std::minmax({luminance(a), luminance(b)});
   return (high + 0.05) / (low + 0.05);

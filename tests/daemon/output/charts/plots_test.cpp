@@ -1,5 +1,5 @@
-// Plots of an artificial study: known values are drawn correctly, the files are valid XML for any
-// figures, and equal figures give equal bytes.
+// Plots of an artificial study. Known values are drawn correctly. The files are valid XML for any
+// figures. Equal figures give equal bytes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,8 +22,9 @@ namespace fs = std::filesystem;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// A triangular density over [-half, half] with round statistics. It needs only exact arithmetic and
-// no random numbers, so that the bytes of its plots are known in advance.
+// An output with a triangular density over [-half, half] and rounded statistics. Its calculation
+// needs no random numbers and no functions that depend on the machine. Therefore the bytes of its
+// plots are known in advance.
 OutputSummary triangular(std::string key, double half) {
   OutputSummary o;
   o.key = std::move(key);
@@ -47,7 +48,7 @@ std::vector<StudyBin> bins_of(const std::vector<OutputSummary>& outputs, int n) 
   for (int i = 0; i < n; ++i) {
     StudyBin bin{3.0 * i, 3.0 * (i + 1), {}};
     for (std::size_t k = 0; k < outputs.size(); ++k) {
-      // displacements increase with the travel, angles do not
+      // displacements (k < 2) increase with the travel, angles do not
       const double half = (k < 2 ? 0.2 + 0.8 * i / n : 1.0) * -outputs[k].histogram.from;
       bin.outputs.push_back(triangular(outputs[k].key, half));
     }
@@ -110,7 +111,8 @@ class Plots : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // All files written, by name; each must be well-formed and free of NaN and infinity.
+  // Writes the plots and returns the text of each file by its name. Each file must be well-formed
+  // and must not contain NaN or infinity.
   std::map<std::string, std::string> write(const StudyResult& result) {
     const Status written = charts::write_study_plots(result, folder_);
     EXPECT_TRUE(written) << written.error().message;
@@ -149,7 +151,7 @@ TEST_F(Plots, AreNotWrittenForMissingFigures) {
   EXPECT_EQ(names(write(r)), (std::set<std::string>{"histogram-EAX_urad.svg"}));
 }
 
-// The SHA-256 of all files in the order of their names.
+// SHA-256 of the names and texts of all files, in the order of the names.
 std::string hash(const std::map<std::string, std::string>& files) {
   Sha256 hash;
   for (const auto& [name, text] : files) hash.update(name + '\n' + text);
@@ -205,7 +207,7 @@ TEST_F(Plots, AreValidForAnyText) {
   EXPECT_EQ(files.size(), 9u);
 }
 
-// Each number that a study can have, replaced by extreme numbers.
+// Each number of the study is replaced by extreme numbers.
 TEST_F(Plots, AreValidForExtremeFigures) {
   for (const double x : {0.0, 1e-320, 1e-12, 1e9, 1.7e308, -1.7e308, kNaN, kInf}) {
     StudyResult r = study();
@@ -253,7 +255,7 @@ TEST_F(Plots, AConstantHasOneBar) {
   r.outputs = {o};
   const std::string text = write(r).at("histogram-EAX_urad.svg");
   EXPECT_NE(text.find(">2.5 ± 0<"), std::string::npos);
-  EXPECT_NE(text.find(">2.50<"), std::string::npos);  // the tick below the bar
+  EXPECT_NE(text.find(">2.50<"), std::string::npos);  // the tick under the bar
 }
 
 TEST_F(Plots, ShowTheLargestOfManyCausesAndCountTheOthers) {
@@ -287,7 +289,7 @@ TEST_F(Plots, NeedAWritableFolder) {
   ASSERT_FALSE(no_file);
   EXPECT_NE(no_file.error().message.find("histogram-EYX_um.svg: cannot be written"),
             std::string::npos);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);  // no partly written file
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);  // no incomplete file remains
 }
 
 }  // namespace

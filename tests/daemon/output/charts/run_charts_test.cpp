@@ -1,4 +1,5 @@
-// Charts of runs that no recording contains: very many stops, no stop, one target, invalid numbers.
+// Charts of runs that no recording contains: very many stops, no stop, only one target, invalid
+// numbers.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -47,10 +48,11 @@ TEST(RunCharts, ManyStopsKeepTheOutlierInASmallFile) {
 
 TEST(RunCharts, OneTargetHasPointsButNoStraightness) {
   const RunCharts drawn = charts_of_run(axis_with(6, 1), Language::english);
-  ASSERT_EQ(drawn.charts.size(), 3u);  // the errors, and the differences between the visits
+  // Two charts of errors, and one of the differences between the visits.
+  ASSERT_EQ(drawn.charts.size(), 3u);
   for (const NamedChart& chart : drawn.charts) EXPECT_EQ(xml_fault(chart.svg), "") << chart.file;
   EXPECT_EQ(count_of(drawn.charts[0].svg, "data-row="), 30u);
-  EXPECT_EQ(count_of(drawn.charts[0].svg, "data-band="), 10u);  // two approaches for five errors
+  EXPECT_EQ(count_of(drawn.charts[0].svg, "data-band="), 10u);  // five errors, two approaches
   ASSERT_GE(drawn.left_out.size(), 1u);
   EXPECT_NE(drawn.left_out[0].find("at least three targets"), std::string::npos);
 }

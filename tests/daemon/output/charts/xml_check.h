@@ -1,4 +1,4 @@
-// Checks whether a text is well-formed XML, as far as SVG plots need it.
+// Checks whether a text is well-formed XML. Supports only the XML that SVG plots need.
 #pragma once
 
 #include <simdjson.h>
@@ -10,7 +10,8 @@
 
 namespace mdof {
 
-// Error in a text between tags or in an attribute; "": none.
+// Checks a text between tags or the value of an attribute. Returns the error, or "" if there is no
+// error.
 inline std::string text_fault(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
@@ -24,7 +25,8 @@ inline std::string text_fault(std::string_view text) {
   return "";
 }
 
-// Error in ` name="value"` pairs, each name once; "": none.
+// Checks the pairs ` name="value"` of one tag; each name may occur only once. Returns the error or
+// "".
 inline std::string attributes_fault(std::string_view text) {
   std::set<std::string_view> names;
   while (!text.empty()) {
@@ -39,7 +41,7 @@ inline std::string attributes_fault(std::string_view text) {
   return "";
 }
 
-// Checks one tag and updates the list of open tags.
+// Checks one tag and updates the list of open tags. Returns the error or "".
 inline std::string tag_fault(std::string_view tag, std::vector<std::string>& open) {
   if (tag.starts_with('/')) {
     if (open.empty() || open.back() != tag.substr(1)) return "ends " + std::string(tag);
@@ -55,7 +57,7 @@ inline std::string tag_fault(std::string_view tag, std::vector<std::string>& ope
   return attributes_fault(tag.substr(name.size()));
 }
 
-// "" for a well-formed document with one <svg>, otherwise the error.
+// Checks a whole document, which must contain exactly one <svg>. Returns the error or "".
 inline std::string xml_fault(std::string_view text) {
   constexpr std::string_view kDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   if (!simdjson::validate_utf8(text.data(), text.size())) return "not UTF-8";

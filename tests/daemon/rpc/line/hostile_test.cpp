@@ -1,4 +1,5 @@
-// Malicious or broken clients: each gets the correct code or is closed, without effect on others.
+// Malicious or broken clients. Each gets the correct error code or is disconnected. Other clients
+// are not affected.
 #include <fcntl.h>
 
 #include <atomic>
@@ -21,7 +22,7 @@ double resident_mb() {
   return resident * double(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-// Another client that works normally during a test.
+// Another client, which works normally during a test.
 class Bystander {
  public:
   explicit Bystander(const std::string& path) : thread_([this, path] { work(path); }) {}
@@ -30,7 +31,8 @@ class Bystander {
     thread_.join();
     EXPECT_GT(trips_, 0);
     EXPECT_EQ(wrong_, 0);
-    EXPECT_LT(longest_ms_, 1000);  // with sanitizers and other processes on the machine
+    // The limit is large, because sanitizers and other processes slow the machine down.
+    EXPECT_LT(longest_ms_, 1000);
     std::printf("  another client: %d round trips, mean %.3f ms, longest %.1f ms\n", trips_,
                 total_ms_ / trips_, longest_ms_);
   }
@@ -65,7 +67,7 @@ class Hostile : public ::testing::Test {
     return o;
   }
   Hostile() { server_.start(); }
-  // The connection remains open after this answer.
+  // After this error the connection must remain open.
   void expect_error(const std::string& line, const std::string& code, const std::string& data) {
     const Bystander bystander(server_.path);
     RawClient client(server_.path);
@@ -147,7 +149,8 @@ TEST_F(Hostile, TheLineLimitIsExact) {
   EXPECT_EQ(at(RawClient(server_.path).ask(line(65537)), "/error/code"), "-32600");
 }
 
-// The replies requested are 300 MB, which would fill the memory.
+// The client requests replies of 300 MB in total. If the server stored all of them, the memory
+// would be full.
 TEST_F(Hostile, AClientThatNeverReadsIsPausedAndThenDropped) {
   const Bystander bystander(server_.path);
   const double before = resident_mb();
@@ -180,7 +183,7 @@ TEST_F(Hostile, AClientThatReadsSlowlyIsNotDropped) {
   client.send(requests);
   for (int i = 0; i < 60; ++i) {
     ASSERT_EQ(client.line().size(), 40036u);
-    std::this_thread::sleep_for(25ms);  // 1.5 s in total: over twice the stall limit
+    std::this_thread::sleep_for(25ms);  // 1.5 s in total, which is over twice the stall limit
   }
 }
 
@@ -190,7 +193,7 @@ TEST_F(Hostile, AClientThatSendsTooSlowlyIsClosed) {
   const auto begin = Clock::now();
   bool open = true;
   for (std::size_t i = 0; open && i < 10 * kGood.size();
-       ++i) {  // each byte is in time, the whole request is not
+       ++i) {  // the time between two bytes is allowed, the time of the whole request is not
     open = client.send(kGood.substr(i % 10, 1));
     std::this_thread::sleep_for(20ms);
   }
@@ -204,11 +207,11 @@ TEST_F(Hostile, AClientThatSendsTooSlowlyIsClosed) {
 
 TEST_F(Hostile, IdleClientsRemainConnected) {
   RawClient client(server_.path);
-  std::this_thread::sleep_for(1s);  // longer than every other limit
+  std::this_thread::sleep_for(1s);  // longer than all time limits of the server
   EXPECT_EQ(client.ask(kGood), kGoodReply);
 }
 
-// An event that is never consumed would keep the loop running continuously.
+// If an event remained in the queue of the loop, the loop would run continuously.
 TEST(HostileIdle, IdleClientsUseNoCpu) {
   TestServer server;
   server.start();
@@ -302,7 +305,7 @@ TEST_F(Hostile, GarbageOfEveryKindIsAnsweredOrClosed) {
     std::string reply = client.line();
     ASSERT_EQ(canonical(reply).find("not JSON"), std::string::npos) << line << "\n" << reply;
     if (at(reply, "/id") != marker)
-      reply = client.line();  // otherwise the line became a notification
+      reply = client.line();  // the first reply was to the damaged line
     ASSERT_EQ(at(reply, "/id"), marker) << line;
   }
 }

@@ -32,7 +32,7 @@ TEST(LineBuffer, SplitsLinesForAnyDivisionOfTheBytes) {
 TEST(LineBuffer, DetectsAPartialLine) {
   LineBuffer buffer(16, 64);
   put(buffer, "a\nb");
-  EXPECT_FALSE(buffer.partial());  // a whole line comes first
+  EXPECT_FALSE(buffer.partial());  // the buffer begins with a whole line
   buffer.next();
   EXPECT_TRUE(buffer.partial());
   EXPECT_FALSE(buffer.next());

@@ -1,4 +1,5 @@
-// Limits of connections: no client can use all, and one is reserved for the machine's control.
+// Limits of the number of connections. No user can use all connections, and one connection is
+// reserved for the machine's control.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/stat.h>
@@ -23,7 +24,7 @@ std::vector<std::unique_ptr<RawClient>> connect_clients(const TestServer& server
   return clients;
 }
 
-// The message with which a client is rejected; empty: it is accepted.
+// The message with which the server rejects a new client; empty if the server accepts the client.
 std::string refusal(const TestServer& server) {
   RawClient client(server.path);
   const std::string line = client.ask(kAsk);
@@ -74,7 +75,8 @@ TEST(Places, TwoTransportsShareTheLimitOfAUser) {
       << why;
 }
 
-// A process of another user, whose exit code states whether it was accepted.
+// Connects from a child process of another user. The exit code states whether the server accepted
+// the client.
 int unprivileged_exit_code(const TestServer& server) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -115,7 +117,7 @@ TEST(Places, AUserAtHisLimitGetsTheReservedConnection) {
 
 TEST(Places, OthersDoNotGetTheReservedConnection) {
   ServerOptions options = limits(64);
-  options.kept_for_group = 4'000'000;  // a group that does not exist
+  options.kept_for_group = 4'000'000;  // this group does not exist
   TestServer server(options);
   server.start();
   const auto others = connect_clients(server, 5);
@@ -140,7 +142,8 @@ TEST(Places, ASlowAnswerIsNotIdleTime) {
   server.start();
   RawClient client(server.path);
   EXPECT_EQ(at(client.ask(R"({"jsonrpc":"2.0","method":"slow","id":1})"), "/result"), "1");
-  EXPECT_EQ(client.ask(kAsk), kAnswer);  // asked immediately: the connection is still open
+  // Sent immediately after the late answer: the connection is still open.
+  EXPECT_EQ(client.ask(kAsk), kAnswer);
   later.join();
 }
 

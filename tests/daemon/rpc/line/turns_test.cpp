@@ -1,4 +1,5 @@
-// All requests run on one thread: no client occupies it for longer than one turn while others wait.
+// One thread processes all requests. If other clients wait, a client uses this thread for one turn
+// at most.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 
@@ -14,7 +15,7 @@ const std::string kSpin = R"({"jsonrpc":"2.0","method":"spin","id":2})";
 const std::string kSpinNotification = R"({"jsonrpc":"2.0","method":"spin"})";
 constexpr int kMany = 60;
 
-// `count` returns how often `spin` was run, which takes 3 ms.
+// The method `spin` takes 3 ms. The method `count` returns the number of calls of `spin`.
 class Turns : public ::testing::Test {
  protected:
   Turns() : server_(short_drain_options()) {
@@ -36,10 +37,11 @@ class Turns : public ::testing::Test {
   }
   static ServerOptions short_drain_options() {
     ServerOptions options;
-    options.drain_timeout = 40ms;  // the clients are checked eight times in this time
+    options.drain_timeout = 40ms;  // the server checks the clients eight times in this time
     return options;
   }
-  // Number of calls of `many` that were run before another client, who asks later, has its answer.
+  // First, one client sends the batch `many`. Then another client sends a request. Returns the
+  // number of calls of the batch that the server ran before it answered the other client.
   int calls_run_before_another(const std::string& many) {
     RawClient greedy(server_.path), other(server_.path);
     other.ask(kCount);
@@ -80,7 +82,8 @@ TEST_F(Turns, ADividedBatchHasOneReplyBeforeTheNext) {
   EXPECT_EQ(at(client.line(), "/result"), "5");
 }
 
-// Uses notifications: the server sends nothing that would reveal the closed connection.
+// The requests are notifications, so the server sends no replies. A failed reply would reveal that
+// the client has closed the connection.
 TEST_F(Turns, DropsTheRequestsOfAClosedConnection) {
   server_.start();
   {

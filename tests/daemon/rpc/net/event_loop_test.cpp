@@ -31,7 +31,8 @@ TEST(EventLoop, CallsAtAPeriodAndSkipsMissedTicks) {
   int calls = 0;
   const auto begin = std::chrono::steady_clock::now();
   loop.call_every(20ms, [&] {
-    if (++calls == 1) std::this_thread::sleep_for(110ms);  // five ticks are missed
+    // This call is so long that five ticks are missed.
+    if (++calls == 1) std::this_thread::sleep_for(110ms);
     if (calls == 4) loop.stop();
   });
   loop.run();
@@ -55,7 +56,7 @@ TEST(EventLoop, ReportsEachTimeThatDataAreReadable) {
     loop.run();
     EXPECT_EQ(seen, "abb");
   }
-  EXPECT_EQ(::close(ends[0]), 0);  // the descriptors remain open and owned by the test
+  EXPECT_EQ(::close(ends[0]), 0);  // the descriptors are still open and belong to the test
   EXPECT_EQ(::close(ends[1]), 0);
 }
 
@@ -77,7 +78,7 @@ TEST(EventLoop, DropsWorkPostedAfterItsEnd) {
   {
     EventLoop loop;
     core = loop.core();
-    loop.post([token] {});  // never run, but destroyed
+    loop.post([token] {});  // this task is destroyed without being run
   }
   EXPECT_EQ(token.use_count(), 1);
 }

@@ -1,4 +1,4 @@
-// Sessions without a socket: sent messages are collected in a list.
+// Sessions without a socket. A list collects the messages that the sessions send.
 #include "daemon/rpc/session/session.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct MemoryTransport final : Transport {
   int wakes = 0;
 };
 
-// An executor whose turns the test runs.
+// An executor that runs a task only when the test calls take().
 struct Turns final : Executor {
   void dispatch(std::function<void()> work) override { waiting.push_back(std::move(work)); }
   void take() {
@@ -134,7 +134,7 @@ TEST_F(Sessions, ALongBatchIsProcessedInParts) {
   EXPECT_TRUE(replies.empty());
   EXPECT_FALSE(session->handle(batch, out, over));
   ASSERT_EQ(replies.size(), 1u);
-  answer(0, "22");  // before the last member is called
+  answer(0, "22");  // the last member of the batch is not called yet
   EXPECT_TRUE(session->handle(batch, out, over));
   EXPECT_EQ(out, "[" + result("1", 1) + "," + result("22", 2) + "," + result("1", 3) + "]");
   EXPECT_TRUE(transport.sent.empty());
@@ -185,7 +185,7 @@ TEST_F(Sessions, EachOpenCallReservesTheLargestReply) {
   EXPECT_FALSE(session->has_room());
   answer(1, "2");
   EXPECT_TRUE(session->has_room());
-  transport.unsent_bytes = 1;  // the reply, not sent yet
+  transport.unsent_bytes = 1;  // the reply is not sent yet
   EXPECT_FALSE(session->has_room());
 }
 
@@ -278,7 +278,8 @@ TEST_F(Sessions, AnEndedSessionSendsNothingMore) {
   EXPECT_FALSE(service().wanted_interval("live"));
   answer(0, "1");
   EXPECT_EQ(transport.sent.size(), 1u);
-  EXPECT_EQ(service().session_count(), 1u);  // until its client has read the reply
+  // The session exists until its client has read the reply.
+  EXPECT_EQ(service().session_count(), 1u);
 }
 
 TEST_F(Sessions, IsIdleAfterTheLimitIfNothingIsPending) {

@@ -42,10 +42,10 @@ TEST(Subscription, AnOldValueWaitsALimitedTimeForANewerOne) {
   subscription.offer(value(2), now + 30ms);
   EXPECT_EQ(*subscription.due(), now + 200ms);
   subscription.offer(value(3), now + 130ms);
-  EXPECT_LE(*subscription.due(), now + 130ms);  // immediately
+  EXPECT_LE(*subscription.due(), now + 130ms);  // the value is sent immediately
 }
 
-// The values of both axes of one device always arrive at the same time.
+// Both axes of a device publish their values at the same time.
 TEST(Subscription, TheNewestValueOfEachSourceIsSent) {
   Subscription subscription(kValue, 100ms, 64);
   std::string x, y;
@@ -151,8 +151,9 @@ TEST_F(Subscriptions, ValuesAreNotSentFasterThanRequested) {
   publisher.join();
 }
 
-// With one subscriber, a value is made when his next value is due. With different intervals, values
-// must be made often enough that each subscriber gets a recent one.
+// If there is one subscriber, a value is made when the next value of this subscriber is due. If
+// several subscribers have different intervals, values are made at the minimum interval of the
+// topic, so that each subscriber gets a recent value.
 TEST_F(Subscriptions, ValuesAreRequestedAtTheIntervalOfAll) {
   const auto every = [&] {
     return server_.on_loop([&] { return server_.service->wanted_interval("live.frame"); });
@@ -224,7 +225,7 @@ TEST_F(Subscriptions, EndWithUnsubscribeOrTheConnection) {
   publish("live.frame", "1");
 }
 
-// A shell pipe into a socket tool behaves like this.
+// A shell that pipes text into a socket tool stops sending in this way.
 TEST_F(Subscriptions, RemainIfTheClientOnlyStopsSending) {
   auto client = std::make_unique<RawClient>(server_.path);
   client->send(subscribe("live.frame", 20) + "\n");

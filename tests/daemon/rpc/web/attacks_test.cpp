@@ -1,5 +1,5 @@
-// Malicious or broken browsers: each is rejected or closed with bounded memory, and the machine's
-// control on the Unix socket continues to work.
+// Malicious or broken browsers. Each is rejected or disconnected, and uses a bounded amount of
+// memory. The machine's control on the Unix socket continues to work.
 #include <deque>
 #include <fstream>
 
@@ -8,7 +8,8 @@
 namespace mdof::rpc::test {
 namespace {
 
-// Largest memory that a hostile browser may use. ASan keeps up to 256 MB of freed memory.
+// Largest increase of memory that a hostile browser may cause. The limit is higher with ASan,
+// which keeps up to 256 MB of freed memory.
 #ifdef MDOF_SANITIZED
 constexpr double kMost_mb = 400;
 #else
@@ -36,7 +37,7 @@ class HostileBrowser : public WebPage {
     return o;
   }
   explicit HostileBrowser(const ServerOptions& options = short_times()) : WebPage(options) {}
-  // The machine's control and another browser are served normally.
+  // Checks that the machine's control and another browser are served normally.
   void expect_others_served() {
     RawClient control(server_.path);
     EXPECT_EQ(at(control.ask(call("get_data")), "/result/1"), "5");
@@ -45,7 +46,8 @@ class HostileBrowser : public WebPage {
   }
 };
 
-// A second request inside the first must not be processed as a separate request.
+// The body of the first request contains text that looks like a second request. The server must
+// not process this text as a request.
 TEST_F(HostileBrowser, CannotSmuggleARequest) {
   const std::string hidden = post(call("write"), "Authorization: Bearer " + kTestToken + "\r\n");
   const std::string start =
@@ -64,7 +66,7 @@ TEST_F(HostileBrowser, CannotSmuggleARequest) {
     const Answer answer = client.answer();
     EXPECT_GE(answer.status, 400) << fields;
     EXPECT_EQ(answer.field("Connection"), "close") << fields;
-    EXPECT_EQ(client.until("HTTP/1.1"), "") << fields;  // no second answer
+    EXPECT_EQ(client.until("HTTP/1.1"), "") << fields;  // there is no second answer
     EXPECT_TRUE(client.closes());
   }
   expect_others_served();
@@ -84,11 +86,11 @@ TEST_F(HostileBrowser, TooLargeRequestsAreRejected) {
   HttpClient endless = client();
   const std::string block(65536, 'x');
   endless.send("GET /");
-  while (endless.send(block)) continue;  // until it is closed
+  while (endless.send(block)) continue;  // until the server closes the connection
   expect_others_served();
 }
 
-// A head, a body or nothing, sent one byte at a time.
+// Clients that send a head or a body one byte at a time, and a client that sends nothing.
 TEST_F(HostileBrowser, SlowClientsAreClosed) {
   std::vector<HttpClient> slow;
   for (int i = 0; i < 30; ++i) slow.push_back(client());
@@ -102,10 +104,10 @@ TEST_F(HostileBrowser, SlowClientsAreClosed) {
   for (HttpClient& each : slow) EXPECT_EQ(each.answer().status, 408);
   expect_others_served();
   HttpClient silent = client();
-  EXPECT_TRUE(silent.closes());  // after http_idle_timeout, without an answer
+  EXPECT_TRUE(silent.closes());  // closed after http_idle_timeout, without an answer
 }
 
-// Ten thousand connections that the browser never closes.
+// The browser opens ten thousand connections and closes none.
 TEST_F(HostileBrowser, OpensTenThousandConnections) {
   std::deque<HttpClient> open;
   const double before = resident_memory_mb();
@@ -122,7 +124,8 @@ TEST_F(HostileBrowser, OpensTenThousandConnections) {
   EXPECT_TRUE(open_become(0));
 }
 
-// Active clients remain connected; a client without a free connection gets an answer.
+// If all connections are used, active clients remain connected. A further client gets the answer
+// 503.
 TEST_F(HostileBrowser, CannotExceedTheConnectionLimit) {
   std::vector<HttpClient> streams;
   for (int i = 0; i < 8; ++i) {
@@ -138,15 +141,15 @@ TEST_F(HostileBrowser, CannotExceedTheConnectionLimit) {
   }
   const Answer late = ask(get("/"));
   EXPECT_TRUE(late.status == 503 || late.status == 200)
-      << late.status;               // 200 if one of the others is late
-  RawClient control(server_.path);  // has its own connections
+      << late.status;               // 200 if the server has closed a slow client
+  RawClient control(server_.path);  // the Unix socket has its own connections
   EXPECT_EQ(at(control.ask(call("get_data")), "/result/1"), "5");
   publish("event", "1");
   for (HttpClient& each : streams) EXPECT_NE(each.until("\"value\":1}"), "");
 }
 
-// A stream that is never read: the other clients get each event, pending events use no memory of
-// their own, and the stream is dropped after stall_timeout.
+// A browser never reads its stream. The other clients get each event. The waiting events are not
+// copied for this browser. The server closes the stream after stall_timeout.
 TEST_F(HostileBrowser, AStreamThatIsNeverReadIsDropped) {
   HttpClient deaf = client(), good = client();
   const int bytes = 4096;
@@ -171,7 +174,8 @@ TEST_F(HostileBrowser, AStreamThatIsNeverReadIsDropped) {
   expect_others_served();
 }
 
-// Closes after every byte of a request, and in the middle of a late reply.
+// The browser closes the connection after each byte of a request, and while it receives a late
+// reply.
 TEST_F(HostileBrowser, MayDisconnectAtAnyByte) {
   const std::string request = post(call("later"));
   for (std::size_t n = 1; n <= request.size(); ++n) client().send(request.substr(0, n));

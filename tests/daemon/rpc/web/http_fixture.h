@@ -1,4 +1,5 @@
-// A server of the web page and a client that may misbehave, for the tests of this folder.
+// For the tests of this folder: a server of the web page, and a client that may violate the
+// protocol.
 #pragma once
 
 #include <arpa/inet.h>
@@ -19,10 +20,10 @@ inline constexpr std::array<PageFile, 2> kTestPage{{
 inline const std::string kTestToken(64, 'a');
 
 struct Answer {
-  int status = 0;  // 0: the server closed without an answer, or was too slow
+  int status = 0;  // 0: the server closed without an answer, or the answer came too late
   std::string head, body;
 
-  // "" if the field is missing.
+  // The value of a header field; "" if the field is missing.
   std::string field(const std::string& name) const {
     const auto at = head.find("\r\n" + name + ": ");
     if (at == std::string::npos) return {};
@@ -52,7 +53,8 @@ class HttpClient {
     return true;
   }
 
-  // Reads until `text` arrives; returns all bytes to its end. "" if the server closes or is silent.
+  // Reads until `text` arrives. Returns all bytes up to the end of `text`, or "" if the server
+  // closes or sends nothing.
   std::string until(std::string_view text, std::chrono::milliseconds timeout = 20s) {
     for (;;) {
       if (const auto at = got_.find(text); at != std::string::npos) {
@@ -83,7 +85,7 @@ class HttpClient {
     return answer();
   }
 
-  // Whether the connection ends without further bytes.
+  // Returns true if the server closes the connection without sending further bytes.
   bool closes() {
     while (receive(20s)) continue;
     return ended_;

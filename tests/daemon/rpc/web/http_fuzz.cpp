@@ -1,6 +1,8 @@
-// Bytes of a browser: read as heads, whole and in two parts, then through a connection with its
-// routes. For any input, a head that was read obeys the rules, an answer is HTTP, and nobody
-// without a token writes.
+// Bytes from a browser. The fuzzer reads them as a head, whole and in two parts. Then it sends
+// them through a connection. For any input:
+// - an accepted head obeys the rules
+// - an answer is HTTP
+// - a request without the token changes nothing
 #include <sys/socket.h>
 #include <unistd.h>
 

@@ -7,7 +7,8 @@ namespace {
 
 constexpr HttpLimits kLimits{8192, 65536};
 
-// The head of `text` as a connection reads it, or the status that rejects it; 0: incomplete.
+// The status with which the server rejects the head of `text`; 200 if it accepts the head; 0 if
+// the head is incomplete.
 int head_status(const std::string& text, HttpHead* head = nullptr) {
   std::size_t scanned = 0;
   const auto end = head_length(text, scanned, kLimits.head_bytes);
@@ -59,7 +60,7 @@ TEST(HttpHead, StatesWhetherTheConnectionIsKept) {
   EXPECT_FALSE(head.takes_gzip);
 }
 
-// Bytes that two readers could interpret differently are rejected (RFC 9112, 11.2).
+// If two programs could interpret the bytes differently, the head is rejected (RFC 9112, 11.2).
 TEST(HttpHead, RejectsAmbiguousHeads) {
   EXPECT_EQ(head_status(with_fields("Content-Length: 5\r\n")), 200);
   EXPECT_EQ(head_status(with_fields("Content-Length: 5\r\nContent-Length: 6\r\n")), 400);
@@ -93,7 +94,7 @@ TEST(HttpHead, NeedsAPathAHostAndAVersion) {
   for (const char* version : {"HTTP/2.0", "HTTP/1.2", "HTTP/1.11", "http/1.1", "HTTP/0.9", ""})
     EXPECT_EQ(head_status("GET / " + std::string(version) + "\r\nHost: a\r\n\r\n"), 400) << version;
   EXPECT_EQ(head_status("GET /\r\n\r\n"), 400);
-  EXPECT_EQ(head_status("\x16\x03\x01"), 400);  // TLS
+  EXPECT_EQ(head_status("\x16\x03\x01"), 400);  // the start of a TLS connection
   EXPECT_EQ(head_status("{\"jsonrpc\""), 400);
 }
 
@@ -108,7 +109,7 @@ TEST(HttpHead, HasLimits) {
   EXPECT_NE(head_status(with_fields("Content-Length: 18446744073709551621\r\n")), 200);
 }
 
-// For any division of the bytes.
+// The bytes may arrive in any parts.
 TEST(HttpHead, EndsAtTheSamePlace) {
   const std::string text = with_fields("Content-Length: 2\r\n") + "{}";
   std::size_t scanned = 0;

@@ -1,4 +1,4 @@
-// Requests of browsers and their answers: the page, calls, streams of events.
+// Requests of browsers and the server's answers: the page, calls of methods, streams of events.
 #include "tests/daemon/rpc/web/http_fixture.h"
 
 namespace mdof::rpc::test {
@@ -45,7 +45,8 @@ TEST_F(WebPage, AnswersHeadWithoutABody) {
   const Answer head = client.answer(true);
   EXPECT_EQ(head.status, 200);
   EXPECT_EQ(head.field("Content-Length"), std::to_string(kTestPage[1].text.size()));
-  EXPECT_EQ(client.ask(get("/")).body, kTestPage[0].text);  // no bytes remain in between
+  // The server has sent no body of /app.js before this answer.
+  EXPECT_EQ(client.ask(get("/")).body, kTestPage[0].text);
 }
 
 TEST_F(WebPage, RejectsUnknownPathsMethodsAndTypes) {
@@ -94,7 +95,7 @@ TEST_F(WebPage, AnswersRequestsAsTheSocketDoes) {
   EXPECT_EQ(client.ask(post("")).body.find(R"({"jsonrpc":"2.0","error":{"code":-32700)"), 0U);
 }
 
-// Many requests in one connection, also in the smallest possible parts.
+// Many requests in one connection; they also arrive in the smallest possible parts.
 TEST_F(WebPage, KeepsAConnectionForConsecutiveRequests) {
   HttpClient client = this->client();
   std::string all;
@@ -131,7 +132,7 @@ TEST_F(WebPage, OnlyTheTokenPermitsWriting) {
   EXPECT_EQ(status_of(post(call("write"), kOurs + kOurs)), 400);
   const std::string why = at(ask(post(call("write"))).body, "/error/message");
   EXPECT_NE(why.find("mdof token"), std::string::npos) << why;
-  // The permission is valid for that request only.
+  // The token gives the permission for one request only.
   HttpClient client = this->client();
   EXPECT_EQ(at(client.ask(post(call("write"), kOurs)).body, "/result"), "true");
   EXPECT_EQ(at(client.ask(post(call("write"))).body, "/error/code"), "-32003");
@@ -195,7 +196,7 @@ TEST_F(WebPage, ResumesAStreamByItsLastEvent) {
   EXPECT_NE(again.until("\n\n").find("\"value\":2}"), std::string::npos);
   publish("event", "3");
   EXPECT_NE(again.until("\n\n").find("\"value\":3}"), std::string::npos);
-  HttpClient other = client();  // with an id from a previous process of mdofd
+  HttpClient other = client();  // its last event id is from a previous process of mdofd
   other.send(get("/events?topics=event", "Last-Event-ID: 5\r\n"));
   other.until("\n\n");
   EXPECT_NE(other.until("\n\n").find("event: lost\ndata: {\"count\":null}\n\n"), std::string::npos);

@@ -1,4 +1,5 @@
-// Rules that need no connection: hosts and origins, the token's file, kept events, queries.
+// Rules that need no connection: allowed hosts and origins, the file of the token, kept events,
+// queries.
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -25,7 +26,8 @@ int judged(const std::string& host, const std::string& origin = "", const std::s
   return same ? 200 : same.error().status;
 }
 
-// A foreign name that points here (DNS rebinding) is the host of all requests of its page.
+// DNS rebinding: a foreign host name has the address of this machine. All requests of the foreign
+// page then have this name as host.
 TEST(SameSite, AcceptsOnlyItsOwnHosts) {
   for (const char* host : {"localhost:8080", "LOCALHOST", "127.0.0.1:1", "[::1]:8080", "[::1]",
                            "mill.local:8080", "MILL.local:8080"})
@@ -39,7 +41,8 @@ TEST(SameSite, AcceptsOnlyItsOwnHosts) {
 
 TEST(SameSite, AcceptsOnlyItsOwnPage) {
   EXPECT_EQ(judged("localhost:8080", "http://localhost:8080"), 200);
-  EXPECT_EQ(judged("mill.local:8080", "https://mill.local:8080"), 200);  // behind a proxy
+  // The page is served by a proxy.
+  EXPECT_EQ(judged("mill.local:8080", "https://mill.local:8080"), 200);
   for (const char* origin :
        {"http://evil.example", "null", "http://localhost:3000", "http://127.0.0.1:8080",
         "http://localhost", "localhost:8080", "http://localhost:8080.evil.example", "file://"})
@@ -47,7 +50,8 @@ TEST(SameSite, AcceptsOnlyItsOwnPage) {
   EXPECT_EQ(judged("localhost:8080", "", "cross-site"), 403);
   EXPECT_EQ(judged("localhost:8080", "", "same-site", "/events"), 403);
   EXPECT_EQ(judged("localhost:8080", "", "same-origin"), 200);
-  EXPECT_EQ(judged("localhost:8080", "", "cross-site", "/"), 200);  // a link to the page
+  // A link on a foreign page to this page.
+  EXPECT_EQ(judged("localhost:8080", "", "cross-site", "/"), 200);
 }
 
 class TokenFile : public ::testing::Test {
@@ -105,7 +109,7 @@ TEST(Token, MustMatchCompletely) {
         "Bearer " + kTestToken.substr(1), "Bearer b" + kTestToken.substr(1),
         "Bearer  " + kTestToken, std::string("Bearer "), "Basic " + kTestToken})
     EXPECT_FALSE(bears_token(wrong, kTestToken)) << wrong;
-  EXPECT_FALSE(bears_token("Bearer ", ""));  // an empty token gives no permission
+  EXPECT_FALSE(bears_token("Bearer ", ""));  // if the token is empty, nobody has permission
 }
 
 constexpr std::chrono::system_clock::time_point kStart{std::chrono::seconds(1'790'000'000)};
@@ -126,12 +130,13 @@ TEST(KeptEvents, ResumeAfterTheLastEventAndReportLostOnes) {
   KeptEvents kept(kStart, {3, 1000});
   const std::uint64_t base = kept.last_id();
   for (int i = 1; i <= 5; ++i) kept.add("a", std::to_string(i));
-  EXPECT_EQ(kept.resume("").after, base + 5);  // a new client begins now
+  EXPECT_EQ(kept.resume("").after, base + 5);  // a new client receives only later events
   EXPECT_FALSE(kept.resume("").lost);
   const auto near = kept.resume(std::to_string(base + 3));
   EXPECT_FALSE(near.lost);
   EXPECT_EQ(kept.next(near.after).event->json, "4");
-  const auto far = kept.resume(std::to_string(base + 1));  // event 2 is lost, 3 to 5 are kept
+  // Event 2 is lost; events 3 to 5 are kept.
+  const auto far = kept.resume(std::to_string(base + 1));
   EXPECT_TRUE(far.lost);
   EXPECT_EQ(far.count, 1U);
   EXPECT_EQ(kept.next(far.after).event->json, "3");
@@ -148,7 +153,7 @@ TEST(KeptEvents, UseBoundedMemory) {
   KeptEvents kept(kStart, {1000, 100});
   for (int i = 0; i < 50; ++i) kept.add("topic", std::string(20, 'x'));
   EXPECT_EQ(kept.size(), 4U);
-  kept.add("topic", std::string(500, 'x'));  // larger than the limit
+  kept.add("topic", std::string(500, 'x'));  // larger than the memory limit
   EXPECT_EQ(kept.size(), 1U);
 }
 
@@ -190,7 +195,7 @@ TEST(ServedFiles, HaveATypeAndAnEtagOfTheirContent) {
     EXPECT_EQ(files.find(path), nullptr) << path;
 }
 
-// The page of this build.
+// The files of the page that this build contains.
 TEST(ServedFiles, AreThoseOfTheBuild) {
   const ServedFiles files(page_files());
   ASSERT_NE(files.find("/"), nullptr);
@@ -203,7 +208,7 @@ TEST(ServedFiles, AreThoseOfTheBuild) {
     const ServedFile& served = *files.find('/' + std::string(file.name));
     sent += served.gzip.empty() ? served.text.size() : served.gzip.size();
   }
-  EXPECT_LT(sent, 200'000U);  // all files of the page, as a browser receives them
+  EXPECT_LT(sent, 200'000U);  // size of all files of the page, as a browser receives them
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Reports about a device that fails, returns and loses samples.
+// Reports about a device that fails, returns or loses samples.
 #include "daemon/station/device/acquisition.h"
 #include "drivers/long_step.h"
 
@@ -13,7 +13,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Actions of the fake device for successive calls of open() and read(); then it is silent.
+// Actions of the fake device, one for each call of open() and read(). After the last action the
+// device sends nothing.
 struct Script {
   enum class Act {
     open,
@@ -29,7 +30,7 @@ struct Script {
     hang
   };
   std::deque<Act> acts;
-  std::int64_t time_ns = 0;  // of the next scan
+  std::int64_t time_ns = 0;  // time of the next scan
 };
 
 class Scripted final : public drivers::Driver {
@@ -79,7 +80,7 @@ class Scripted final : public drivers::Driver {
     script_.acts.pop_front();
     return act;
   }
-  // Ten scans at 1 kHz; after a failure the next block is a second later.
+  // Ten scans at 1 kHz. The first block after a failure is one second later.
   void fill(SampleBlock& block) {
     block.device = "fake";
     block.channels = info().channels;
@@ -94,10 +95,10 @@ class Scripted final : public drivers::Driver {
   }
   Script script_;
   std::string datum_lost_;
-  drivers::DeviceClock clock_{1.0};  // its ticks are nanoseconds
+  drivers::DeviceClock clock_{1.0};  // one tick of the clock is 1 ns
 };
 
-// Collects blocks; accepts a limited number if requested.
+// Collects blocks. If `room` is given, it accepts only this number of blocks.
 class Collector {
  public:
   explicit Collector(std::size_t room = 1000) : room_(room) {}
@@ -179,13 +180,13 @@ TEST(Acquisition, ReopensAFailedDeviceAndReportsLostSamples) {
   ASSERT_TRUE(collector.wait_for(2));
   const auto blocks = collector.blocks();
   EXPECT_EQ(blocks[0].lost, 0u);
-  EXPECT_EQ(blocks[1].lost, 1000u);  // a second at 1 kHz
+  EXPECT_EQ(blocks[1].lost, 1000u);  // one second at 1 kHz
   const DeviceStatus status = acquisition.status();
   EXPECT_EQ(status.state, "open");
   EXPECT_EQ(status.reopened, 3u);
   EXPECT_EQ(status.lost, 1000u);
   EXPECT_EQ(status.scans, 20u);
-  EXPECT_EQ(status.error, "");  // the device has recovered, so there is no current error
+  EXPECT_EQ(status.error, "");  // the device works again, so there is no current error
   EXPECT_EQ(status.last_error, "10.0.0.9: no route");
   EXPECT_FALSE(status.recovered_utc.empty());
   EXPECT_TRUE(status.standing.empty());
@@ -194,7 +195,7 @@ TEST(Acquisition, ReopensAFailedDeviceAndReportsLostSamples) {
   EXPECT_EQ(acquisition.status().state, "closed");
 }
 
-// Whether healthy() is true during a whole read that takes 0.7 s.
+// Returns whether healthy() is true during the whole time of a read that takes 0.7 s.
 bool is_healthy_throughout(Script::Act act) {
   Collector collector;
   Acquisition acquisition(scripted_spec({open, block, act, block}), collector.sink());
@@ -235,7 +236,7 @@ TEST(Acquisition, ReportsALostDatumAndKeepsItSuspect) {
   acquisition.start();
   ASSERT_TRUE(collector.wait_for(3));
   const auto reported = collector.troubles();
-  ASSERT_EQ(reported.size(), 5u);  // lost, suspect, back, lost, back
+  ASSERT_EQ(reported.size(), 5u);  // reports: lost, suspect, back, lost, back
   EXPECT_NE(reported[1].find("suspect: the encoder's datum is lost"), std::string::npos)
       << reported[1];
   EXPECT_NE(reported[1].find("it counts from 0 again"), std::string::npos) << reported[1];
@@ -257,7 +258,7 @@ TEST(Acquisition, ReportsADeviceThatCannotBeOpenedAlsoLater) {
   EXPECT_EQ(status.error, "10.0.0.9: no route");
 }
 
-// At 1 kHz the window of 5 s would have 5000 scans; here it has 10.
+// At 1 kHz, 5000 scans are expected in 5 s. The device delivers only 10.
 TEST(Acquisition, ReportsASlowDevice) {
   Collector collector;
   Acquisition acquisition(scripted_spec({open, block}), collector.sink());
@@ -276,14 +277,15 @@ TEST(Acquisition, ADeviceThatOpensSlowlyIsNotAHungThread) {
   Collector collector;
   Acquisition acquisition(scripted_spec({slow_open, block}), collector.sink());
   acquisition.start();
-  std::this_thread::sleep_for(milliseconds(20));  // the thread has begun
+  std::this_thread::sleep_for(milliseconds(20));  // the thread has started now
   while (collector.blocks().empty()) {
     ASSERT_TRUE(acquisition.healthy(milliseconds(150)));
     std::this_thread::sleep_for(milliseconds(1));
   }
 }
 
-// Without the plug-in event, the pauses of forty refusals take over a quarter of a minute.
+// Forty attempts to open the device fail. Without the plug-in event, the pauses between the
+// attempts would take over 15 s.
 TEST(Acquisition, OpensAPluggedInDeviceWithoutDelay) {
   std::deque<Script::Act> acts(40, refuse);
   acts.insert(acts.end(), {open, block});
@@ -340,7 +342,8 @@ TEST(Acquisition, StopsWhileItWaits) {
   EXPECT_EQ(acquisition.status().scans, 0u);
 }
 
-// Packets that are late for a while: suspect, so that they get no position, and reported.
+// For a while, packets arrive too late. Their samples are suspect, so they get no position, and
+// the station reports this.
 TEST(Acquisition, SamplesAreSuspectWhileTheirClockIsUncertain) {
   Collector collector;
   Acquisition acquisition(scripted_spec({open, block, late_block, late_block, block}),

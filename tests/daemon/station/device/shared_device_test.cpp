@@ -1,4 +1,4 @@
-// One device, two axes: each axis gets its channels and the troubles of the device.
+// One device that two axes use. Each axis gets its channels and the troubles of the device.
 #include "daemon/station/device/shared_device.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Counts per scan at two encoders and a probe. Thread-safe.
+// A device that counts at two encoders and reads a probe in each scan. Thread-safe.
 struct TwoCounters {
   std::atomic<int> opened{0}, destroyed{0}, x_trusted{0};
   std::atomic<bool> gone{false}, x_lost{false}, y_lost{false};
@@ -62,7 +62,7 @@ class TwoCountersDriver final : public drivers::Driver {
   std::int64_t scan_ = 0;
 };
 
-// Data and reports that one axis received.
+// Collects the data and reports that one axis received.
 class TakingAxis {
  public:
   DeviceSink sink() {
@@ -162,7 +162,7 @@ TEST_F(SharedDeviceTest, ALossIsReportedToBothAxes) {
   EXPECT_TRUE(becomes_true([&] { return x_.troubles() == back && y_.troubles() == back; }));
 }
 
-// The status is checked once a second.
+// The state of the device is checked once a second.
 TEST_F(SharedDeviceTest, ADatumBelongsToOneAxis) {
   start();
   state_->y_lost = true;
@@ -171,7 +171,7 @@ TEST_F(SharedDeviceTest, ADatumBelongsToOneAxis) {
   EXPECT_EQ(standing(*part_y_), 1u);
   EXPECT_EQ(standing(*part_x_), 0u);
   EXPECT_TRUE(x_.troubles().empty());
-  part_x_->trust_count();  // of the other axis
+  part_x_->trust_count();  // datum of the other axis
   ASSERT_TRUE(becomes_true([&] { return state_->x_trusted == 1; }));
   EXPECT_TRUE(state_->y_lost);
   EXPECT_EQ(standing(*part_y_), 1u);

@@ -1,4 +1,4 @@
-// TCP, serial ports and pipes: received data, time-outs and closed peers.
+// TCP, serial ports and pipes: received data, time-outs, and peers that close the connection.
 #include "drivers/io/byte_stream.h"
 
 #include <gtest/gtest.h>
@@ -111,7 +111,7 @@ TEST(Serial, OpensAPtyAndRefusesASecondProgram) {
     ASSERT_TRUE(port) << port.error().message;
     EXPECT_EQ(read_some(*port, milliseconds(1)), "");
     ASSERT_EQ(::write(master, "\r\n\x01\x7f", 4), 4);
-    // Raw mode: no bytes are translated.
+    // The port is in raw mode, so all bytes arrive unchanged.
     EXPECT_EQ(read_some(*port, milliseconds(100)), "\r\n\x01\x7f");
     const auto second = open_serial(path, {});
     ASSERT_FALSE(second);

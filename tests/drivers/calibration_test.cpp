@@ -1,4 +1,4 @@
-// Calibration of missing values, and of positions in other units.
+// Calibration of readings and encoder positions: missing values, units, scales.
 #include "drivers/calibration.h"
 #include "tests/shown.h"
 
@@ -43,7 +43,8 @@ TEST(Calibration, MissingValueStaysMissing) {
   }
 }
 
-// Calculated by hand: 0.05 % inside the range of 200 um; a gap grows when the target recedes.
+// Calculated by hand. The limits are 0.05 % of the range of 200 um inside the range. With reads =
+// "gap", a reading increases when the target recedes.
 TEST(Calibration, WindowLimitsAreDisplacementsInOrder) {
   const auto expect = [](const std::string& more, double low_um, double high_um) {
     const auto [low_m, high_m] = displacement_window_m(rig_with(more).probes[0]);
@@ -56,8 +57,9 @@ TEST(Calibration, WindowLimitsAreDisplacementsInOrder) {
   expect("valid_um = [-50, 80]\n", -50, 80);
 }
 
-// A laboratory's um_per_V does not apply to a reading that the amplifier has converted to a length.
-// An um_per_V that only the rig states is for logs in volts.
+// A laboratory's um_per_V applies to volts, and must not be used for a reading that the amplifier
+// has converted to a length. If um_per_V is only in the rig, it may be for logs in volts, so there
+// is no notice.
 TEST(Calibration, LengthDoesNotUseTheScaleOfARecord) {
   Rig rig = rig_with("um_per_V = 20\n");
   EXPECT_TRUE(unused_scales(rig, {{"A", Unit::um}}).empty());
@@ -82,7 +84,7 @@ TEST(Calibration, ConvertsPositionsInVoltsWithTheRigsScale) {
     EXPECT_DOUBLE_EQ(block.value[0][1], -1.5e-6 * um_per_V);
     EXPECT_TRUE(std::isnan(block.value[0][2]));
     EXPECT_EQ(block.channels[0].unit, Unit::metre);
-    // Only for volts.
+    // The scale applies to volts only.
     SampleBlock length = block_of({kEncoderChannel, Unit::mm}, {12.5});
     ASSERT_TRUE(Calibrator(rig).apply(length));
     EXPECT_EQ(length.value[0][0], 0.0125);

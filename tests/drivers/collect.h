@@ -1,4 +1,4 @@
-// Collects the samples of a driver.
+// Collects the samples that a driver reads.
 #pragma once
 
 #include <gtest/gtest.h>

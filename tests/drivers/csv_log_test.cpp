@@ -195,7 +195,7 @@ TEST_F(CsvLogTest, ReturnsRowsBeforeAnError) {
   EXPECT_NE(r.error.find(":9003: column time_s"), r.error.npos) << r.error;
 }
 
-// 5 MB of empty lines in 5 kB; the limit is that of all programs.
+// 5 MB of empty lines have about 5 kB in gzip. The limit is 4 MiB of empty lines for all programs.
 TEST_F(CsvLogTest, StopsReadingAtTheLimitOfEmptyLines) {
   const std::string blank(5 << 20, '\n');
   std::string many = gzipped(log_text(10) + blank);
@@ -206,7 +206,7 @@ TEST_F(CsvLogTest, StopsReadingAtTheLimitOfEmptyLines) {
   const Replay r = replay(log);
   EXPECT_NE(r.error.find(path + ":13: more than 4194304 bytes of empty lines"), r.error.npos)
       << r.error;
-  EXPECT_LT(log.bytes(), many.size());  // the other 500 MB were not unpacked
+  EXPECT_LT(log.bytes(), many.size());  // the driver did not unpack the other 500 MB
   EXPECT_EQ(replay(file(gzipped(log_text(10) + std::string(4 << 20, '\n')))).rows(), 10u);
 }
 

@@ -1,4 +1,5 @@
-// Reads a measured series from a CSV file: the requested columns, or an error with its line.
+// Reads the columns of a measured series from a CSV file. An error message contains the line
+// number.
 #include "drivers/csv/csv_table.h"
 
 #include <gtest/gtest.h>
@@ -62,8 +63,8 @@ TEST_F(CsvTableTest, ReadsOptionalColumnsIfTheyExist) {
   ASSERT_FALSE(unit);
   EXPECT_NE(unit.error().message.find("rename the column to u_um"), std::string::npos)
       << unit.error().message;
-  // A column without any value does not exist. If only some rows have a value, a row without one is
-  // invalid.
+  // If no row has a value in a column, the column does not exist. If only some rows have a value,
+  // a row without a value is invalid.
   const auto empty = with("position_mm,u_um,deviation_um\n1,,2\n3,nan,4\n").value();
   EXPECT_EQ(empty.columns, (std::vector<std::vector<double>>{{1, 3}, {2, 4}, {}, {}}));
   const auto partly = with("position_mm,deviation_um,u_um\n1,2,3\n4,5,\n");

@@ -1,6 +1,6 @@
-// Rules of a device's clock, each with values calculated by hand: when it has settled, which
-// packets are late, how fast returned times may run. tests/mutate showed that these tests were
-// missing.
+// Rules of the device clock: when it has settled, which packets are late, and how fast its times
+// may change. The expected values were calculated by hand. tests/mutate showed that these tests
+// were missing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,9 +11,9 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr double kRuleTick_ns = 1'000'000;  // a packet of one sample every millisecond
+constexpr double kRuleTick_ns = 1'000'000;  // one packet with one sample every millisecond
 
-// Host time of a tick, for a device that is fast by `ppm`.
+// Host time of a tick. `ppm`: the device runs faster than the host by this value.
 std::int64_t at_ns(std::int64_t tick, double ppm) {
   return 7'000'000'000 + std::llround(static_cast<double>(tick) * kRuleTick_ns / (1 + ppm * 1e-6));
 }
@@ -26,7 +26,7 @@ TEST(DeviceClockRules, NewClockHasNoState) {
   EXPECT_EQ(state.steps, 0u);
 }
 
-// Sixteen quarters of a second.
+// The clock needs sixteen intervals of 0.25 s.
 TEST(DeviceClockRules, SettlesAfterFourSeconds) {
   DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 6'000; ++tick) {
@@ -48,7 +48,7 @@ TEST(DeviceClockRules, UncertainForFourSecondsAfterAStep) {
   }
 }
 
-// A step before the clock has settled needs only one second.
+// After a step before the clock has settled, it is uncertain for one second only.
 TEST(DeviceClockRules, UncertainForASecondAfterAnEarlyStep) {
   DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 500; ++tick) clock.add(tick, at_ns(tick, 0));
@@ -58,8 +58,8 @@ TEST(DeviceClockRules, UncertainForASecondAfterAnEarlyStep) {
   }
 }
 
-// The limit is 0.1 s relative to the line, independent of the accumulated drift: 500 ppm over five
-// minutes are 150 ms, more than the limit.
+// Lateness is the time after the fitted line, with a limit of 0.1 s. The drift does not count: 500
+// ppm in five minutes are 150 ms, which is more than the limit.
 TEST(DeviceClockRules, LatenessIsRelativeToTheLine) {
   for (const double ppm : {500.0, -500.0}) {
     DeviceClock clock(kRuleTick_ns);
@@ -77,9 +77,9 @@ TEST(DeviceClockRules, LatenessIsRelativeToTheLine) {
     clock.add(300'040, at_ns(300'040, ppm));
     EXPECT_FALSE(clock.state().doubtful) << ppm;
     EXPECT_EQ(clock.state().late_ns, 0);
-    clock.add(300'060, at_ns(300'060, ppm) - 90'000'000);  // earlier than the line predicts
+    clock.add(300'060, at_ns(300'060, ppm) - 90'000'000);  // earlier than the fitted line
     EXPECT_EQ(clock.state().steps, 0u) << ppm;
-    // Impossibly early: the device's time has jumped ahead.
+    // This packet is much too early. The device's time must have jumped forward.
     clock.add(300'080, at_ns(300'080, ppm) - 150'000'000);
     EXPECT_EQ(clock.state().steps, 1u) << ppm;
   }
@@ -93,8 +93,8 @@ TEST(DeviceClockRules, LimitsTheDriftToAThousandPpm) {
   }
 }
 
-// The drift changes, as when a device warms up: after a little more than 64 s the old drift has no
-// effect.
+// The drift changes, for example because the device warms up. After 70 s the clock shows only the
+// new drift, because it uses packets of the last 64 s.
 TEST(DeviceClockRules, ForgetsPacketsOlderThanAMinute) {
   DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 200'000; tick += 5) clock.add(tick, at_ns(tick, 50));
@@ -105,7 +105,8 @@ TEST(DeviceClockRules, ForgetsPacketsOlderThanAMinute) {
   EXPECT_NEAR(clock.state().drift_ppm, 80, 0.01);
 }
 
-// Three of five stretches have packets with a spread of 2 ms, the others have none.
+// The packets of three of five intervals have a jitter of 2 ms. The packets of the other intervals
+// have no jitter.
 TEST(DeviceClockRules, JitterIsTheMedianOfTheStretches) {
   DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 10'000; ++tick) {
@@ -115,7 +116,7 @@ TEST(DeviceClockRules, JitterIsTheMedianOfTheStretches) {
   EXPECT_EQ(clock.state().jitter_ns, 2'000'000);
 }
 
-// The first returned time is on the line immediately, even if the first packet was late.
+// The first time that the clock returns is on the fitted line, although the first packet was late.
 TEST(DeviceClockRules, FirstTimeIsOnTheLine) {
   DeviceClock clock(kRuleTick_ns);
   clock.add(0, at_ns(0, 0) + 50'000'000);
@@ -123,8 +124,9 @@ TEST(DeviceClockRules, FirstTimeIsOnTheLine) {
   EXPECT_EQ(clock.host_ns(10), at_ns(10, 0));
 }
 
-// Times follow a moving line without steps. Before settling they slew by at most 20 % of the time,
-// afterwards by 2 per mil, both in addition to the drift.
+// The fitted line may move. The returned times follow it without steps. In addition to the drift,
+// their rate differs by at most 20 % before the clock has settled, and by at most 0.2 %
+// afterwards.
 TEST(DeviceClockRules, TimesRunNoFasterThanTheSlew) {
   for (const double ppm : {800.0, -800.0}) {
     DeviceClock clock(kRuleTick_ns);
@@ -144,10 +146,10 @@ TEST(DeviceClockRules, TimesRunNoFasterThanTheSlew) {
         most = std::max(most, rate);
       }
     }
-    EXPECT_NEAR(least, 0.8, 1e-5) << ppm;  // 30 ms are corrected in 150 ms
+    EXPECT_NEAR(least, 0.8, 1e-5) << ppm;  // 30 ms are corrected within 150 ms
     EXPECT_LE(most, 1 + 1e-5) << ppm;
     EXPECT_LE(settled_rate_error, 2e-3 + 1e-5) << ppm;
-    // The first line of a slow device had an error of 3 ms and no drift.
+    // The first line of a slow device assumes no drift and therefore has an error of 3 ms.
     EXPECT_GE(settled_rate_error, ppm < 0 ? 2e-3 - 1e-5 : 0);
     EXPECT_LT(std::abs(static_cast<double>(last_ns - at_ns(11'999, ppm))), 1'000) << ppm;
   }

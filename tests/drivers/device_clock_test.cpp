@@ -1,4 +1,4 @@
-// A device's time on the host's clock, compared with the known truth.
+// Compares the times that the device clock calculates with the true times of a simulated device.
 #include "drivers/clock/device_clock.h"
 
 #include <gtest/gtest.h>
@@ -10,11 +10,11 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr double kTick_ns = 250'000;  // 4 kHz
+constexpr double kTick_ns = 250'000;  // sampling at 4 kHz
 constexpr std::int64_t kPacket = 8;
 
-// A device that sends packets of kPacket samples. Each is received after a delay of 0.1 ms to 0.1
-// ms + jitter; one of 500 is 80 ms late.
+// A device that sends packets of kPacket samples. The delay of a packet is 0.1 ms plus a random
+// part from 0 to jitter_ns. On average one of 500 packets is 80 ms later.
 struct Device {
   double ppm, jitter_ns;
   std::int64_t start_ns = 5'000'000'000;
@@ -30,7 +30,8 @@ struct Device {
   }
 };
 
-// Largest errors of the mapped times in µs, before and after `settled_ns`.
+// Largest errors of the calculated times in µs. early_us: for times before settled_ns, late_us:
+// after it.
 struct Worst {
   double early_us = 0, late_us = 0;
   bool monotonic = true;
@@ -55,7 +56,7 @@ Worst follow(DeviceClock& clock, const Device& device, std::int64_t packets,
 TEST(DeviceClock, FollowsADriftThroughJitter) {
   for (const double ppm : {100.0, -100.0, 0.0, 500.0}) {
     DeviceClock clock(kTick_ns);
-    const Worst worst = follow(clock, {ppm, 3e6}, 30'000);  // a minute
+    const Worst worst = follow(clock, {ppm, 3e6}, 30'000);  // one minute
     EXPECT_TRUE(worst.monotonic);
     EXPECT_LT(worst.early_us, 3'100) << ppm;
     EXPECT_LT(worst.late_us, 500) << ppm;
@@ -66,18 +67,18 @@ TEST(DeviceClock, FollowsADriftThroughJitter) {
   }
 }
 
-// A computer that is busy while a device is opened: the first packets appear 60 ms late.
+// The computer is busy when a device is opened, so the first packets seem to arrive 60 ms late.
 TEST(DeviceClock, CorrectsABusyBeginningSoon) {
   const Device device{50, 1e6};
   DeviceClock clock(kTick_ns);
   double worst_us = 0;
   for (std::int64_t p = 0; p < 500; ++p) {
     const std::int64_t newest = p * kPacket + kPacket - 1;
-    const std::int64_t busy_ns = p < 60 ? 60'000'000 : 0;  // for 0.12 s
+    const std::int64_t busy_ns = p < 60 ? 60'000'000 : 0;  // the packets of 0.12 s
     clock.add(newest, device.received_ns(p) + busy_ns);
     const double off_us =
         std::abs(static_cast<double>(clock.host_ns(newest)) - device.true_ns(newest)) / 1e3;
-    worst_us = p > 300 ? std::max(worst_us, off_us) : 0;  // from 0.6 s on
+    worst_us = p > 300 ? std::max(worst_us, off_us) : 0;  // checked from 0.6 s on
   }
   EXPECT_LT(worst_us, 1'200);
 }
@@ -93,7 +94,7 @@ TEST(DeviceClock, IsExactWithoutJitter) {
   }
 }
 
-// The device was restarted: its count restarts or jumps.
+// A restart of the device sets its count to 0 or to another number.
 TEST(DeviceClock, JumpOfTheDeviceIsAStepAndTimesGrow) {
   for (const std::int64_t jump : {10'000, -10'000}) {
     DeviceClock clock(kTick_ns);
@@ -114,14 +115,14 @@ TEST(DeviceClock, JumpOfTheDeviceIsAStepAndTimesGrow) {
   }
 }
 
-// A link that is slow for a while without losses: meanwhile the clock is uncertain, the times stay
-// right, and there is no step.
+// A link is slow for a while, but loses no packets. During this time the clock is uncertain. Its
+// times remain correct, and it reports no step.
 TEST(DeviceClock, ASlowLinkIsNoStep) {
   const struct {
-    std::int64_t late_ns, packets;  // 2 ms each
+    std::int64_t late_ns, packets;  // each packet has 2 ms
   } cases[] = {{300'000'000, 1'500}, {1'200'000'000, 5'000}, {500'000'000, 20'000}};
   for (const auto& c : cases) {
-    // Before and after the clock has settled.
+    // The link becomes slow before or after the clock has settled.
     for (const std::int64_t from : {500, 4'000, 15'000}) {
       DeviceClock clock(kTick_ns);
       const Device device{50, 1e6};
@@ -136,15 +137,16 @@ TEST(DeviceClock, ASlowLinkIsNoStep) {
         EXPECT_EQ(clock.state().doubtful, late) << p;
         doubtful += clock.state().doubtful;
       }
-      EXPECT_LT(worst_us, 4'500) << c.late_ns;  // 50 ppm over 40 s without a new line
+      // For up to 40 s no new line is fitted, and the drift is 50 ppm.
+      EXPECT_LT(worst_us, 4'500) << c.late_ns;
       EXPECT_EQ(clock.state().steps, 0u);
       EXPECT_EQ(doubtful, c.packets);
     }
   }
 }
 
-// The device's time stood still for 0.3 s: the clock is uncertain from the first packet until the
-// new line is known, a minute and four seconds later.
+// The time of the device stops for 0.3 s. The clock is uncertain from the first later packet on,
+// until it has fitted a new line. This takes 64 s.
 TEST(DeviceClock, UncertainAfterTimeStoodStillUntilSettled) {
   DeviceClock clock(kTick_ns);
   const Device device{0, 1e6};
@@ -181,7 +183,7 @@ TEST(DeviceClock, TimesGrowAfterAReset) {
   follow(clock, {0, 1e6}, 1'000);
   const std::int64_t last = clock.host_ns(8'000);
   clock.reset();
-  clock.add(0, last - 5'000'000);  // reopened immediately
+  clock.add(0, last - 5'000'000);  // the device was opened again immediately
   EXPECT_GT(clock.host_ns(0), last);
 }
 

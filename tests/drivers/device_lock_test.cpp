@@ -1,4 +1,5 @@
-// Two programs and one device: the second is refused, with the name of the first.
+// Two programs want to use one device. The second program gets an error with the name of the
+// first.
 #include "drivers/io/device_lock.h"
 
 #include <gtest/gtest.h>
@@ -13,12 +14,12 @@
 namespace mdof::drivers {
 namespace {
 
-// A name that differs from those of tests that run at the same time.
+// A name that no test that runs at the same time uses.
 std::string fresh(const std::string& name) {
   return name + " of test " + std::to_string(::getpid());
 }
 
-// Another program that holds `identity` until it is destroyed.
+// Another program that holds the lock of `identity` until this object is destroyed.
 class Holder {
  public:
   explicit Holder(const std::string& identity) {
@@ -62,7 +63,7 @@ TEST(DeviceLock, NamesTheProgramThatHoldsTheDevice) {
   EXPECT_NE(refused.error().message.find(process), std::string::npos) << refused.error().message;
   EXPECT_EQ(refused.error().remedy, Remedy::ask_daemon_for_device);
   EXPECT_TRUE(free_again(identity + "0"));
-  holder.kill();  // like a crash: nothing remains
+  holder.kill();  // simulates a crash
   EXPECT_TRUE(free_again(identity));
 }
 

@@ -1,4 +1,5 @@
-// Runs a fuzzer once with each file of a folder, so that errors that were corrected do not return.
+// Runs a fuzzer once with each file of a folder. The files are inputs that have caused errors
+// before.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>

@@ -1,5 +1,5 @@
-// A folder for the files of a fuzzer, in memory if the machine has a memory file system: writing a
-// file on disk for each input would take some milliseconds.
+// A folder for the files of a fuzzer. It is in memory if the machine has a memory file system,
+// because a fuzzer writes a file for each input, and writing on a disk takes some milliseconds.
 #pragma once
 
 #include <cstdlib>

@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = fs::path(MDOF_TEST_DATA).parent_path().parent_path();
 
-// Expects the contents of a file; with MDOF_ACCEPT=1 writes them.
+// Checks that a file has the expected contents. If MDOF_ACCEPT is set, writes them first.
 void expect_file(const fs::path& file, const std::string& expected) {
   if (std::getenv("MDOF_ACCEPT")) std::ofstream(kRoot / file) << expected;
   EXPECT_EQ(read_text_file(kRoot / file).value(), expected)
       << file << " does not agree with drivers/registry.cpp; MDOF_ACCEPT=1 writes it anew";
 }
 
-// The same for the table with this head in the file.
+// Checks in the same way one table of a file. `head`: the heading lines of this table.
 void expect_table(const fs::path& file, const std::string& head, const std::string& rows) {
   const std::string text = read_text_file(kRoot / file).value();
   const std::size_t begin = text.find(head);
@@ -97,7 +97,7 @@ TEST(UdevRules, FileIsMadeFromTheRows) {
   expect_file("daemon/systemd/60-mdof.rules", udev_rules(driver_rows()));
 }
 
-// A line of the rules of one fictitious row.
+// The udev rules of one fictitious driver; returns the first rule.
 std::string rule_for(const LinuxNode& node) {
   const std::string text = udev_rules({{"made_up", "made_up", "", nullptr, node}});
   const std::size_t begin = text.find("SUBSYSTEM");

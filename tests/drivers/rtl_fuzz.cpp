@@ -1,4 +1,5 @@
-// .rtl files: read, or refused with a reason. The readings are finite and have a known direction.
+// For any input, a file .rtl is read or rejected with a reason. The readings must be finite, and
+// the direction must be known.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Serves a simulated device on real sockets of this machine, in its own thread.
+// Serves a simulated device on real sockets of this machine. A separate thread does this.
 #pragma once
 
 #include <arpa/inet.h>
@@ -21,7 +21,7 @@
 
 namespace mdof::drivers {
 
-// Listens on free ports from construction on; serves from serve() to the destructor.
+// The ports are open after construction. The device is served from serve() to the destructor.
 class ServedDevice {
  public:
   explicit ServedDevice(std::size_t ports) {
@@ -52,12 +52,12 @@ class ServedDevice {
   std::string address(std::size_t index = 0) const {
     return "127.0.0.1:" + std::to_string(port(index));
   }
-  // Bytes that clients have sent to port 0.
+  // All bytes that clients have sent to port 0.
   std::string received() {
     const std::lock_guard lock(mutex_);
     return received_;
   }
-  // Changes the device between two of its turns.
+  // Calls `act` while the device is not being served, so that `act` may change the device.
   void change(const std::function<void()>& act) {
     const std::lock_guard lock(mutex_);
     act();
@@ -129,7 +129,7 @@ class ServedDevice {
 
   std::vector<Listener> listeners_;
   SimulatedDevice* device_ = nullptr;
-  std::vector<Client> clients_;  // guarded by mutex_, as is the device
+  std::vector<Client> clients_;  // mutex_ protects the clients and the device
   std::string received_;
   std::mutex mutex_;
   int next_id_ = 1;

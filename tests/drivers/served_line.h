@@ -1,4 +1,4 @@
-// Serves a simulated device on a pty, in its own thread.
+// Serves a simulated device on a pseudo terminal (pty). A separate thread does this.
 #pragma once
 
 #include <fcntl.h>
@@ -17,7 +17,7 @@
 
 namespace mdof::drivers {
 
-// Serves on the line `fd` until the device hangs up or `stop` is set.
+// Serves the device on the descriptor `fd` until the device hangs up or `stop` is true.
 inline void serve_line(SimulatedDevice& device, int fd, const std::atomic<bool>& stop) {
   device.opened(0, 0, monotonic_ns());
   while (!stop) {
@@ -40,7 +40,8 @@ class ServedLine {
     std::array<char, 64> name;
     if (::ptsname_r(master_, name.data(), name.size()) != 0) std::abort();
     path_ = name.data();
-    // Held open, so that the line remains when the driver closes it.
+    // This descriptor stays open. Otherwise the line would end when the driver closes its
+    // descriptor.
     held_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY);
     ::fcntl(master_, F_SETFL, O_RDWR | O_NONBLOCK);
     thread_ = std::thread([this, &device] { serve_line(device, master_, stop_); });

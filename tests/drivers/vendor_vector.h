@@ -1,5 +1,5 @@
-// Replies that the vendor's open source accepts. A simulated device and its driver have the same
-// author, so both could contain the same error.
+// Requests to devices, and replies that the vendor's open source accepts. Vectors are needed,
+// because a simulated device and its driver have the same author and could have the same error.
 #pragma once
 
 #include <ostream>
@@ -13,15 +13,15 @@ namespace mdof::drivers {
 struct VendorVector {
   const char* what;
   const char* request;  // hexadecimal
-  const char* reply;    // ".." is a byte that the source does not determine
-  const char* source;   // repository, file, function
+  const char* reply;    // hexadecimal; ".." is any byte
+  const char* source;   // repository, file and function
 };
 
 inline std::ostream& operator<<(std::ostream& out, const VendorVector& vector) {
   return out << vector.what << " (" << vector.source << ")";
 }
 
-// The first difference between `reply` and the pattern; "": none.
+// Compares `reply` with the pattern. Returns the first difference, or "".
 inline std::string mismatch(std::string_view reply, std::string_view pattern) {
   std::string places;
   for (const char c : pattern)

@@ -1,4 +1,4 @@
-// The driver with the simulated controller, over sockets: samples.
+// The driver reads samples of a simulated controller over sockets.
 #include <cmath>
 
 #include "tests/drivers/capancdt/rack.h"
@@ -21,7 +21,7 @@ TEST(Capancdt, GivesMicrometresOfItsChannels) {
     ASSERT_NEAR(got.all.value[1][k], 300, 1e-4);
     ASSERT_EQ(got.all.quality[0][k], Quality::good);
     ASSERT_GT(got.all.time_ns[k], before);
-    // On a busy computer, the quickest packet so far may have been delayed.
+    // On a busy computer every packet so far may be delayed.
     ASSERT_LT(got.all.time_ns[k], after + 200'000'000);
   }
   const DeviceInfo info = driver.info();
@@ -37,13 +37,14 @@ TEST(Capancdt, TimesAreOneSampleTimeApart) {
   device.sample_time_us = 960;
   device.frames_per_packet = 4;
   Rack rack(device);
-  rack.options.sample_time_us = 1000;  // the controller uses its next shorter sample time
+  // The controller uses the next shorter sample time that it has.
+  rack.options.sample_time_us = 1000;
   Capancdt driver(rack.options);
   ASSERT_EQ(error_of(driver.open()), "");
   const Collected got = collect(driver, 100);
   ASSERT_GE(got.all.scans(), 100u) << got.error;
   if (clock_stepped(driver)) GTEST_SKIP() << "this computer is too busy";
-  // The fit is still settling, so times may slew by 20 %.
+  // The clock has not settled yet. Until then, its times may differ by 20 % from the true rate.
   for (std::size_t k = 1; k < got.all.scans(); ++k)
     ASSERT_NEAR(static_cast<double>(got.all.time_ns[k] - got.all.time_ns[k - 1]), 960e3,
                 0.2 * 960e3 + 2)
@@ -99,8 +100,9 @@ TEST(Capancdt, AcceptsEveryCounterUnitAndEcho) {
     ASSERT_GE(got.all.scans(), 100u) << got.error;
     EXPECT_EQ(driver.health().counter, static_cast<CounterUnit>(unit));
     EXPECT_NEAR(driver.info().rate_hz, 1e6 / 256 / 3, 1e-9);
-    EXPECT_GE(driver.health().lost, got.lost);  // some losses are not returned yet
-    // Every tenth packet of two frames is lost: for 18 received frames, 2 are lost.
+    EXPECT_GE(driver.health().lost, got.lost);  // some losses are not yet in a returned block
+    // A packet has two frames, and every tenth packet is lost. So 2 frames are lost for 18
+    // received frames.
     EXPECT_EQ(got.lost, (got.all.scans() - 1) / 18 * 2) << unit;
   }
 }
@@ -240,7 +242,7 @@ TEST(Capancdt, SecondClientGetsTheReasonOfSilence) {
   EXPECT_EQ(got.all.scans(), 0u);
   expect_has(got.error, "device \"probes\" at 127.0.0.1:");
   expect_has(got.error, "another client uses the data port, or the controller waits for a trigger");
-  EXPECT_TRUE(second.open());  // a new attempt is possible
+  EXPECT_TRUE(second.open());  // the driver may open the device again
 }
 
 TEST(Capancdt, ReadReturnsAtItsTimeout) {
@@ -284,7 +286,7 @@ TEST(Capancdt, RestartedCounterIsAnError) {
   Capancdt driver(rack.options);
   ASSERT_EQ(error_of(driver.open()), "");
   const Collected got = collect(driver, 1000);
-  EXPECT_EQ(got.all.scans(), 40u);  // all earlier scans are returned
+  EXPECT_EQ(got.all.scans(), 40u);  // all scans before the fault are returned
   expect_has(got.error, "the counter in the data jumped from 1000039 to 0");
 }
 

@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::uint64_t kMostLost = 1000;
 
-// Packets of a controller with this many channels, with a counter in one unit.
+// Simulates the packets of a controller. `unit`: the unit in which the controller's counter
+// counts.
 struct Source {
   CounterUnit unit;
   int channels, frames, averaged;
@@ -39,7 +40,8 @@ constexpr Case kCases[] = {
 
 TEST(CapancdtFrameCounter, LearnsTheUnitAndCountsLosses) {
   for (const Case& c : kCases) {
-    Source source{c.unit, c.channels, c.frames, c.averaged, 4294967290u};  // wraps soon
+    // The counter wraps after some packets.
+    Source source{c.unit, c.channels, c.frames, c.averaged, 4294967290u};
     FrameCounter counter(c.averaged, kMostLost);
     std::deque<PlacedPacket> placed;
     for (int i = 0; i < 20; ++i) ASSERT_TRUE(counter.add(source.next(), placed));
@@ -74,7 +76,8 @@ TEST(CapancdtFrameCounter, LearnsTheUnitDespiteLosses) {
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
   for (int i = 0; i < 12; ++i) {
-    if (i % 4 == 1) source.counter += 3;  // resembles a count of values
+    // This loss of frames looks as if the counter counted values.
+    if (i % 4 == 1) source.counter += 3;
     ASSERT_TRUE(counter.add(source.next(), placed));
   }
   EXPECT_EQ(counter.unit(), CounterUnit::frame);
@@ -88,19 +91,19 @@ TEST(CapancdtFrameCounter, DropsDuplicates) {
   std::deque<PlacedPacket> placed;
   const Packet first = source.next();
   ASSERT_TRUE(counter.add(first, placed));
-  ASSERT_TRUE(counter.add(first, placed));  // before the unit is known
+  ASSERT_TRUE(counter.add(first, placed));  // a duplicate before the unit of the counter is known
   for (int i = 0; i < 5; ++i) {
     const Packet packet = source.next();
     ASSERT_TRUE(counter.add(packet, placed));
     ASSERT_TRUE(counter.add(packet, placed));
   }
-  ASSERT_TRUE(counter.add(first, placed));  // an old packet
+  ASSERT_TRUE(counter.add(first, placed));  // a much older packet
   EXPECT_EQ(counter.duplicates(), 7u);
   EXPECT_EQ(counter.lost(), 0u);
   EXPECT_EQ(placed.size(), 6u);
 }
 
-// Each packet is sent twice, endlessly: this is not a jump back.
+// Each packet is sent twice all the time. The counter must not interpret this as a jump back.
 TEST(CapancdtFrameCounter, CountsDuplicatesOnlyInARow) {
   Source source{CounterUnit::frame, 2, 2, 1, 1000};
   FrameCounter counter(1, kMostLost);
@@ -113,7 +116,7 @@ TEST(CapancdtFrameCounter, CountsDuplicatesOnlyInARow) {
   EXPECT_EQ(counter.duplicates(), 200u);
 }
 
-// 21 values in a packet: a packet repeated a little later is 42 counts back.
+// A packet has 21 values. The counter of a packet that is repeated after two others is 42 lower.
 TEST(CapancdtFrameCounter, DropsDuplicatesOfLargePackets) {
   Source source{CounterUnit::value, 3, 7, 1, 1000};
   FrameCounter counter(1, kMostLost);
@@ -131,7 +134,7 @@ TEST(CapancdtFrameCounter, DropsDuplicatesOfLargePackets) {
 }
 
 TEST(CapancdtFrameCounter, LearnsAgainWhenPacketsGrow) {
-  // With one frame in a packet, frames and packets cannot be distinguished.
+  // If a packet has one frame, a counter of frames and a counter of packets are equal.
   Source source{CounterUnit::packet, 2, 1, 1};
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
@@ -211,19 +214,21 @@ TEST(CapancdtRateWatch, ToleratesDelays) {
   RateWatch watch(1e6);
   std::int64_t network_delay_ns = 0;
   for (int i = 0; i < 60'000; ++i) {
-    if (i % 7000 == 0) network_delay_ns = 900'000'000;  // a delay of the network that is caught up
+    // A delay of the network, which decreases afterwards.
+    if (i % 7000 == 0) network_delay_ns = 900'000'000;
     network_delay_ns = std::max<std::int64_t>(0, network_delay_ns - 900'000);
     EXPECT_FALSE(watch.add(i, i * std::int64_t{1'000'000} + network_delay_ns)) << i;
   }
 }
 
 TEST(CapancdtRateWatch, ToleratesSlowControllers) {
-  RateWatch watch(400e6);  // 2.5 frames a second
+  RateWatch watch(400e6);  // nominal rate: 2.5 frames per second
   for (int i = 0; i < 1000; ++i)
     EXPECT_FALSE(watch.add(i, i * std::int64_t{400'000'000} + (i % 3) * 50'000'000)) << i;
 }
 
-// 64 s of the host's clock elapse before the first frame and do not belong to a stretch.
+// The first frame arrives 64 s after the start of the host's clock. These 64 s do not count as a
+// slow interval.
 TEST(CapancdtRateWatch, SingleSlowStretchAtTheBeginningIsADelay) {
   RateWatch watch(1e6);
   std::int64_t t_ns = 64'000'000'000;
@@ -233,7 +238,8 @@ TEST(CapancdtRateWatch, SingleSlowStretchAtTheBeginningIsADelay) {
   }
 }
 
-// The limit is a tenth: 9 % is tolerated, 11 % is reported.
+// The limit of the difference is 10 %. A difference of 9 % is accepted, a difference of 11 % is
+// reported.
 TEST(CapancdtRateWatch, ReportsMoreThanATenth) {
   const auto reported = [](double ratio) {
     RateWatch watch(1e6);

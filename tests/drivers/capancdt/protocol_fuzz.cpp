@@ -1,4 +1,4 @@
-// libFuzzer: any bytes as the data stream, in pieces and with the frame counter, and as texts of
+// Any bytes are parsed as the data stream, in pieces and with the frame counter, and as replies of
 // the command port.
 #include <algorithm>
 #include <cstddef>

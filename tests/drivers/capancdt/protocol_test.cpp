@@ -16,7 +16,7 @@ std::string from_hex(const std::string& hex) {
   return bytes;
 }
 
-// 4 channels, 2 frames, article 2303025, serial 1001, counter 1000.
+// A packet with 4 channels, 2 frames, article 2303025, serial number 1001 and counter 1000.
 const std::string kBytesFirst = from_hex(
     "53 41 45 4D 31 24 23 00 E9 03 00 00 55 00 00 00 00 00 00 00 00 00 00 00 10 00 02 00 E8 03 00 "
     "00 00 00 00 00 FF FF 7F 00 FF FF FF 00 00 00 40 00 01 00 00 00 00 00 80 00 FE FF FF 00 01 00 "
@@ -135,7 +135,8 @@ TEST(CapancdtProtocol, AfterInvalidDataAcceptsTheSameDeviceOnly) {
 
 TEST(CapancdtProtocol, SkipsATruncatedPacket) {
   for (std::size_t cut = 1; cut + 3 < kBytesFirst.size(); ++cut) {
-    if (cut >= 28 && cut < 32) continue;  // a jump of the counter, which FrameCounter detects
+    // This changes the counter, which FrameCounter detects and the parser cannot.
+    if (cut >= 28 && cut < 32) continue;
     PacketParser parser;
     Packet packet;
     parser.add(kBytesFirst + kBytesFirst.substr(0, cut) + kBytesFirst + kBytesFirst);
@@ -206,7 +207,8 @@ TEST(CapancdtProtocol, DecodesTheLargestPacket) {
   }
 }
 
-// The manual's table of the header: each field has its offset and a different value.
+// The header as the manual's table defines it. Each field has a different value, so that a wrong
+// offset is detected.
 TEST(CapancdtProtocol, FieldsHaveTheirOffsets) {
   const std::string bytes = from_hex(
       "53 41 45 4D 01 02 03 04 11 12 13 14 40 00 00 00 00 00 00 00 31 32 33 34 04 00 01 00 41 42 "
@@ -232,7 +234,7 @@ TEST(CapancdtProtocol, DefaultPacketIsEmpty) {
 
 TEST(CapancdtProtocol, ValuesOfAFrameHaveTheirIndices) {
   Packet packet;
-  packet.channel_bits = 0x15;  // channels 1 to 3
+  packet.channel_bits = 0x15;  // bits of the channels 1 to 3
   packet.values = {11, 12, 13, 21, 22, 23};
   EXPECT_EQ(packet.value(0, 0), 11);
   EXPECT_EQ(packet.value(0, 2), 13);

@@ -1,4 +1,4 @@
-// A driver with a simulated controller on real sockets, and the samples that it reads.
+// A driver, its simulated controller on real sockets, and the samples that the driver reads.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace mdof::drivers::capancdt {
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
-// Constant µm on each input: 100, 200, 300, 400 ...
+// The input with index n shows a constant 100 (n + 1) µm.
 inline double steady(std::size_t input, std::int64_t) {
   return 100.0 * static_cast<double>(input + 1);
 }
@@ -53,7 +53,7 @@ struct Rack {
 struct Collected {
   SampleBlock all;
   std::uint64_t lost = 0;
-  std::string error;  // error that ended the reads
+  std::string error;  // the error that ended the reading
 
   std::size_t count(std::size_t channel, Quality quality) const {
     const auto& q = all.quality[channel];
@@ -88,11 +88,12 @@ inline Collected collect(Capancdt& driver, std::size_t scans) {
     append(got.all, block);
   }
   const auto& t = got.all.time_ns;
-  EXPECT_TRUE(std::is_sorted(t.begin(), t.end(), std::less_equal<>()));  // strictly
+  // Less_equal: two equal times are not allowed.
+  EXPECT_TRUE(std::is_sorted(t.begin(), t.end(), std::less_equal<>()));
   return got;
 }
 
-// If the computer stalls for 0.1 s, the device clock steps.
+// True if the device clock had a step. A stall of this computer of 0.1 s causes one.
 inline bool clock_stepped(const Capancdt& driver) {
   return driver.health().clock.steps > 0;
 }

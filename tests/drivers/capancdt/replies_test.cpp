@@ -35,7 +35,7 @@ TEST(CapancdtReplies, WaitsForACompleteReply) {
   for (std::size_t n = 0; n < whole.size(); ++n)
     EXPECT_EQ(text_of("$STI?", whole.substr(0, n)), "nothing") << n;
   EXPECT_EQ(text_of("$STI?", whole), "960");
-  EXPECT_EQ(text_of("$STI?", "$AVT?0OK\r\n"), "nothing");  // reply to another command
+  EXPECT_EQ(text_of("$STI?", "$AVT?0OK\r\n"), "nothing");  // this is the reply to another command
   EXPECT_EQ(text_of("$VER", "$VER\r\n"), "nothing");
 }
 

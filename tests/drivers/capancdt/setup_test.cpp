@@ -1,4 +1,4 @@
-// How the driver sets up a simulated controller, over sockets.
+// The driver configures a simulated controller over sockets.
 #include "tests/drivers/capancdt/rack.h"
 #include "tests/shown.h"
 
@@ -53,7 +53,7 @@ TEST(CapancdtSetup, ReportsCorrectionsByTheController) {
   ASSERT_EQ(error_of(without.open()), "");
   EXPECT_TRUE(without.info().notices.empty());
 
-  device.linearisation = {5, 3, 2, 0};  // inputs 1 and 3 are read
+  device.linearisation = {5, 3, 2, 0};  // the rig uses the inputs 1 and 3
   device.low_pass = 1;
   Rack rack(device);
   rack.options.channels[0].rig_corrects = true;
@@ -70,7 +70,8 @@ TEST(CapancdtSetup, ReportsCorrectionsByTheController) {
   EXPECT_EQ(test::shown(untold.info().notices), "linearisation_unknown\n");
 }
 
-// 8 values of 131 ms take 1.05 s, longer than the settling time of a stop.
+// The mean of 8 values with a sample time of 131 ms takes 1.05 s. This is longer than the settling
+// time of a stop.
 TEST(CapancdtSetup, RefusesAveragingLongerThanSettling) {
   SimulatedCapancdt::Options device;
   device.sample_time_us = 131072;

@@ -1,4 +1,4 @@
-// The simulated controller, without sockets.
+// The simulated controller, called without sockets.
 #include "drivers/capancdt/simulated_capancdt.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(CapancdtDevice, StreamsToOneClientOnly) {
   device.opened(kData, 1, 0);
   device.opened(kData, 2, 0);
   const std::string bytes = device.exchange(kData, 1, "", 10'000'000);
-  EXPECT_EQ(bytes.size(), 10u * (32 + 16));  // 960 us
+  EXPECT_EQ(bytes.size(), 10u * (32 + 16));  // one packet each 960 us
   EXPECT_EQ(device.exchange(kData, 2, "", 10'000'000), "");
   device.closed(kData, 1);
   device.opened(kData, 3, kSecond);

@@ -1,5 +1,5 @@
-// Commands, replies and the data header of a client that reads real controllers:
-// epics-modules/microEpsilon, capaNCDT6200Sup. Micro-Epsilon publishes no source.
+// Commands, replies and the data header that a client of real controllers uses:
+// epics-modules/microEpsilon, capaNCDT6200Sup. Micro-Epsilon itself publishes no source.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -13,19 +13,20 @@ namespace {
 
 SimulatedCapancdt controller() {
   SimulatedCapancdt::Options options;
-  options.faults.echo = SimulatedCapancdt::Echo::reply;  // a single reply, as the client reads it
+  // The controller sends the reply only once, as the client expects.
+  options.faults.echo = SimulatedCapancdt::Echo::reply;
   return {[](std::size_t, std::int64_t) { return 1000; }, options};
 }
 
 struct Line {
   const char* command;
-  const char* in;  // from Db/capaNCDT6200.proto, as a regular expression
+  const char* in;  // regular expression from Db/capaNCDT6200.proto
 };
 
 TEST(CapancdtVectors, SimulatedDeviceAnswersAsEpicsReads) {
   SimulatedCapancdt device = controller();
   device.opened(0, 1, 0);
-  device.exchange(0, 1, "", 0);  // the welcome text
+  device.exchange(0, 1, "", 0);  // reads the welcome text
   const Line lines[] = {
       {"$VER", R"(\$VER[^;]+;.*)"},
       {"$STI?", R"(\$STI\?\d+OK)"},
@@ -50,9 +51,15 @@ TEST(CapancdtVectors, SimulatedDeviceAnswersAsEpicsReads) {
   }
 }
 
-// src/capaNCDT6200Sup.c: bytes 0 to 3 reversed are "MEAS", order number at byte 4, serial number at
-// 8, channels at 12, status at 20, two sizes at 24 and 26, counter at 28, values from 32 on, all
-// little-endian; 0xFFFFFF is the whole range (capaNCDT6200Protocol.h).
+// Header according to src/capaNCDT6200Sup.c, little-endian:
+// - bytes 0 to 3: "MEAS" in reverse order
+// - byte 4: order number
+// - byte 8: serial number
+// - byte 12: channels
+// - byte 20: status
+// - bytes 24 and 26: two sizes
+// - byte 28: counter
+// - byte 32 and following: values; 0xFFFFFF is the whole range (capaNCDT6200Protocol.h)
 TEST(CapancdtVectors, PacketHasTheOffsetsThatEpicsReads) {
   SimulatedCapancdt device = controller();
   device.opened(1, 2, 0);

@@ -1,4 +1,4 @@
-// Detection of a passed reference mark from counts alone.
+// The counts alone must show whether the axis has passed the reference mark.
 #include "drivers/counter/index_mark.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 using State = IndexMark::State;
 
-constexpr std::int64_t kQuarter = 1 << 22;  // of 24 bits
+constexpr std::int64_t kQuarter = 1 << 22;  // a quarter of the range of 24 bits
 
 TEST(IndexMark, PassedAfterTheCountHasMovedOn) {
   IndexMark mark(24);
@@ -20,12 +20,13 @@ TEST(IndexMark, PassedAfterTheCountHasMovedOn) {
   EXPECT_EQ(mark.take(-70'000), State::awaited);
   EXPECT_EQ(mark.take(kQuarter + 1002), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 1016), State::at_mark);
-  EXPECT_EQ(mark.take(kQuarter + 1017), State::at_mark);  // 17 counts: moved on, first reading
+  // 17 counts from the mark: far enough, and this is the first of three readings.
+  EXPECT_EQ(mark.take(kQuarter + 1017), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 1500), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 1510), State::passed);
   EXPECT_EQ(mark.from_mark(kQuarter + 1510), 510);
   EXPECT_EQ(mark.from_mark(kQuarter - 9000), -10'000);
-  EXPECT_EQ(mark.take(-5), State::passed);  // later counts are not judged
+  EXPECT_EQ(mark.take(-5), State::passed);  // after this, every count is accepted
 }
 
 TEST(IndexMark, PassedInReverse) {
@@ -37,8 +38,8 @@ TEST(IndexMark, PassedInReverse) {
   EXPECT_EQ(mark.from_mark(load - 60), -60);
 }
 
-// With the wrong polarity the counter loads at each position except the mark, once a period of four
-// counts.
+// If the polarity of the index is wrong, the counter is loaded at three of four positions. Its
+// count therefore stays near the preset.
 TEST(IndexMark, NeverPassedWithTheWrongPolarity) {
   IndexMark mark(24);
   mark.arm(0);
@@ -55,13 +56,13 @@ TEST(IndexMark, FaultIsNotTheMark) {
     EXPECT_EQ(mark.take(7), State::awaited);
   }
   EXPECT_EQ(mark.take(kQuarter - near), State::at_mark);
-  // A single damaged reading that resembles the mark.
+  // One damaged reading that looks like the mark is ignored.
   EXPECT_EQ(mark.take(8), State::awaited);
   EXPECT_EQ(mark.take(kQuarter + 30), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 31), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter * 2), State::astray);
   EXPECT_EQ(mark.take(9), State::awaited);
-  EXPECT_EQ(mark.take(kQuarter + 33), State::at_mark);  // the number of readings starts again
+  EXPECT_EQ(mark.take(kQuarter + 33), State::at_mark);  // three readings are needed again
   EXPECT_EQ(mark.take(kQuarter + 34), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 35), State::passed);
 }
@@ -74,7 +75,8 @@ TEST(IndexMark, CounterWithFewBitsIsArmedAgainFarAway) {
   EXPECT_TRUE(mark.far_from_armed(99 - kQuarter / 4));
 }
 
-// The preset equals the unwrapped count that the counter shows after loading, also where it wraps.
+// After the counter was loaded, its unwrapped count must equal the preset, also for counts near
+// the end of the 32 bits.
 TEST(IndexMark, PresetEqualsTheUnwrappedCount) {
   for (const std::uint32_t start : {0u, 0x4000'0000u, 0x7FFF'FFF0u, 0xC000'0000u, 0xFFFF'FFFFu}) {
     Unwrap unwrap(32, true);

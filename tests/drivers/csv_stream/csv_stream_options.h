@@ -1,4 +1,4 @@
-// Options of a stream with the encoder and the probes A and B.
+// Options of a csv_stream with the channels encoder, A and B.
 #pragma once
 
 #include "drivers/csv_stream/csv_stream.h"

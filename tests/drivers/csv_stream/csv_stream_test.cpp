@@ -48,18 +48,20 @@ TEST(CsvStream, ReadsRowsOfATcpServerWithItsTimes) {
   EXPECT_EQ(all.scans[7], (std::vector<double>{0.25, 1.25}));
   EXPECT_EQ(all.lost, 0u);
   expect_growing(all.time_ns);
-  // The first row may have waited for this computer; the clock has corrected this from here on.
+  // On a busy computer the first row may arrive late. The clock has corrected this delay after 50
+  // rows.
   constexpr std::size_t kFrom = 50;
   EXPECT_NEAR(static_cast<double>(all.time_ns.back() - all.time_ns[kFrom]),
               static_cast<double>(all.time_ns.size() - 1 - kFrom) * 1e6, 2e6);
   EXPECT_LT(std::abs(monotonic_ns() - all.time_ns.back()), 5'000'000'000);
 }
 
-// The reader of the device marks late samples as suspect; it asks the clock at each block.
+// The acquisition marks samples as suspect while the clock is uncertain. It reads the state of the
+// clock at each block.
 TEST(CsvStream, LateRowsMakeTheClockUncertain) {
   CsvStream stream("probe", command("printf 'time_s,A_um\\n5.00,1\\n'; sleep 0.5; "
                                     "printf '5.01,2\\n'; sleep 60"));
-  EXPECT_EQ(stream.clock(), nullptr);  // no header yet
+  EXPECT_EQ(stream.clock(), nullptr);  // the header has not arrived yet
   ASSERT_TRUE(stream.open());
   ASSERT_NE(stream.clock(), nullptr);
   ASSERT_EQ(collect(stream, 1).scans.size(), 1u);
@@ -93,7 +95,8 @@ TEST(CsvStream, PositionInVoltsNeedsTheRigsScale) {
     EXPECT_NE(reported.find("set um_per_V in [encoder] of rig_X.toml"), std::string::npos)
         << reported;
   }
-  // If the source sends no header line, the configuration reports this.
+  // The option `header` gives the columns if the source sends no header. The configuration can
+  // then report the error.
   DriverContext context;
   auto table = TomlTable::parse("source = \"fifo:x\"\nheader = \"encoder_V,A_um\"\n", "mdofd.toml");
   const auto spec = configure_csv_stream(*table, context);
@@ -128,7 +131,7 @@ TEST(CsvStream, BrokenConnectionIsAnErrorAndReopens) {
   for (int round = 0; round < 2; ++round) {
     ASSERT_TRUE(stream.open());
     const Collected all = collect(stream, 1000);
-    EXPECT_EQ(all.scans.size(), 50u);  // a half row is not a row
+    EXPECT_EQ(all.scans.size(), 50u);  // the incomplete last row is not used
     EXPECT_NE(all.error.find(served.address() + ": the other side has closed"), std::string::npos)
         << all.error;
     expect_growing(all.time_ns);
@@ -219,7 +222,7 @@ TEST(CsvStream, CommandEndsWithItsDriverAndErrorsDoNotBlock) {
   const auto marker = std::filesystem::temp_directory_path() /
                       ("mdof_csv_stream_test." + std::to_string(::getpid()));
   {
-    // More bytes on standard error than a pipe holds, then rows.
+    // The program writes more bytes to standard error than a pipe can hold, and then rows.
     CsvStream stream("probe", command("trap 'echo ended >" + marker.string() +
                                       "; exit 0' TERM; echo A_um; head -c 300000 /dev/zero | tr "
                                       "'\\0' 'x' >&2; echo 1; while :; do sleep 0.02; done"));
@@ -242,8 +245,9 @@ TEST(CsvStream, RowsThatWaitedTogetherAreSuspect) {
   EXPECT_GT(all.time_ns[1] - all.time_ns[0], 100'000'000);
 }
 
-// Each burst ends with its arrival. A burst after a pause of this computer is suspect and is
-// ignored.
+// The last row of a burst gets the time at which the burst arrived. The other rows are spread
+// evenly over the time since the previous burst. A burst after a pause of this computer is
+// suspect, and the test does not use it.
 TEST(CsvStream, BurstRowsAreSpreadBackToTheBurstBefore) {
   constexpr std::size_t kBursts = 25, kRows = 8;
   CsvStream stream("probe", command("echo A_um; for i in $(seq 25); do printf "

@@ -1,4 +1,4 @@
-// Whether a position that was set survives a new start of the script.
+// A position that a user has set must become invalid when the script starts again.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ CsvStream counting(const std::string& then, bool absolute = false) {
   return {"script", options};
 }
 
-// Quality of the encoder in the next scan; the probe must be good.
+// Returns the quality of the encoder in the next scan. The quality of the probe must be good.
 Quality encoder_of_next(CsvStream& stream) {
   const Collected one = collect(stream, 1);
   EXPECT_EQ(one.quality.at(0).at(1), Quality::good) << one.error;
@@ -28,7 +28,7 @@ Quality encoder_of_next(CsvStream& stream) {
 
 TEST(CsvStreamDatum, SetPositionIsLostAtANewStart) {
   CsvStream stream = counting("sleep 60");
-  // No position was set, so the script's positions are valid.
+  // No user has set a position, so the positions of the script are valid.
   for (int start = 0; start < 2; ++start) {
     ASSERT_TRUE(stream.open());
     EXPECT_EQ(encoder_of_next(stream), Quality::good);
@@ -54,7 +54,7 @@ TEST(CsvStreamDatum, AbsolutePositionIsKept) {
   EXPECT_EQ(stream.info().datum_lost, "");
 }
 
-// Like a board that was reset while its line stayed open.
+// A board may be reset without closing the line. It then sends its header again.
 TEST(CsvStreamDatum, RepeatedHeaderIsANewStart) {
   const auto go = std::filesystem::temp_directory_path() /
                   ("mdof_csv_stream_datum_test." + std::to_string(::getpid()));

@@ -1,4 +1,4 @@
-// Rows from a FIFO and from a serial line.
+// Rows that arrive through a FIFO or a serial line.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -81,7 +81,7 @@ TEST_F(CsvStreamFifo, RefusesAPathThatIsNoFifo) {
   EXPECT_FALSE(CsvStream("probe", options_).open());
 }
 
-// A gauge that sends only rows with "\r\n" at their ends, beginning in the middle of a row.
+// A gauge that sends no header. Its rows end with "\r\n", and the first row is incomplete.
 class BareRows final : public SimulatedDevice {
  public:
   std::vector<Port> ports() const override { return {{"serial", 0}}; }

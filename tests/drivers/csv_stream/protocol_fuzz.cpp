@@ -4,7 +4,8 @@
 
 #include "drivers/csv_stream/protocol.h"
 
-// The first byte selects the size of the pieces of the rest; the pieces must not change the result.
+// The first byte is the size of the pieces into which the other bytes are divided. The pieces must
+// not change the result.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mdof::drivers;
   if (size == 0) return 0;

@@ -1,5 +1,6 @@
-// HID devices without USB: umockdev provides sysfs and events, a pseudo terminal behind each
-// /dev/hidraw* and a thread let simulated devices answer. Run it under umockdev-wrapper.
+// HID devices without USB. umockdev provides sysfs and events. Each /dev/hidraw* is a pseudo
+// terminal, and a thread reads and answers the requests with simulated devices. Run the test under
+// umockdev-wrapper.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -50,11 +51,12 @@ class HidBus {
   HidBus(const HidBus&) = delete;
   HidBus& operator=(const HidBus&) = delete;
 
-  // `interface`: HID interface of the device; -1: through uhid, without USB. `device` must live
-  // until it is unplugged, by itself (gone()) or by unplug().
+  // `interface`: HID interface of the device; -1 if the device is connected through uhid and not
+  // through USB. `device` must exist until unplug() is called or the device leaves by itself
+  // (gone()).
   void plug(int number, usb::SimulatedUsb& device, int interface = 1) {
     Plugged plugged{&device, interface, -1, paths(number, interface), {}};
-    answer_ioctls(number);  // before its node is visible
+    answer_ioctls(number);  // before a program can open the node
     GError* error = nullptr;
     const std::string text = sysfs_of(number, device.identity(), plugged);
     ASSERT_TRUE(umockdev_testbed_add_from_string(testbed_, text.c_str(), &error)) << error->message;
@@ -80,8 +82,8 @@ class HidBus {
     forget_terminal(gone.fd);
     ::close(gone.fd);
   }
-  // The uevent file of the HID device of a node; a device may vanish while its node is still
-  // listed.
+  // The file uevent of the HID device of a node. The file may be missing, because a device may
+  // vanish while its node is still listed.
   std::filesystem::path uevent_of(int number) {
     const std::lock_guard lock(mutex_);
     gchar* const root = umockdev_testbed_get_root_dir(testbed_);
@@ -90,7 +92,7 @@ class HidBus {
     g_free(root);
     return uevent;
   }
-  // Changes a device between two of its turns.
+  // Changes a device while it is not answering.
   template <class Act>
   void change(const Act& act) {
     const std::lock_guard lock(mutex_);
@@ -102,7 +104,7 @@ class HidBus {
   struct Plugged {
     usb::SimulatedUsb* device = nullptr;
     int interface = 1, fd = -1;
-    std::vector<std::string> paths;  // in sysfs, from the root
+    std::vector<std::string> paths;  // paths in sysfs, relative to the root of the testbed
     std::string received;
   };
 
@@ -161,7 +163,7 @@ class HidBus {
     return text;
   }
 
-  // hidapi requests only the size of the report descriptor.
+  // hidapi makes only the ioctl for the size of the report descriptor.
   static gboolean answer_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer) {
     int size = 27;
     if (umockdev_ioctl_client_get_request(client) != HIDIOCGRDESCSIZE) return FALSE;
@@ -178,7 +180,8 @@ class HidBus {
         << error->message;
   }
 
-  // umockdev stores a name for the terminal and fails when the system uses its number again.
+  // umockdev stores the name of the terminal. It fails when the system gives the same number to a
+  // new terminal, so the stored name must be removed.
   void forget_terminal(int fd) {
     std::string name = ::ptsname(fd);
     std::replace(name.begin(), name.end(), '/', '_');

@@ -1,4 +1,4 @@
-// The PoKeys driver on the real hidapi, with a bus of umockdev.
+// The PoKeys driver uses the real hidapi with the simulated bus of umockdev.
 #include "drivers/pokeys57u/pokeys57u.h"
 
 #include <fcntl.h>
@@ -18,7 +18,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Counts are the milliseconds of the clock, so that each value shows its time.
+// The count of an encoder is the time in milliseconds. So each value shows when it was read.
 double milliseconds_now(std::size_t, std::int64_t t_ns) {
   return static_cast<double>(t_ns % 1'000'000'000'000) * 1e-6;
 }
@@ -60,7 +60,8 @@ class PoKeys57uOnHid : public ::testing::Test {
     EXPECT_NE(opened.error().message.find(part), std::string::npos) << opened.error().message;
     EXPECT_NE(opened.error().message.find("\"slide\""), std::string::npos);
   }
-  // Each good value was valid at a time between request and reply, within 200 ms.
+  // Checks that each good value was true at a time between its request and its reply, with a
+  // tolerance of 200 ms.
   static void expect_true_values(const Collected& all) {
     std::size_t good = 0;
     for (std::size_t i = 0; i < all.scans.size(); ++i) {
@@ -82,7 +83,7 @@ class PoKeys57uOnHid : public ::testing::Test {
   SimulatedPokeys57u device{milliseconds_now, {}};
   PoKeys57u driver{settings_of()};
   Collected got;
-  std::optional<HidBus> bus;  // destroyed first
+  std::optional<HidBus> bus;  // must be destroyed first
 };
 
 TEST_F(PoKeys57uOnHid, GivesValuesAtTheirTimes) {
@@ -128,7 +129,7 @@ TEST_F(PoKeys57uOnHid, IgnoresATruncatedReply) {
   expect_true_values(got);
 }
 
-// The late reply contains a count that is 450 ms old.
+// The late reply has a count from 450 ms before.
 TEST_F(PoKeys57uOnHid, LateReplyIsNeverUsedForAnother) {
   run_with({.late_at = 5, .late_ns = 450'000'000}, 200);
   EXPECT_EQ(got.error, "");
@@ -140,7 +141,7 @@ TEST_F(PoKeys57uOnHid, MissingReplyIsRequestedAgainThenLost) {
   run_with({.first_unanswered = 5, .unanswered_requests = 2});
   EXPECT_EQ(got.error, "");
   EXPECT_EQ(got.lost, 0u);
-  EXPECT_GE(device.requests(), 30 + 2 + 3);  // and three at opening
+  EXPECT_GE(device.requests(), 30 + 2 + 3);  // 30 polls, 2 repeated requests, 3 requests at opening
   bus->change([&] { device.set_faults({.first_unanswered = 5, .unanswered_requests = 3}); });
   got = collect(driver, 30);
   EXPECT_EQ(got.error, "");
@@ -164,7 +165,7 @@ TEST_F(PoKeys57uOnHid, SilenceIsAnError) {
 }
 
 TEST_F(PoKeys57uOnHid, CountsWrapAndContinue) {
-  double calls = 0;  // one for each read of each encoder
+  double calls = 0;  // increases by one when an encoder is read
   SimulatedPokeys57u wrapping([&](std::size_t, std::int64_t) { return calls += 1; },
                               {.count_offset = (std::int64_t{1} << 31) - 1000});
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, wrapping));
@@ -203,8 +204,9 @@ TEST_F(PoKeys57uOnHid, LostPowerMakesCountsSuspectOverReopens) {
   EXPECT_NE(driver.info().datum_lost.find("lost power"), std::string::npos);
 }
 
-// The tick has 32 bits of milliseconds: half of its range is 24.9 days, all of it 49.7 days. The
-// count is 0 before and after, so only the tick shows the restart.
+// The tick is a number of milliseconds with 32 bits. It wraps after 49.7 days, and half of its
+// range is 24.9 days. The count is 0 before and after the loss of power, so only the tick can show
+// the restart.
 TEST_F(PoKeys57uOnHid, DetectsLostPowerAfterAnyUptime) {
   for (const std::int64_t days : {1, 20, 27, 45}) {
     SimulatedPokeys57u old(still, {.uptime_ms = days * 86'400'000, .count_offset = -1000});
@@ -283,7 +285,7 @@ TEST_F(PoKeys57uOnHid, DoesNotUseKeyboardAndJoystick) {
   bus.reset();
 }
 
-// hid_enumerate() of hidapi 0.13.1 crashes here within some milliseconds.
+// hid_enumerate() of hidapi 0.13.1 crashes in this situation within some milliseconds.
 TEST_F(PoKeys57uOnHid, DeviceThatVanishesDuringTheSearchIsMissing) {
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, device));
   const auto uevent = bus->uevent_of(0);
@@ -337,7 +339,8 @@ TEST_F(PoKeys57uOnHid, SetsAndChecksTheCountingMode) {
   EXPECT_TRUE(PoKeys57u(settings).open()) << "it stays set";
 }
 
-// umockdev's devices are always permitted, so a file without permissions replaces one.
+// Every program may open the devices of umockdev. Therefore this test uses a file without
+// permissions instead.
 TEST(HidDevice, PermissionErrorHasItsRemedy) {
   const std::string path = "/tmp/hid_test_forbidden_" + std::to_string(::getpid());
   ::close(::open(path.c_str(), O_CREAT | O_CLOEXEC, 0));

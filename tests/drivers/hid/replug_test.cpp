@@ -1,5 +1,7 @@
-// Unplugs and replugs a device repeatedly while the daemon's acquisition reads. Measures the time
-// from the new node to the next samples and the resources used in each round.
+// Unplugs and replugs a device many times while the acquisition of mdofd reads. In each round the
+// test measures:
+// - the time from the new node to the first sample
+// - the resources that the process uses
 #include <fcntl.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +28,7 @@ using std::chrono::duration;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr int kWarmUp = 3;  // rounds until all memory is allocated
+constexpr int kWarmUp = 3;  // rounds after which all memory is allocated
 constexpr double kMost_s = 1;
 constexpr long kMostGrowth_KiB = 1024;
 
@@ -36,8 +38,9 @@ long resident_KiB() {
   file >> all >> resident;
   return resident * (::sysconf(_SC_PAGESIZE) / 1024);
 }
-// Ignores descriptors that are open only briefly, and sockets: umockdev sometimes keeps a socket of
-// a device that vanishes while it is opened, and the tested code uses no sockets.
+// Number of open descriptors. Descriptors that are open only briefly do not count. Sockets do not
+// count either: the tested code uses none, and umockdev sometimes keeps the socket of a device
+// that vanishes while it is being opened.
 long descriptors() {
   long least = LONG_MAX;
   for (int i = 0; i < 10; ++i, std::this_thread::sleep_for(milliseconds(5))) {
@@ -51,7 +54,7 @@ long descriptors() {
   }
   return least;
 }
-// Memory that umockdev itself keeps for each former device.
+// Memory that umockdev itself needs for each former device.
 double own_growth_KiB(int rounds) {
   HidBus bus;
   long before = 0;
@@ -65,15 +68,15 @@ double own_growth_KiB(int rounds) {
   return static_cast<double>(resident_KiB() - before) / rounds;
 }
 
-// Deliberate faults that show that the checks can fail.
+// Deliberate faults. With them, the test shows that its checks can fail.
 struct Sabotage {
   bool leak = false;
-  milliseconds late{0};  // delay of the node after the reported time
+  milliseconds late{0};  // delay of the node, which the measured time includes
 };
 
 struct Figures {
   int rounds = 0, reopened = 0;
-  std::vector<double> seconds;  // from the node to the first sample
+  std::vector<double> seconds;  // time from the node to the first sample, for each round
   long descriptors = 0, growth_KiB = 0;
   double quantile_s(std::size_t percent) const {
     std::vector<double> sorted = seconds;
@@ -124,8 +127,8 @@ DriverSpec reader() {
   return spec;
 }
 
-// Time without the device: mostly up to 0.3 s, every tenth time up to 1.5 s, so that openings have
-// pauses of all lengths.
+// Time for which the device is unplugged: mostly up to 0.3 s, in every tenth round up to 1.5 s. So
+// the new node appears at all phases of the pauses between two attempts to open the device.
 milliseconds away(int round) {
   const Philox random = philox({static_cast<std::uint32_t>(round), 0, 0, 0}, 7);
   return milliseconds(30 +
@@ -196,7 +199,7 @@ TEST(HidReplug, ReopensSoonWithoutLosingResources) {
 #endif
 }
 
-// Shows that each check can fail.
+// With deliberate faults, each check must fail.
 TEST(HidReplug, DetectsLeaksAndDelays) {
   const Figures figures = replug(2, {.leak = true, .late = milliseconds(1100)});
   print(figures);

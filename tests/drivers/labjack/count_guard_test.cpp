@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kMost = 30'000;
 
-// Time at which the guard reports lost counts at this rate from `from_s` on; INFINITY: not within 2
-// s.
+// The encoder counts at `counts_per_s` from the time `from_s` on. Returns the time after `from_s`
+// at which the guard reports lost counts; INFINITY if it reports nothing within 2 s.
 double reported_s(double counts_per_s, double scans_hz, double from_s = 0.5) {
   CountGuard guard(kMost);
   for (int scan = 0; scan < 2 * scans_hz; ++scan) {
@@ -32,7 +32,8 @@ TEST(LabjackCountGuard, ReportsTooHighRatesWithin20Milliseconds) {
   }
 }
 
-// The counter itself never exceeds its limit: the axis moves on and the count lags.
+// The count jumps by 400 and then stays constant. Such a jump means lost counts, and the guard
+// must report the loss from then on.
 TEST(LabjackCountGuard, JumpIsReportedImmediatelyAndPermanently) {
   CountGuard guard(kMost);
   EXPECT_TRUE(guard.take(0, 0));
@@ -62,8 +63,8 @@ TEST(LabjackCountGuard, GivesTheSpeedForTheResolution) {
   EXPECT_EQ(speed_text(0, 0.05), "");
 }
 
-// Two counts of tolerance in addition to the rate: an oscillating edge is not a loss. restart()
-// clears an earlier loss.
+// The guard tolerates two counts more than the rate allows, because an oscillating edge is not a
+// loss. restart() clears an earlier loss.
 TEST(LabjackCountGuard, AllowsOscillatingEdgesAndRestarts) {
   CountGuard guard(10);
   EXPECT_TRUE(guard.take(0, 0));
@@ -75,8 +76,8 @@ TEST(LabjackCountGuard, AllowsOscillatingEdgesAndRestarts) {
   EXPECT_TRUE(guard.take(1000, 0.003));
 }
 
-// A count continues over the middle of its 32 bits. After a restart of the device the same bits are
-// negative, as in a first count.
+// If the device has kept its power, a count continues over the middle of its 32 bits. After a
+// restart of the device, the same bits are a negative count.
 TEST(LabjackCounter, RestartedDeviceCountsFromItsOwnZero) {
   Counter counter;
   counter.resume_count(false);

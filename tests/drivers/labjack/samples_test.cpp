@@ -16,8 +16,9 @@ TEST(LabjackVolts, ConvertsWithNominalConstants) {
   EXPECT_NEAR(volts(nominal_calibration(2), 65535), 0.10109575, 1e-7);
 }
 
-// U6 and T7: each step of the gain is a tenth of 0.00031580578 and -0.0003158058 V per code, centre
-// 33523 (LabJackPython, src/u6.py, CalibrationInfo; LabJack's T7 example stream.c).
+// U6 and T7. At gain 1 the nominal slopes are 0.00031580578 and -0.0003158058 V per code. The
+// slope of each further gain is a tenth of the previous slope. The centre is code 33523. Sources:
+// LabJackPython, src/u6.py, CalibrationInfo; LabJack's T7 example stream.c.
 TEST(LabjackVolts, EachGainIsATenth) {
   const double lowest_v[] = {-10.586757, -1.0586757, -0.10586757, -0.010586757};
   const double highest_v[] = {10.109575, 1.0109575, 0.10109575, 0.010109575};
@@ -71,7 +72,7 @@ TEST(LabjackScanSplitter, MarkMayExtendOverPackets) {
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(Words{1, 2}, std::nullopt, scans));
   ASSERT_TRUE(line.take(Words{3, kOnes}, 50, scans));
-  EXPECT_TRUE(scans.empty());  // the side of the gap is not known yet
+  EXPECT_TRUE(scans.empty());  // the position of the gap is known only after the whole mark
   ASSERT_TRUE(line.take(Words{kOnes, kOnes, 4, 5, 6}, std::nullopt, scans));
   ASSERT_EQ(indices(scans), (std::vector<std::uint64_t>{0, 51}));
   EXPECT_EQ(scans[1].lost, 50U);
@@ -91,7 +92,8 @@ TEST(LabjackScanSplitter, AllOnesWithoutAGapAreValues) {
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(Words{kOnes, kOnes, kOnes, kOnes}, 7, scans));
   ASSERT_TRUE(line.take(Words{kOnes, kOnes}, std::nullopt, scans));
-  EXPECT_EQ(indices(scans), (std::vector<std::uint64_t>{7, 8}));  // the first is the mark
+  // The first two words are the mark of the gap.
+  EXPECT_EQ(indices(scans), (std::vector<std::uint64_t>{7, 8}));
 }
 
 }  // namespace

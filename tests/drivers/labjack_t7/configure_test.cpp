@@ -37,7 +37,7 @@ Result<labjack_t7::Settings> settings(const std::string& toml) {
   return read_labjack_t7(table, context());
 }
 
-// The message of the error, or "accepted".
+// The message of the error; "accepted" if there is no error.
 std::string refusal(const std::string& keys, const std::string& channels = kChannels) {
   const auto read = settings(keys + channels);
   return read ? "accepted" : read.error().message;
@@ -112,14 +112,14 @@ TEST(LabjackT7Configure, AnEncoderCountsOrGivesVolts) {
   ASSERT_TRUE(volts) << volts.error().message;
   EXPECT_EQ(volts->inputs[1].channel, (Channel{"encoder", Unit::volt}));
   EXPECT_EQ(volts->inputs[1].negative, 3);
-  EXPECT_FALSE(volts->encoder.counts);  // volts have no datum
+  EXPECT_FALSE(volts->encoder.counts);  // the encoder is a voltage, which has no datum
   EXPECT_EQ(volts->encoder.offset_mm, -7);
   EXPECT_TRUE(
       has(with_channel("id = \"encoder\"\ninput = \"AIN0\"\num_per_count = 5\n"), "um_per_V"));
 }
 
 TEST(LabjackT7Configure, PacketsAreShortAtEveryRate) {
-  EXPECT_EQ(labjack_t7::quick_packet(4000, 7), 112U);  // 16 scans, 4 ms
+  EXPECT_EQ(labjack_t7::quick_packet(4000, 7), 112U);  // 16 scans in 4 ms
   EXPECT_EQ(labjack_t7::quick_packet(10, 7), 7U);
   EXPECT_EQ(labjack_t7::quick_packet(100000, 1), 400U);
   EXPECT_LE(labjack_t7::quick_packet(1e9, 7), 512U);
@@ -139,7 +139,8 @@ TEST(LabjackT7Configure, RefusesBadKeysWithTheirPlace) {
   EXPECT_TRUE(has(refusal(a + "samples_per_packet = 10\n"), "multiple of 4"));
   EXPECT_TRUE(has(refusal(a + "samples_per_packet = 516\n"), "512"));
   EXPECT_TRUE(has(refusal(a + "serial = -3\n"), "serial"));
-  EXPECT_TRUE(has(refusal(a + "rate = 5\n"), "rate_hz"));  // the nearest known key
+  // The message names the nearest known key.
+  EXPECT_TRUE(has(refusal(a + "rate = 5\n"), "rate_hz"));
 }
 
 TEST(LabjackT7Configure, RefusesBadChannels) {
@@ -208,7 +209,7 @@ TEST(LabjackT7Configure, RegistryMakesTheDriver) {
   EXPECT_EQ(info.rate_hz, 1000);
   ASSERT_EQ(info.channels.size(), 3U);
   SampleBlock block;
-  EXPECT_FALSE((*driver)->read(block, std::chrono::milliseconds(0)));  // not open
+  EXPECT_FALSE((*driver)->read(block, std::chrono::milliseconds(0)));  // the device is not open
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The driver and the simulated T7, served on real sockets.
+// The driver, and a simulated T7 on real sockets.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ using namespace std::chrono_literals;
 
 inline constexpr double kRate_Hz = 4000;
 
-// AIN0 rises by 1 V/s from zero at construction, AIN1 is outside of its range, the counter is ns /
-// 1000 - 40.
+// True values of the inputs. AIN0 rises by 1 V/s from 0 V at construction. AIN1 is outside of its
+// range. The counter is (ns since construction) / 1000 - 40.
 struct Truth {
   std::int64_t zero_ns =
       std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -66,7 +66,7 @@ class LabjackT7Driver : public testing::Test {
     const Status opened = driver().open();
     return opened ? "opened" : opened.error().message;
   }
-  // Reads until `scans` scans have arrived or an error occurs, which it returns.
+  // Reads until `scans` scans have arrived. Returns the error that ended the reading, or "".
   std::string read(std::size_t scans) {
     SampleBlock block;
     const auto until = std::chrono::steady_clock::now() + 20s;
@@ -89,14 +89,15 @@ class LabjackT7Driver : public testing::Test {
     return sum;
   }
 
-  // Sets CORE_TIMER to about this value now (within some seconds).
+  // Sets CORE_TIMER such that its value now is about `ticks` (within some seconds).
   void core_reads(std::uint32_t ticks) {
-    core_start = ticks - static_cast<std::uint32_t>(truth.zero_ns / 25);  // 40 MHz, wrapping
+    // 40 MHz; the number may wrap.
+    core_start = ticks - static_cast<std::uint32_t>(truth.zero_ns / 25);
   }
 
   Truth truth;
   std::uint32_t core_start = 0xFFF00000;
-  int dio = 0;  // line of the encoder
+  int dio = 0;  // DIO number of the encoder
   std::unique_ptr<SimulatedLabjackT7> device;
   std::unique_ptr<ServedDevice> served;
   Settings settings;

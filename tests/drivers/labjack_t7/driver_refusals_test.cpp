@@ -1,4 +1,5 @@
-// The driver with the simulated T7 on real sockets: refusals and their messages.
+// The driver rejects a simulated T7 on real sockets, or the T7 rejects its requests. Checks the
+// messages.
 #include <tuple>
 
 #include "tests/drivers/labjack_t7/driver_fixture.h"
@@ -36,8 +37,8 @@ TEST_F(LabjackT7Driver, RefusesTheStampOfAnotherStream) {
       << message;
 }
 
-// LabJack's ljm_constants.json: STREAM_START_TIME_STAMP from 1.0214, STREAM_AUTORECOVER_DISABLE
-// from 1.026 on.
+// LabJack's ljm_constants.json: firmware 1.0214 added STREAM_START_TIME_STAMP, firmware 1.026
+// added STREAM_AUTORECOVER_DISABLE.
 TEST_F(LabjackT7Driver, RefusesFirmwareWithoutNeededRegisters) {
   for (const auto& [firmware, says] :
        {std::pair{1.0188F, "1.0188 lacks the time stamp"},
@@ -60,7 +61,7 @@ TEST_F(LabjackT7Driver, RefusesTheWifiAddressOfAT7Pro) {
        {std::tuple{3U, 0x7F000001U, "a T7-Pro cannot stream over WiFi"},
         {3U, 0xC0A80105U, "opened"},     // connected by cable
         {3U, 0U, "opened"},              // WiFi is off
-        {1U, 0x7F000001U, "opened"}}) {  // no WiFi
+        {1U, 0x7F000001U, "opened"}}) {  // the T7 has no WiFi
     made.reset();
     served.reset();
     SimulatedLabjackT7::Options options;
@@ -90,7 +91,7 @@ TEST_F(LabjackT7Driver, RefusalsHaveLabJacksErrorText) {
   EXPECT_TRUE(has(message, settings.command.text())) << message;
 }
 
-// LAST_ERR_DETAIL is 0 if there is no detail.
+// If LAST_ERR_DETAIL is 0, the T7 has no further explanation of an error.
 TEST_F(LabjackT7Driver, RefusalsWithoutDetailHaveNoErrorText) {
   SimulatedLabjackT7::Faults faults;
   faults.refused = reg::stream_enable.address;

@@ -1,4 +1,4 @@
-// The driver with the simulated T7 on real sockets: samples.
+// The driver reads samples of a simulated T7 on real sockets.
 #include <thread>
 
 #include "tests/drivers/labjack_t7/driver_fixture.h"
@@ -16,9 +16,10 @@ TEST_F(LabjackT7Driver, GivesVoltsAndMicrometresAtTheirTimes) {
   EXPECT_EQ(lost(), 0U);
   for (std::size_t i = 0; i < time_ns.size(); ++i) {
     const double age_s = static_cast<double>(time_ns[i] - truth.zero_ns) * 1e-9;
-    ASSERT_NEAR(value[0][i], age_s, 0.1) << i;  // a busy machine sends late
+    ASSERT_NEAR(value[0][i], age_s, 0.1) << i;  // a busy machine sends packets late
     ASSERT_NEAR(value[2][i], -1.5, 2e-4);
-    ASSERT_NEAR(value[3][i], -0.5e6 * value[0][i], 200) << i;  // the same scan, within one code
+    // Both values are from the same scan; tolerance: one code.
+    ASSERT_NEAR(value[3][i], -0.5e6 * value[0][i], 200) << i;
     ASSERT_EQ(quality[0][i], Quality::good);
     ASSERT_EQ(quality[1][i], Quality::over_range);
     ASSERT_EQ(quality[3][i], Quality::good);
@@ -54,9 +55,9 @@ TEST_F(LabjackT7Driver, ReadReturnsAtItsTimeoutWithoutData) {
 }
 
 TEST_F(LabjackT7Driver, ReadsTheStreamStampAfterTheFirstScan) {
-  core_reads(1'000'000'000);  // far from 0, the stamp before the first stream
+  core_reads(1'000'000'000);  // CORE_TIMER is far from 0, the time stamp before the first stream
   serve({});
-  // Before its first scan, the second stream has the stamp of the first.
+  // Before its first scan, the second stream still has the time stamp of the first stream.
   for (int stream = 0; stream < 2; ++stream) {
     ASSERT_EQ(refusal(), "opened");
     time_ns.clear();
@@ -131,14 +132,14 @@ TEST_F(LabjackT7Driver, InvalidStreamIsAnErrorAndIsRestarted) {
     ASSERT_EQ(before, (&c == &cases[4] ? 5 : 3) * settings.samples_per_packet / 5) << c.says;
     ASSERT_EQ(refusal(), "opened");
     ASSERT_EQ(read(before + 20), "");
-    // The scans of the interruption are lost.
+    // All scans during the interruption count as lost.
     const double gap_s = static_cast<double>(time_ns[before] - time_ns[before - 1]) * 1e-9;
     EXPECT_NEAR(static_cast<double>(lost()), gap_s * kRate_Hz - 1, 0.6);
   }
 }
 
-// 0.9 V against 0.25 V, in a range with a tenth of the step of the others. The other inputs keep
-// their settings, even if another program has changed them.
+// C is the difference of 0.9 V and 0.25 V. Its range has a code of a tenth of the other inputs.
+// The settings of the other inputs must be correct, even if another program has changed them.
 TEST_F(LabjackT7Driver, DifferentialInputHasItsOwnRange) {
   serve({});
   settings.inputs[2] = {{"C", Unit::volt}, 4, 0, 0, 5, 1};
@@ -178,7 +179,7 @@ TEST_F(LabjackT7Driver, CountsAtAnotherPairOfLines) {
   EXPECT_LT(value[3].back(), value[3].front());
 }
 
-// Encoders of two axes in one scan: DIO0 counts ns / 1000, DIO2 a quarter of it.
+// The encoders of two axes are in one scan. DIO0 counts (ns / 1000), DIO2 counts a quarter of it.
 TEST_F(LabjackT7Driver, EncodersOfTwoAxesAreIndependent) {
   serve({});
   settings.inputs[2] = {{"encoder_Y", Unit::um}, -1, 2.0};
@@ -192,10 +193,10 @@ TEST_F(LabjackT7Driver, EncodersOfTwoAxesAreIndependent) {
       << driver().info().description;
   ASSERT_EQ(read(400), "");
   for (std::size_t i = 0; i < time_ns.size(); ++i)
-    // 2 * 0.25 and -0.5 of the same count; 50 us apart.
+    // The values are 2 * 0.25 and -0.5 of the same count. The inputs are read 50 us apart.
     ASSERT_NEAR(value[2][i], -value[3][i], 120) << i;
   EXPECT_EQ(quality[2].back(), Quality::good);
-  EXPECT_EQ(quality[3].back(), Quality::suspect);  // 1,000,000 counts/s
+  EXPECT_EQ(quality[3].back(), Quality::suspect);  // it counts 1,000,000 counts/s
   EXPECT_TRUE(has(driver().info().datum_lost, "counts may have been lost"));
   EXPECT_TRUE(driver().info().further_datum_lost.empty());
 
@@ -206,7 +207,7 @@ TEST_F(LabjackT7Driver, EncodersOfTwoAxesAreIndependent) {
   ASSERT_EQ(read(time_ns.size() + 20), "");
   EXPECT_EQ(quality[2].back(), Quality::suspect);
   EXPECT_TRUE(has(driver().info().further_datum_lost["encoder_Y"], "counter restarted at 0"));
-  driver().trust_count();  // of the other axis
+  driver().trust_count();  // the user has set the position of the other axis
   ASSERT_EQ(read(time_ns.size() + 200), "");
   EXPECT_EQ(quality[2].back(), Quality::suspect);
   driver().trust_further_count("encoder_Y");
@@ -235,7 +236,7 @@ TEST_F(LabjackT7Driver, RestartedCountIsSuspect) {
   EXPECT_EQ(driver().info().datum_lost, "");
 }
 
-// The counter counts 1,000,000 counts/s.
+// The encoder counts 1,000,000 counts/s.
 TEST_F(LabjackT7Driver, CountIsSuspectAfterExceedingItsSpeedLimit) {
   serve({});
   settings.inputs[3].most_counts_per_s = 2e6;

@@ -1,4 +1,4 @@
-// Any bytes on the stream port, in portions; any requests to the simulated device.
+// Any bytes are read from the stream port in pieces. The simulated device receives any requests.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -89,7 +89,7 @@ TEST(LabjackT7Protocol, RefusesOtherDataThanAStream) {
   }
 }
 
-// Length 10: no sample; such packets report a status only.
+// A packet of length 10 has a status and no samples.
 TEST(LabjackT7Protocol, AcceptsAPacketWithoutSamples) {
   PacketReader reader;
   reader.append(modbus::bytes("00 05 00 00 00 0A 01 4C 10 00 00 00 0B 7C 00 00"));
@@ -100,7 +100,7 @@ TEST(LabjackT7Protocol, AcceptsAPacketWithoutSamples) {
   EXPECT_TRUE(p.samples.empty());
 }
 
-// T-Series Datasheet 3.2.4: at most 512 samples on Ethernet, a length of 1034.
+// T-Series Datasheet 3.2.4: a packet on Ethernet has at most 512 samples. Its length is then 1034.
 TEST(LabjackT7Protocol, ReadsTheLargestPacket) {
   std::string bytes = modbus::bytes("00 00 00 00 04 0A 01 4C 10 00 00 00 00 00 00 00");
   bytes.append(1024, '\x11');
@@ -158,7 +158,7 @@ TEST(LabjackT7Scans, TimesContinueAfterDroppedScans) {
   std::vector<Scan> scans;
   StreamPacket p = packet(0, {1, 1, 2, 2});
   p.status = status::recovering;
-  ASSERT_TRUE(line.take(p, scans));  // the buffered scans are valid
+  ASSERT_TRUE(line.take(p, scans));  // the scans in the buffer of the T7 are valid
   p = packet(1, {3, 3, 0xFFFF, 0xFFFF, 4, 4});
   p.status = status::recovered;
   p.info = 100;

@@ -1,4 +1,4 @@
-// The simulated T7 byte for byte, without sockets.
+// Checks the bytes of the simulated T7, without sockets.
 #include "drivers/labjack_t7/simulated_labjack_t7.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kCommand = 0, kStream = 1;
 constexpr std::int64_t kMs = 1'000'000;
 
-// AIN0 ... AIN4 as in the read vectors; the counter counts 1000 counts/ms.
+// AIN0 ... AIN4 have the values of the read vectors. The counter counts 1000 counts/ms.
 double senses(std::size_t input, std::int64_t t_ns) {
   constexpr double kVolts[] = {1.0, -2.5, 0.125, 9.75, -10.0};
   if (input < 5) return kVolts[input];
@@ -67,7 +67,7 @@ TEST_F(LabjackT7Device, AnswersTheReadVectors) {
       modbus::bytes("00 01 00 00 00 17 01 03 14 3F800000 C0200000 3E000000 411C0000 C1200000"));
   EXPECT_EQ(ask("00 02 00 00 00 06 01 03 D7 3C 00 02"),
             modbus::bytes("00 02 00 00 00 07 01 03 04 00 11 22 33"));
-  now = 65'536'000 + 7'000;  // count 7
+  now = 65'536'000 + 7'000;  // the count is 7
   EXPECT_EQ(ask("00 03 00 00 00 06 01 03 0B B8 00 02"),
             modbus::bytes("00 03 00 00 00 07 01 03 04 00 00 00 07"));
 }
@@ -89,9 +89,9 @@ TEST_F(LabjackT7Device, AcceptsTheWriteVectors) {
 TEST_F(LabjackT7Device, WriteVectorsStartAStream) {
   start(1000, 7, {0, 2, 4, 6, 8, 3000, 4899});
   EXPECT_EQ(ask("00 07 00 00 00 0B 01 10 13 7E 00 02 04 00 00 00 01"),
-            modbus::bytes("00 07 00 00 00 03 01 90 04"));  // a stream runs already
+            modbus::bytes("00 07 00 00 00 03 01 90 04"));  // a stream is already running
   EXPECT_EQ(ask("00 08 00 00 00 06 01 03 D6 D8 00 01"),
-            modbus::bytes("00 08 00 00 00 05 01 03 02 0A 2D"));  // 2605
+            modbus::bytes("00 08 00 00 00 05 01 03 02 0A 2D"));  // error 2605
   now += 3 * kMs;
   const auto all = packets();
   ASSERT_EQ(all.size(), 2U);
@@ -116,8 +116,9 @@ TEST_F(LabjackT7Device, RefusesWithModbusExceptions) {
             modbus::bytes("00 01 00 00 00 03 01 83 03"));
   EXPECT_EQ(ask("00 01 00 00 00 06 01 06 AB 7E 00 C7"),
             modbus::bytes("00 01 00 00 00 06 01 06 AB 7E 00 C7"));
-  EXPECT_EQ(write(4990, words_of(0)).substr(7), modbus::bytes("90 04"));  // no stream runs
-  EXPECT_EQ(ask("00 08 00 00 00 06 01 03 D6 D8 00 01").substr(9), modbus::bytes("0A 3C"));  // 2620
+  EXPECT_EQ(write(4990, words_of(0)).substr(7), modbus::bytes("90 04"));  // no stream is running
+  // Error 2620.
+  EXPECT_EQ(ask("00 08 00 00 00 06 01 03 D6 D8 00 01").substr(9), modbus::bytes("0A 3C"));
 }
 
 TEST_F(LabjackT7Device, SwapsWordsOnRequest) {
@@ -127,29 +128,31 @@ TEST_F(LabjackT7Device, SwapsWordsOnRequest) {
   EXPECT_EQ(ask("00 02 00 00 00 06 01 03 D7 3C 00 02").substr(9), modbus::bytes("22 33 00 11"));
 }
 
-// T-Series Datasheet 13.2.9: DIO_EF_READ_A of line n is at 3000 + 2 n.
+// T-Series Datasheet 13.2.9: DIO_EF_READ_A of line n is at address 3000 + 2 n.
 TEST_F(LabjackT7Device, OnlyConfiguredPairsCount) {
-  // High word of the count; all ones if the count is negative.
+  // High word of the count at an address. All its bits are 1 if the count is negative.
   const auto high = [&](const char* address) {
     return ask((std::string("00 01 00 00 00 06 01 03 ") + address + " 00 02").c_str()).substr(9, 2);
   };
   now = 1'000'000;
-  EXPECT_EQ(high("0B BC"), modbus::bytes("00 00"));  // 3004, DIO2
+  EXPECT_EQ(high("0B BC"), modbus::bytes("00 00"));  // 3004: DIO2
   count_by(2);
   EXPECT_EQ(high("0B BC"), modbus::bytes("FF FF"));
-  EXPECT_EQ(high("0B C4"), modbus::bytes("00 00"));  // 3012, DIO6
+  EXPECT_EQ(high("0B C4"), modbus::bytes("00 00"));  // 3012: DIO6
   count_by(6);
   EXPECT_EQ(high("0B C4"), modbus::bytes("FF FF"));
-  EXPECT_EQ(high("0B B8"), modbus::bytes("00 00"));  // 3000, DIO0
+  EXPECT_EQ(high("0B B8"), modbus::bytes("00 00"));  // 3000: DIO0
 }
 
-// The count changes from 0xFFFF to 0x10000 between the two entries of each scan.
+// In each scan, the count changes from 0xFFFF to 0x10000 after the lower word and before the upper
+// word is read.
 double at_a_boundary(std::size_t input, std::int64_t t_ns) {
   return input == SimulatedLabjackT7::kCounterInput && t_ns % kMs < 15'000 ? 65535 : 65536;
 }
 
 TEST_F(LabjackT7Device, UpperAndLowerWordBelongToTheSameCount) {
-  for (const bool captured : {true, false}) {  // false: shows that this test can fail
+  // False: the words must not fit together, which shows that this test can fail.
+  for (const bool captured : {true, false}) {
     device = SimulatedLabjackT7(at_a_boundary, {});
     SimulatedLabjackT7::Faults faults;
     faults.no_capture = !captured;
@@ -173,7 +176,8 @@ TEST_F(LabjackT7Device, CoreTimerCountsAt40MHzAndStampsTheFirstScan) {
   const std::uint32_t before = core();
   now += kMs;
   EXPECT_EQ(core() - before, 40'000U);
-  // LabJack's ljm_constants.json: "At the start of the first stream scan", one period later.
+  // LabJack's ljm_constants.json: the time stamp is taken "At the start of the first stream scan".
+  // This is one period after the start.
   start(1000, 1, {0});
   const auto stamp = [&] { return ask("00 01 00 00 00 06 01 03 0F BA 00 02").substr(9); };
   EXPECT_EQ(stamp(), modbus::bytes("00 00 00 00"));

@@ -1,4 +1,4 @@
-// Compares the driver and its simulated device with LabJack's register map for LJM:
+// Compares the driver and its simulated device with LabJack's register map for LJM. Source:
 // labjack/ljm_constants, LabJack/LJM/ljm_constants.json, "registers" (name, address, type,
 // default).
 #include <gtest/gtest.h>
@@ -85,7 +85,7 @@ TEST_F(LabjackT7Vectors, SimulatedDeviceAnswersAsInTheMap) {
 }
 
 // "For base differential channels, positive must be an even channel from 0-12 and negative must be
-// positive+1"; AIN_ALL_NEGATIVE_CH and AIN_ALL_RANGE write the registers of all inputs.
+// positive+1". AIN_ALL_NEGATIVE_CH and AIN_ALL_RANGE write the registers of all inputs.
 TEST_F(LabjackT7Vectors, EachInputHasItsRangeAndNegativeChannel) {
   const VendorVector vectors[] = {
       {"AIN_ALL_NEGATIVE_CH = 199", "00 07 00 00 00 09 01 10 AB 7E 00 01 02 00 C7",
@@ -105,8 +105,8 @@ TEST_F(LabjackT7Vectors, EachInputHasItsRangeAndNegativeChannel) {
     EXPECT_EQ(mismatch(ask(vector.request), vector.reply), "") << vector;
 }
 
-// ljm_constants.json, "errors"; for index 10 and bit 1 of HARDWARE_INSTALLED, the texts of the
-// registers.
+// Sources: ljm_constants.json, "errors". For register index 10 and bit 1 of HARDWARE_INSTALLED:
+// the descriptions of these registers.
 TEST_F(LabjackT7Vectors, NumbersAreThoseOfLabJacksConstants) {
   EXPECT_EQ(status::recovering, 2940);         // STREAM_AUTO_RECOVER_ACTIVE
   EXPECT_EQ(status::recovered, 2941);          // STREAM_AUTO_RECOVER_END
@@ -125,8 +125,8 @@ TEST_F(LabjackT7Vectors, NumbersAreThoseOfLabJacksConstants) {
   EXPECT_EQ(kTestValue, 0x00112233U);
 }
 
-// T7 calibration: each read returns 13 floats, block by block from 0x3C4000 (LabJack's example
-// stream.c).
+// The calibration of a T7. Each read returns 13 floats, and the blocks begin at 0x3C4000
+// (LabJack's example stream.c).
 TEST_F(LabjackT7Vectors, FlashIsReadBlockByBlock) {
   const std::uint32_t addresses[] = {0x3C4000, 0x3C4034, 0x3C4068, 0x3C409C};
   for (int block = 0; block < 4; ++block) EXPECT_EQ(flash_address(block), addresses[block]);

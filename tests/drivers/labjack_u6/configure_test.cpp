@@ -101,7 +101,7 @@ TEST(LabjackU6Configure, InputsMayBeDifferentialWithOwnRange) {
   ASSERT_EQ(list.size(), 4U);
   EXPECT_EQ(list[0].gain, 1);
   EXPECT_FALSE(list[0].differential);
-  EXPECT_EQ(list[1].gain, 0);  // of the counter
+  EXPECT_EQ(list[1].gain, 0);  // the counter has no gain
   EXPECT_EQ(list[3].channel, 2);
   EXPECT_EQ(list[3].gain, 2);
   EXPECT_TRUE(list[3].differential);
@@ -125,7 +125,7 @@ TEST(LabjackU6Configure, EncoderMayUseFio2) {
   ASSERT_TRUE(s) << s.error().message;
   EXPECT_EQ(s->inputs[1].fio, 2);
   EXPECT_EQ(read("", kChannels)->inputs[1].fio, 0);
-  // Timers are numbered from the first pin.
+  // The first FIO pin in use has timer 0.
   EXPECT_EQ(entries(*s), (std::vector<int>{0, 200, 224}));
   EXPECT_TRUE(has(refusal("", probe + encoder("encoder", "FIO1")), "AIN13, FIO0, FIO2"));
   EXPECT_TRUE(has(refusal("", kChannels + encoder("B", "FIO2")), "the first is FIO0"));
@@ -144,7 +144,7 @@ TEST(LabjackU6Settings, PacketsAndTransfersFollowTheRate) {
   for (const double samples_hz : {1.0, 100.0, 1249.0, 1251.0, 7000.0, 50'000.0}) {
     const auto transfers = labjack_u6::transfers_for(samples_hz);
     EXPECT_EQ(transfers.bytes % 64, 0U);
-    // Packets that are not full never share a transfer.
+    // A transfer with more than one packet has full packets only.
     EXPECT_TRUE(transfers.bytes == 64 || labjack_u6::samples_per_packet(samples_hz) == 25);
     EXPECT_GE(transfers.transfers, 4U);
   }

@@ -1,4 +1,4 @@
-// Any bytes as replies and as stream packets.
+// Any bytes are parsed as replies and as stream packets.
 #include <cstddef>
 #include <cstdint>
 #include <string>

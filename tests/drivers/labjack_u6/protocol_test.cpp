@@ -23,7 +23,8 @@ TEST(LabjackU6Protocol, EncodesTheCommandVectors) {
   EXPECT_EQ(stream_stop(), bytes("B0 B0"));
 }
 
-// The frame of a poll of AIN0-4 and timer 0, a command that this driver does not send.
+// The frame of a Feedback command that reads AIN0-4 and timer 0. The driver does not send this
+// command; it only checks the framing.
 TEST(LabjackU6Protocol, FramesAFeedbackOfFiveInputs) {
   const std::string vector = bytes(
       "49 F8 0D 00 43 00 00 02 00 01 00 02 01 01 00 02 02 01 00 02 03 01 00 02 04 01 00 2A 00 00 "
@@ -56,7 +57,7 @@ TEST(LabjackU6Protocol, StreamClockCoversSlowAndFastRates) {
   EXPECT_FALSE(stream_clock(1e9));
 }
 
-// U6 Datasheet 5.2.12: the interval is 1 to 65535 periods of 4 MHz, or of 4 MHz / 256.
+// U6 Datasheet 5.2.12: the scan interval is 1 to 65535 periods of 4 MHz, or of 4 MHz / 256.
 TEST(LabjackU6Protocol, StreamClockUsesTheLimitsOfTheInterval) {
   const auto longest = stream_clock(4e6 / 65535);  // 61.04 Hz
   ASSERT_TRUE(longest);
@@ -80,7 +81,7 @@ TEST(LabjackU6Protocol, ReadsReplies) {
   EXPECT_TRUE(read_stream_config(bytes("0B F8 01 11 00 00 00 00")));
   EXPECT_TRUE(read_stream_start(bytes("A9 A9 00 00")));
   EXPECT_TRUE(read_stream_stop(bytes("B1 B1 00 00")));
-  EXPECT_TRUE(read_stream_stop(bytes("E5 B1 34 00")));  // 52: no stream was running
+  EXPECT_TRUE(read_stream_stop(bytes("E5 B1 34 00")));  // error 52: no stream was running
 }
 
 TEST(LabjackU6Protocol, RefusalsHaveTexts) {
@@ -106,8 +107,8 @@ TEST(LabjackU6Protocol, RefusesBadReplies) {
   EXPECT_FALSE(read_feedback(bytes("0B F8 01 11 00 00 00 00")));
 }
 
-// The vendor's calculateChecksum8 (exodriver, examples/U6/u6.c) adds the carry twice: FF + FF + 01
-// is 1FF, then 1 + FF = 100, then 1 + 0.
+// The vendor's calculateChecksum8 (exodriver, examples/U6/u6.c) adds the carry twice. Example: FF
+// + FF + 01 = 1FF; 1 + FF = 100; 1 + 00 = 01.
 TEST(LabjackU6Protocol, ChecksumAddsItsCarryTwice) {
   EXPECT_EQ(checksum8(bytes("FF FF 01")), 1);
   EXPECT_EQ(checksum8(bytes("FF FF")), 0xFF);
@@ -194,7 +195,7 @@ TEST(LabjackU6Protocol, RefusesChangedBytesAndShortReads) {
   }
 }
 
-// The checksums are right, but the command or the type differs.
+// The checksums are correct. Only the command or the type differs.
 TEST(LabjackU6Protocol, RefusesRepliesToOtherCommands) {
   const std::string body = zeros(4), reply = extended(0x0A, body);
   EXPECT_TRUE(extended_body(reply, 0x0A, reply.size()));

@@ -1,4 +1,4 @@
-// Sets up and streams the simulated U6 as a driver does, without USB.
+// Configures the simulated U6 and reads its stream as the driver does, but without USB.
 #include "drivers/labjack_u6/simulated_labjack_u6.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kSamples = 25;
 
-// AIN1 is -2.5 V; the counter is 1 count/us from -500.
+// True values of the inputs. AIN1 is -2.5 V. The counter begins at -500 and increases by one per
+// microsecond.
 double senses(std::size_t input, std::int64_t t_ns) {
   if (input == SimulatedLabjackU6::kCounterInput)
     return std::floor(static_cast<double>(t_ns) / 1000) - 500;
@@ -32,7 +33,7 @@ class LabjackU6Device : public testing::Test {
     ASSERT_TRUE(read_stream_config(ask(stream_config(setup, *stream_clock(1000)))));
     ASSERT_TRUE(read_stream_start(ask(stream_start())));
   }
-  // Streams for `ms`; returns the error that ended the stream, or "".
+  // Streams for `ms` milliseconds. Returns the error that ended the stream, or "".
   std::string stream(int ms) {
     now += std::int64_t{1'000'000} * ms;
     for (;;) {
@@ -96,7 +97,7 @@ TEST_F(LabjackU6Device, StreamsInputsAndCounterInOneScan) {
   }
 }
 
-// AIN0 at 20 V minus AIN1 at -2.5 V is outside of the range; AIN2 minus AIN3 is zero.
+// AIN0 (20 V) minus AIN1 (-2.5 V) is outside of the range. AIN2 minus AIN3 is 0 V.
 TEST_F(LabjackU6Device, DifferentialEntryHasItsOwnGain) {
   StreamSetup setup;
   setup.list = {{1, 0}, {2, 1, true}, {0, 0, true}};
@@ -170,7 +171,7 @@ TEST_F(LabjackU6Device, FullTransferOrShortPacketEndsATransfer) {
   cut.short_at = 5;
   device.set_faults(cut);
   start();
-  now += 15'000'000;  // four packets
+  now += 15'000'000;  // time of four packets
   EXPECT_EQ(device.in(kStreamIn, 256, now).bytes.size(), 256U);
   EXPECT_EQ(device.in(kStreamIn, 256, now).answer, usb::Answer::not_yet);
   now += 15'000'000;

@@ -1,5 +1,5 @@
-// Commands that LabJack's open source sends to a U6, and replies that it accepts. Checksums were
-// calculated by its setChecksum16 and setChecksum8 (LabJackPython, src/LabJackPython.py).
+// Commands that LabJack's open source sends to a U6, and replies that it accepts. The checksums
+// were calculated with its setChecksum16 and setChecksum8 (LabJackPython, src/LabJackPython.py).
 #include <gtest/gtest.h>
 
 #include "drivers/labjack_u6/simulated_labjack_u6.h"
@@ -65,7 +65,7 @@ TEST_F(LabjackU6Vectors, SimulatedDeviceAnswersAsTheVendorAccepts) {
     EXPECT_EQ(mismatch(ask(bytes(vector.request)), vector.reply), "") << vector;
 }
 
-// LabJack documents the result of a ConfigU6: firmware 0.88, serial number 360005087, version info
+// LabJack documents this reply to ConfigU6: firmware 0.88, serial number 360005087, version info
 // 4.
 TEST_F(LabjackU6Vectors, ReadsTheIdentityOfLabJacksExample) {
   const auto id = read_config_u6(
@@ -78,8 +78,8 @@ TEST_F(LabjackU6Vectors, ReadsTheIdentityOfLabJacksExample) {
   EXPECT_FALSE(id->pro);
 }
 
-// LabJackPython, src/u6.py, U6.configIO: result[8] timers, result[10] pin offset; the same in
-// exodriver's u6Stream.c.
+// LabJackPython, src/u6.py, U6.configIO: result[8] is the number of timers, result[10] is the pin
+// offset. exodriver's u6Stream.c uses the same bytes.
 TEST_F(LabjackU6Vectors, ReadsTimersFromBytes8And10) {
   const auto timers = read_timers(bytes("0C F8 05 0B 03 00 00 00 02 00 01 00 00 00 00 00"));
   ASSERT_TRUE(timers) << timers.error().message;
@@ -87,8 +87,12 @@ TEST_F(LabjackU6Vectors, ReadsTimersFromBytes8And10) {
   EXPECT_EQ(timers->pin_offset, 1);
 }
 
-// exodriver, examples/U6/u6Stream.c, StreamData_example: F9, 4 + samples, C0; counter at byte 10,
-// error at 11, dropped scans at 6 and 7, samples from 12 on, then the backlog.
+// Packet according to exodriver, examples/U6/u6Stream.c, StreamData_example:
+// - bytes 1 to 3: F9, 4 + number of samples, C0
+// - bytes 6 and 7: dropped scans
+// - byte 10: counter
+// - byte 11: error
+// - byte 12 and following: samples, then the backlog
 TEST_F(LabjackU6Vectors, StreamPacketsHaveTheVendorsOffsets) {
   ASSERT_EQ(mismatch(ask(bytes("EB F8 09 11 D8 00 05 01 19 00 00 00 A0 0F 00 00 01 00 02 00 03 00 "
                                "04 00")),
@@ -108,7 +112,7 @@ TEST_F(LabjackU6Vectors, StreamPacketsHaveTheVendorsOffsets) {
   EXPECT_EQ(read->backlog, 255);
 }
 
-// LabJackPython, src/u6.py, CalibrationInfo and binaryToCalibratedAnalogVoltage, gain 0.
+// Source: LabJackPython, src/u6.py, CalibrationInfo and binaryToCalibratedAnalogVoltage, gain 0.
 TEST_F(LabjackU6Vectors, NominalConstantsHaveTheVendorsSigns) {
   const AinCalibration nominal = labjack::nominal_calibration(0);
   EXPECT_NEAR(nominal.positive_slope, 3.1580578e-4, 1e-12);
@@ -118,8 +122,8 @@ TEST_F(LabjackU6Vectors, NominalConstantsHaveTheVendorsSigns) {
   EXPECT_NEAR(labjack::volts(nominal, 65535), (65535 - 33523.0) * 3.1580578e-4, 1e-6);
 }
 
-// exodriver, liblabjackusb/labjackusb.h: LJ_VENDOR_ID, U6_PRODUCT_ID, U6_PIPE_EP1_OUT,
-// U6_PIPE_EP2_IN, U6_PIPE_EP3_IN; U6 Datasheet 5.1: at most 64 bytes in each direction.
+// Sources: exodriver, liblabjackusb/labjackusb.h: LJ_VENDOR_ID, U6_PRODUCT_ID, U6_PIPE_EP1_OUT,
+// U6_PIPE_EP2_IN, U6_PIPE_EP3_IN. U6 Datasheet 5.1: at most 64 bytes in each direction.
 TEST_F(LabjackU6Vectors, EndpointsAreThoseOfTheExodriver) {
   EXPECT_EQ(kVendor, 0x0CD5);
   EXPECT_EQ(kProduct, 6);
@@ -130,7 +134,7 @@ TEST_F(LabjackU6Vectors, EndpointsAreThoseOfTheExodriver) {
   EXPECT_EQ(kAins, 14);
 }
 
-// LabJackPython, src/LabJackPython.py, errorcodes: the codes of a stream.
+// The error codes of a stream. Source: LabJackPython, src/LabJackPython.py, errorcodes.
 TEST_F(LabjackU6Vectors, StreamErrorsHaveTexts) {
   for (const int code : {48, 49, 50, 52, 55, 56, 58, 59, 60, 63})
     EXPECT_TRUE(error_text(code).starts_with("U6 error " + std::to_string(code) + ", ")) << code;
@@ -138,8 +142,8 @@ TEST_F(LabjackU6Vectors, StreamErrorsHaveTexts) {
     EXPECT_EQ(error_text(code), "U6 error " + std::to_string(code));
 }
 
-// U6 Datasheet 5.2.12: bits 5-4 of a channel's options are the gain; byte 10 is the settling time
-// in 10 us. LabJackPython, src/u6.py, U6.streamConfig.
+// U6 Datasheet 5.2.12: bits 5-4 of a channel's options are the gain, and byte 10 is the settling
+// time in units of 10 us. Code: LabJackPython, src/u6.py, U6.streamConfig.
 TEST_F(LabjackU6Vectors, EncodesGainAndSettlingOfAStream) {
   StreamSetup setup;
   setup.settling_10us = 5;
@@ -150,8 +154,9 @@ TEST_F(LabjackU6Vectors, EncodesGainAndSettlingOfAStream) {
             bytes("43 F8 07 11 30 02 03 03 14 00 05 02 34 12 01 20 C8 00 E0 00"));
 }
 
-// LabJackPython, src/u6.py, U6.streamConfig: in a channel's options bit 7 is differential, bits 5-4
-// are the gain. exodriver, examples/U6/u6.c, eAIN: the odd input after an even one is its negative.
+// LabJackPython, src/u6.py, U6.streamConfig: in the options of a channel, bit 7 means differential
+// and bits 5-4 are the gain. exodriver, examples/U6/u6.c, eAIN: the negative input of an even
+// input is the next odd input.
 TEST_F(LabjackU6Vectors, StreamInputsHaveTheirOwnGains) {
   StreamSetup setup;
   setup.list = {{0, 0, true}, {2, 1, true}, {4, 2, false}, {6, 3, true}, {8, 0, false}};

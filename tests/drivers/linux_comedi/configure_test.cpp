@@ -109,7 +109,7 @@ TEST(ComediConfigure, IdentityIsIndependentOfTheSpelling) {
   const auto driver = spec->make();
   ASSERT_TRUE(driver);
   EXPECT_EQ((*driver)->info().driver, "linux_comedi");
-  const auto status = (*driver)->open();  // comedilib reports that it is not a board
+  const auto status = (*driver)->open();  // comedilib reports that the file is not a board
   ASSERT_FALSE(status);
   EXPECT_NE(status.error().message.find("this is not a Comedi device"), std::string::npos)
       << status.error().message;

@@ -39,7 +39,7 @@ class ComediBoard : public testing::Test {
 };
 
 TEST_F(ComediBoard, ReadsVoltsOfWholeScans) {
-  board_->most_bytes = 7;  // neither whole samples nor whole scans
+  board_->most_bytes = 7;  // 7 bytes are neither whole samples nor whole scans
   LinuxComedi driver(settings_);
   const std::int64_t before_ns = monotonic_ns();
   ASSERT_TRUE(driver.open());
@@ -64,9 +64,9 @@ TEST_F(ComediBoard, ReadsVoltsOfWholeScans) {
     least_ns = std::min(least_ns, all.time_ns[i] - all.time_ns[i - 1]);
     most_ns = std::max(most_ns, all.time_ns[i] - all.time_ns[i - 1]);
   }
-  EXPECT_GT(least_ns, 300'000);  // each scan is a tick of its clock
+  EXPECT_GT(least_ns, 300'000);  // the times follow the clock of the board
   EXPECT_LT(most_ns, 700'000);
-  EXPECT_EQ(board_->started.subdevice, 1U);  // the first subdevice has no analogue inputs
+  EXPECT_EQ(board_->started.subdevice, 1U);  // subdevice 0 has no analogue inputs
   EXPECT_EQ(board_->started.inputs[1].channel, 5U);
 }
 
@@ -116,14 +116,15 @@ TEST_F(ComediBoard, BufferOverrunIsACountedGap) {
   LinuxComedi driver(settings_);
   ASSERT_TRUE(driver.open());
   const Collected before = collect(driver, 10'000);
-  EXPECT_EQ(before.scans.size(), 300U);  // all scans before it
+  EXPECT_EQ(before.scans.size(), 300U);  // all scans before the fault are returned
   EXPECT_EQ(before.lost, 0U);
   EXPECT_NE(
       before.error.find("the buffer of the board, or of the kernel (8.192 s), has overflowed"),
       std::string::npos)
       << before.error;
   SampleBlock block;
-  EXPECT_FALSE(driver.read(block, std::chrono::milliseconds(1)));  // until it is opened again
+  // Reads fail until the driver is opened again.
+  EXPECT_FALSE(driver.read(block, std::chrono::milliseconds(1)));
   board_->overrun_at = -1;
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   ASSERT_TRUE(driver.open());
@@ -132,7 +133,8 @@ TEST_F(ComediBoard, BufferOverrunIsACountedGap) {
   const double away = static_cast<double>(after.time_ns[0] - before.time_ns.back()) * 1e-9 * 2000;
   EXPECT_GT(away, 190);
   EXPECT_NEAR(static_cast<double>(after.lost), away - 1, 1);
-  EXPECT_NEAR(after.scans[0][0], -10 + 20 * 1000.0 / 65535, 1e-9);  // a new command
+  // The driver has started a new command.
+  EXPECT_NEAR(after.scans[0][0], -10 + 20 * 1000.0 / 65535, 1e-9);
   EXPECT_EQ(board_->closed, 1);
 }
 
@@ -188,19 +190,20 @@ TEST_F(ComediBoard, ErrorNamesTheOptionsOfTheBoard) {
 
 TEST_F(ComediBoard, ReportsTheTrueRateAndRefusesAWrongOne) {
   board_->tick_ns = 1500;
-  settings_.rate_hz = 10'000;  // 100 us are 66.7 ticks, so the period is 100.5 us
+  settings_.rate_hz = 10'000;  // 100 us are 66.7 ticks. The board uses 67 ticks, which are 100.5 us
   const DeviceInfo info = opened();
   EXPECT_NEAR(info.rate_hz, 1e9 / 100'500, 1e-9);
-  board_->tick_ns = 50'350;  // an error of 0.7 %
+  board_->tick_ns = 50'350;  // the rate differs by 0.7 %
   EXPECT_NEAR(opened().rate_hz, 1e9 / 100'700, 1e-9);
-  board_->tick_ns = 50'600;  // an error of 1.2 %
+  board_->tick_ns = 50'600;  // the rate differs by 1.2 %
   expect_refused("the nearest rate is 9881.42292");
   board_->tick_ns = 70'000;
   expect_refused(
       "the board cannot scan at rate_hz = 10000; the nearest rate is 7142.85714 Hz with 2 inputs "
       "that are 70 us apart");
   board_->tick_ns = 1000;
-  board_->least_convert_ns = 60'000;  // two conversions take longer than a scan
+  // The conversions of two inputs take longer than the period of a scan.
+  board_->least_convert_ns = 60'000;
   expect_refused("the nearest rate is 8333.33333");
 }
 

@@ -7,8 +7,9 @@
 
 #include "drivers/linux_comedi/protocol.h"
 
-// Input: width of samples, number of inputs, length of reads, then samples. The codes are whole
-// scans, as many as the bytes contain, and their volts are finite.
+// The input gives the width of the samples, the number of inputs and the length of the reads. The
+// samples follow. The driver must return all whole scans of these bytes, and their voltages must
+// be finite.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mdof::drivers::linux_comedi;
   if (size < 3) return 0;

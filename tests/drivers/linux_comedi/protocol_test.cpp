@@ -29,7 +29,7 @@ TEST(ComediCodes, CutsScansAtAnyReadBoundary) {
     const std::string narrow_bytes = bytes_of(narrow), wide_bytes = bytes_of(wide);
     for (std::size_t at = 0; at < narrow_bytes.size(); at += size) {
       narrow_line.take(std::string_view(narrow_bytes).substr(at, size), narrow_codes);
-      ASSERT_EQ(narrow_codes.size() % 3, 0U);  // only whole scans
+      ASSERT_EQ(narrow_codes.size() % 3, 0U);  // the codes are whole scans
     }
     for (std::size_t at = 0; at < wide_bytes.size(); at += size)
       wide_line.take(std::string_view(wide_bytes).substr(at, size), wide_codes);
@@ -59,14 +59,14 @@ TEST(ComediVolts, EndsOfTheRangeAreRails) {
   EXPECT_FALSE(at_rail(1, 65535));
   EXPECT_FALSE(at_rail(65534, 65535));
   EXPECT_TRUE(at_rail(65535, 65535));
-  EXPECT_TRUE(at_rail(5000, 4095));  // above the greatest code
+  EXPECT_TRUE(at_rail(5000, 4095));  // 5000 is greater than the largest code
 }
 
 TEST(ComediRanges, FindsRangesByTheirLimits) {
   const std::vector<Range> ranges = {{0, 10, false}, {-10, 10}, {-5, 5}, {0, 10}};
   EXPECT_EQ(range_index(ranges, -10, 10), 1U);
   EXPECT_EQ(range_index(ranges, -5, 5), 2U);
-  EXPECT_EQ(range_index(ranges, 0, 10), 3U);  // the range in mA is not used
+  EXPECT_EQ(range_index(ranges, 0, 10), 3U);  // the range of 0 to 10 mA is not a voltage
   EXPECT_FALSE(range_index(ranges, 0, 5));
   EXPECT_FALSE(range_index(ranges, -10, 5));
   EXPECT_EQ(text_of(ranges[2]), "-5 to 5 V");
@@ -117,7 +117,8 @@ TEST_F(ComediCommand, UsesTimersForScansAndInputs) {
   EXPECT_EQ(rate_of(*made), 4000);
   EXPECT_EQ(convert_us(*made), 20);
   EXPECT_EQ(command(4000, 50)->convert.argument, 50'000U);
-  EXPECT_EQ(command(50'000)->convert.argument, 10'000U);  // 20 us are more than half a scan
+  // 20 us per input would take longer than half a scan.
+  EXPECT_EQ(command(50'000)->convert.argument, 10'000U);
 }
 
 TEST_F(ComediCommand, ReadsInputsSimultaneouslyIfPossible) {

@@ -1,6 +1,7 @@
-// A Comedi board without the kernel, as comedilib presents it. Its clock is that of the host. By
-// default its inputs give code = scan % 500 + 1000 · (channel + 1). It tests commands in the same
-// way as the kernel's comedi_test (drivers/comedi/drivers/comedi_test.c, waveform_ai_cmdtest).
+// A Comedi board without the kernel, with the interface of comedilib. The clock of the board is
+// the clock of the host. By default, the code of an input is scan % 500 + 1000 · (channel + 1).
+// The board tests commands as the kernel's comedi_test does (drivers/comedi/drivers/comedi_test.c,
+// waveform_ai_cmdtest).
 #pragma once
 
 #include <algorithm>
@@ -26,19 +27,19 @@ struct Simulated {
   std::uint32_t greatest_code = 65535;
   std::size_t buffer_bytes = 65536;
   unsigned scan_sources = kTimer | kFollow, convert_sources = kTimer, stop_sources = kNone | kCount;
-  unsigned tick_ns = 1000;           // periods are multiples of it
-  unsigned least_convert_ns = 1000;  // from input to input
-  bool refuses_inputs = false;       // cannot scan these inputs together
+  unsigned tick_ns = 1000;           // all periods are multiples of tick_ns
+  unsigned least_convert_ns = 1000;  // shortest time between the conversions of two inputs
+  bool refuses_inputs = false;       // true: rejects any combination of inputs
   Calibration calibration{"/var/lib/comedi/calibrations/sim", false, "", {}};
   std::function<std::uint32_t(std::uint64_t scan, unsigned channel)> code = [](std::uint64_t scan,
                                                                                unsigned channel) {
     return static_cast<std::uint32_t>(scan % 500 + 1000 * (channel + 1));
   };
-  // Faults; -1: never.
+  // Faults; -1: the fault does not occur.
   std::string open_error, start_error;
-  std::int64_t overrun_at = -1, end_at = -1, unplug_at = -1, silent_at = -1;  // scans
-  std::size_t most_bytes = 65536;                                             // in one read
-  // Records of the calls.
+  std::int64_t overrun_at = -1, end_at = -1, unplug_at = -1, silent_at = -1;  // numbers of scans
+  std::size_t most_bytes = 65536;  // largest number of bytes that one read returns
+  // Records of the calls that the driver made.
   int opened = 0, closed = 0;
   Command started;
 };

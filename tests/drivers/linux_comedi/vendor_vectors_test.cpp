@@ -1,6 +1,8 @@
-// Compares the driver with the parts of comedilib that need no board: its conversions and its
-// calibration files. Sources: Linux-Comedi/comedilib lib/range.c (comedi_to_phys), lib/calib.c
-// (comedi_to_physical, comedi_get_softcal_converter), lib/calib_yacc.y (the file).
+// Compares the driver with the functions of comedilib that need no board: conversions and
+// calibration files. Sources, in Linux-Comedi/comedilib:
+// - lib/range.c: comedi_to_phys
+// - lib/calib.c: comedi_to_physical, comedi_get_softcal_converter
+// - lib/calib_yacc.y: the calibration file
 #include <comedilib.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -21,7 +21,7 @@ TEST(CountUnwrap, WrapsInBothDirectionsAtAnyCeiling) {
        {std::uint64_t{65535}, std::uint64_t{9999}, std::uint64_t{0xFFFFFFFF}, UINT64_MAX}) {
     CountUnwrap unwrap(ceiling);
     EXPECT_EQ(unwrap(3), 3);
-    EXPECT_EQ(unwrap(ceiling), -1) << ceiling;  // 3 + 1 steps down
+    EXPECT_EQ(unwrap(ceiling), -1) << ceiling;  // 3 + 1 steps backward
     EXPECT_EQ(unwrap(ceiling - 99), -100);
     EXPECT_EQ(unwrap(50), 50);
   }
@@ -51,7 +51,7 @@ TEST(CheckCount, ErrorStatesFileAndRequiredText) {
   CountFiles good{"quadrature x4", "normal", "1", "65535", "0"};
   EXPECT_EQ(check_count(good, "count0", "quadrature x4", 0), 65535u);
   EXPECT_EQ(check_count({}, "count0", "", 65535), 65535u);
-  // The kernel's ABI: only these two modes continue counting at a limit.
+  // According to the kernel's ABI, only these two modes continue to count at a limit.
   CountFiles modulo = good;
   modulo.count_mode = "modulo-n";
   EXPECT_EQ(check_count(modulo, "count0", "quadrature x4", 0), 65535u);
@@ -131,7 +131,7 @@ TEST_F(LinuxCounter, PollsAtItsRateAndUnwraps) {
   ASSERT_EQ(all.error, "");
   EXPECT_EQ(all.scans[0][0], 0);
   expect_growing(all.time_ns);
-  // Each poll is made or counted as lost; the last may be late.
+  // The driver either makes a poll or counts it as lost. The last poll may be late.
   const double passed_ms = static_cast<double>(all.time_ns.back() - before_ns) / 1e6;
   const auto polls = static_cast<double>(all.time_ns.size() + all.lost);
   EXPECT_LE(polls, passed_ms + 2);
@@ -139,7 +139,7 @@ TEST_F(LinuxCounter, PollsAtItsRateAndUnwraps) {
   EXPECT_LE(all.time_ns.back(), monotonic_ns());
   for (const auto& [raw, um] : {std::pair{"65530", 3.0}, {"40000", 12768.0}, {"20000", 22768.0}}) {
     ASSERT_TRUE(tree_->set("count0/count", raw));
-    collect(*driver, 1);  // may have been read before
+    collect(*driver, 1);  // the driver may have read this before the change
     EXPECT_EQ(collect(*driver, 1).scans.at(0).at(0), um);
   }
 }
@@ -167,7 +167,7 @@ TEST_F(LinuxCounter, FewFailuresAreLostAndTheNextScanIsSuspect) {
   EXPECT_EQ(all.first_quality(0), Quality::suspect);
 }
 
-// The motion of the counter during the absence is unknown.
+// While the counter was absent, it is unknown how far the axis moved.
 TEST_F(LinuxCounter, DatumIsLostAfterAnAbsence) {
   const auto driver = make_linux_counter("scale", options_);
   ASSERT_TRUE(driver->open());
@@ -198,7 +198,7 @@ TEST_F(LinuxCounter, ManyFailuresAreAnErrorUntilReopened) {
 }
 
 TEST_F(LinuxCounter, ReportsTheKernelsEio) {
-  // No memory is mapped at address 0, so the kernel returns EIO.
+  // Reading /proc/self/mem at address 0 gives EIO, because no memory is mapped there.
   tree_->remove("count0/count");
   std::filesystem::create_symlink("/proc/self/mem",
                                   root_ / "bus/counter/devices/counter0/count0/count");

@@ -1,4 +1,4 @@
-// The reference mark of an encoder at a 104-QUAD-8.
+// The reference mark of an encoder that a 104-QUAD-8 counts.
 #include "drivers/linux_counter/mark.h"
 
 #include <gtest/gtest.h>
@@ -68,12 +68,12 @@ class Quad8Index : public testing::Test {
 TEST_F(Quad8Index, PositionsAreCountedFromThePassedMark) {
   ASSERT_TRUE(device_->move_to(300));
   ASSERT_EQ(refusal(), "opened");
-  // drivers/counter/104-quad-8.c: quad8_count_preset_write accepts 24 bits,
-  // quad8_count_preset_enable_write a boolean that is true if the index loads the preset.
+  // drivers/counter/104-quad-8.c: quad8_count_preset_write accepts 24 bits.
+  // quad8_count_preset_enable_write accepts a boolean; if it is true, the index loads the preset.
   EXPECT_EQ(file("count0/preset"), std::to_string(300 + (1 << 22)));
   EXPECT_EQ(file("count0/preset_enable"), "1");
   expect_shown(4990, -2495);
-  EXPECT_EQ(at(5010).quality, Quality::missing);  // the count has not moved on yet
+  EXPECT_EQ(at(5010).quality, Quality::missing);  // the count is still too near to the mark
   EXPECT_EQ(driver_->marks_passed(), 0);
   expect_shown(5100, -50);
   EXPECT_EQ(driver_->marks_passed(), 1);

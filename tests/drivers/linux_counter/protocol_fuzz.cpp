@@ -6,7 +6,7 @@
 #include "drivers/linux_counter/protocol.h"
 #include "drivers/sysfs/attribute.h"
 
-// Input: the ceiling, then the text of a count.
+// The input is the ceiling, followed by the text of a count.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mdof::drivers;
   std::uint64_t ceiling = 0;

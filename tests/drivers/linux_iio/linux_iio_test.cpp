@@ -59,7 +59,8 @@ TEST(GapLaw, InterpolationErrorIsAsStatedInTheManual) {
   for (double pF = 1.4; pF < 4; pF += step_pF) table.table.push_back({pF, gap_um(plate, pF).value});
   for (double pF = 1.41; pF < 3.9; pF += 0.01) {
     const double gap = gap_um(plate, pF).value;
-    // gap · (step / C)² / 4, where C is the capacitance at the beginning of the interval
+    // Bound of the manual: gap · (step / C)² / 4. C is the capacitance at the beginning of the
+    // interval.
     const double bound = gap * std::pow(step_pF / (pF - step_pF), 2) / 4;
     ASSERT_LE(std::abs(gap_um(table, pF).value - gap), 1.2 * bound) << pF;
   }
@@ -118,8 +119,8 @@ TEST_F(LinuxIio, ReadsGapsOfBothKindsOfInputs) {
             "91");
 }
 
-// Runs as another user, or with a read-only /sys: in a child process with its own rights and
-// mounts.
+// Runs a test in a child process, either as another user or with a read-only /sys. The child
+// process has its own rights and mounts.
 constexpr int kNotPossibleHere = 77;
 
 template <class Restrict>
@@ -162,7 +163,7 @@ TEST_F(LinuxIio, RateInReadOnlySysfsIsRefusedWithTheDropIn) {
 }
 
 TEST_F(LinuxIio, ReadingWithoutAProbeIsMissing) {
-  const auto driver = make_linux_iio("probes", options_);  // 0 pF
+  const auto driver = make_linux_iio("probes", options_);  // the reading is 0 pF
   ASSERT_TRUE(driver->open());
   const Collected all = collect(*driver, 1);
   EXPECT_TRUE(std::isnan(all.scans.at(0)[0]));

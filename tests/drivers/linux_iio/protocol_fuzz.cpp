@@ -6,8 +6,8 @@
 
 #include "drivers/linux_iio/protocol.h"
 
-// Input: raw value, subtracted counts, stray capacitance. No reading is infinite, and NaN is
-// flagged.
+// The input is the raw value, the subtracted counts and the stray capacitance. A reading must not
+// be infinite. If it is NaN, its quality must be over_range.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mdof;
   struct {

@@ -1,4 +1,5 @@
-// Files and numbers of the kernel's driver: torvalds/linux, drivers/iio/cdc/ad7746.c.
+// Compares file names and numbers with the kernel's driver: torvalds/linux,
+// drivers/iio/cdc/ad7746.c.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -22,8 +23,8 @@ TEST(LinuxIioVectors, SimulatedDeviceHasTheKernelsFiles) {
   const fs::path root = fs::temp_directory_path() / ("mdof_ad7746_" + std::to_string(::getpid()));
   ASSERT_TRUE(make_ad7746_tree(root));
   const fs::path device = root / "bus/iio/devices/iio:device0";
-  // ad7746_channels: RAW separate, OFFSET of the single and ZEROPOINT of the differential inputs,
-  // SCALE and SAMP_FREQ by type.
+  // Files according to ad7746_channels: each channel has RAW, a single input has OFFSET, a
+  // differential input has ZEROPOINT. SCALE and SAMP_FREQ are shared by type.
   for (const char* file :
        {"in_capacitance0_raw", "in_capacitance0_offset", "in_capacitance1_raw",
         "in_capacitance1_offset", "in_capacitance0-capacitance2_raw",
@@ -33,7 +34,8 @@ TEST(LinuxIioVectors, SimulatedDeviceHasTheKernelsFiles) {
     EXPECT_TRUE(fs::exists(device / file)) << file;
   EXPECT_EQ(line_of(device / "in_capacitance_sampling_frequency_available"),
             "91 84 50 26 16 13 11 9");  // ad7746_cap_samp_freq
-  // ad7746_read_raw, IIO_CHAN_INFO_SCALE: 8.192 pF / 2^24, written with nano resolution.
+  // ad7746_read_raw, IIO_CHAN_INFO_SCALE: 8.192 pF / 2^24. The kernel writes this number with nano
+  // resolution.
   EXPECT_EQ(line_of(device / "in_capacitance_scale"), "0.000000488");
   fs::remove_all(root);
 }

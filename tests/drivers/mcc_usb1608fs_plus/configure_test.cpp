@@ -81,7 +81,8 @@ TEST(Usb1608Settings, QuarterOfASecondOfTransfersIsPending) {
     EXPECT_EQ(transfers.bytes % 64, 0U);
     EXPECT_GE(static_cast<double>(transfers.bytes * transfers.transfers) / 2 / samples_hz, 0.249);
   }
-  // At most 64 transfers if each has one packet: 1/6 s of 399 packets/s.
+  // Each transfer has one packet, and there are 399 packets/s. 0.25 s would need 100 transfers,
+  // but the limit is 64 transfers (1/6 s).
   EXPECT_EQ(mcc_usb1608fs_plus::transfers_for(399.0 * 32).transfers, 64U);
 }
 

@@ -1,4 +1,4 @@
-// Any bytes as replies, as requests and as samples.
+// Any bytes are used as replies, as requests and as samples.
 #include <cstddef>
 #include <cstdint>
 #include <string>

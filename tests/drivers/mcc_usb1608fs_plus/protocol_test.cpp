@@ -16,7 +16,7 @@ TEST(Usb1608Protocol, EncodesTheScanStartVectors) {
   const std::string at_1kHz = bytes("00 00 00 00 3F 9C 00 00 1F 80");
   const std::string at_10kHz = bytes("00 00 00 00 9F 0F 00 00 1F 80");
   EXPECT_EQ(scan_start({0, pacer_period(1000), 0x1F, kNoStall}), at_1kHz);
-  EXPECT_EQ(ScanSetup{}.scans, 0U);  // until stopped
+  EXPECT_EQ(ScanSetup{}.scans, 0U);  // 0: the scan runs until it is stopped
   EXPECT_EQ(scan_start({0, pacer_period(10'000), 0x1F, kNoStall}), at_10kHz);
   const auto read = read_scan_start(at_1kHz);
   ASSERT_TRUE(read);
@@ -82,7 +82,8 @@ TEST(Usb1608Protocol, VoltsAreNeitherRoundedNorClipped) {
   EXPECT_EQ(volts(0, {}, 10), -10);
   EXPECT_NEAR(volts(65535, {}, 5), 5 * 32767.0 / 32768, 1e-12);
   EXPECT_NEAR(volts(40000, {1.01F, -100}, 10), (40000 * 1.01 - 100 - 32768) * 10 / 32768, 1e-6);
-  // Half a code, 0.15 mV, is kept: with slope 1.25 these values are exact.
+  // The result is not rounded to whole codes: half a code (0.15 mV) remains. With a slope of 1.25
+  // these values are exact in binary.
   EXPECT_EQ(volts(32770, {1.25F, -8192}, 10), 0.5 * 10 / 32768 + 2 * 10.0 / 32768);
   EXPECT_EQ(volts(0, {1, -100.5F}, 10), -10 - 100.5 * 10 / 32768);
   EXPECT_EQ(volts(65535, {1, 100.25F}, 10), 10 + 99.25 * 10 / 32768);
@@ -137,15 +138,16 @@ TEST(Usb1608Settings, ScanHasItsInputsAndOptions) {
   settings.inputs[0].input = 2;
   settings.inputs[1].input = 7;
   EXPECT_EQ(scan_start(scan_setup(settings)), bytes("00 00 00 00 3F 9C 00 00 84 80"));
-  // A packet of 64 bytes would take 160 ms, so each scan is sent immediately.
+  // At 100 scans/s, a packet of 64 bytes would take 160 ms to fill. Therefore the device must send
+  // each scan immediately.
   settings.rate_hz = 100;
   EXPECT_EQ(scan_start(scan_setup(settings)), bytes("00 00 00 00 7F 1A 06 00 84 81"));
 }
 
-// Packets of 64 bytes; a transfer has 5 ms of them, 0.25 s of them are pending, in 4 to 64
-// transfers.
+// A packet has 64 bytes. A transfer has the packets of 5 ms, and 0.25 s of packets are pending.
+// The number of transfers is 4 to 64.
 TEST(Usb1608Settings, TransfersHoldAQuarterOfASecond) {
-  EXPECT_EQ(transfers_for(400'000).bytes, 62U * 64);  // 12,500 packets a second
+  EXPECT_EQ(transfers_for(400'000).bytes, 62U * 64);  // 12,500 packets per second
   EXPECT_EQ(transfers_for(400'000).transfers, 51U);
   EXPECT_EQ(transfers_for(32'000).bytes, 5U * 64);
   EXPECT_EQ(transfers_for(32'000).transfers, 50U);

@@ -1,4 +1,4 @@
-// The simulated USB-1608FS-Plus, without USB.
+// The simulated USB-1608FS-Plus, called without USB.
 #include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Requests that Measurement Computing's driver sends, and replies that it reads: mccdaq/uldaq.
+// Requests that Measurement Computing's driver (mccdaq/uldaq) sends, and replies that it reads.
 #include <gtest/gtest.h>
 
 #include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
@@ -22,21 +22,24 @@ class Usb1608Vectors : public testing::Test {
       [](std::size_t input, std::int64_t) { return input == 2 ? 5.0 : -10.0; }, {}};
 };
 
-// src/usb/Usb1608fsPlus.cpp: setScanRunningBitMask 0x0002, setOverrunBitMask 0x0004; request 0x44
-// (src/usb/UsbDaqDevice.cpp, CMD_STATUS_KEY).
+// Sources: src/usb/Usb1608fsPlus.cpp: setScanRunningBitMask 0x0002, setOverrunBitMask 0x0004.
+// src/usb/UsbDaqDevice.cpp: request 0x44, CMD_STATUS_KEY.
 TEST_F(Usb1608Vectors, StatusBitsEqualTheVendors) {
   EXPECT_EQ(mismatch(ask(0x44, 0, 2), "00 00"), "");
-  // src/usb/ai/AiUsb1608fsPlus.h, TAINSCAN_CFG: scan_count, pacer_period (u32), chan_mask, options;
-  // 40 MHz / 1 kHz - 1; getOptionsCode: 0x80, do not stall. CMD_AINSCAN_START is 0x11.
+  // CMD_AINSCAN_START is 0x11. Its data are TAINSCAN_CFG of src/usb/ai/AiUsb1608fsPlus.h:
+  // - scan_count
+  // - pacer_period (u32): 40 MHz / 1 kHz - 1
+  // - chan_mask
+  // - options: 0x80 means that the endpoint does not stall (getOptionsCode)
   EXPECT_EQ(report(0x11, bytes("00 00 00 00 3F 9C 00 00 07 80")), usb::Answer::done);
   EXPECT_EQ(mismatch(ask(0x44, 0, 2), "02 00"), "");
   EXPECT_EQ(report(0x12, ""), usb::Answer::done);  // CMD_AINSTOP
   EXPECT_EQ(mismatch(ask(0x44, 0, 2), "00 00"), "");
 }
 
-// CMD_AINSCAN_CONFIG 0x14 has a range code for each input (mapRangeCode: 0, 1, 3, 5 for 10, 5, 2, 1
-// V). Samples are 16 bits, little-endian, lowest channel first (processScanData16), on endpoint
-// 0x81.
+// CMD_AINSCAN_CONFIG is 0x14. Its data are a range code for each input (mapRangeCode: 0, 1, 3, 5
+// for 10, 5, 2, 1 V). Samples arrive on endpoint 0x81. They have 16 bits, little-endian, and begin
+// with the lowest channel (processScanData16).
 TEST_F(Usb1608Vectors, SamplesHaveTheVendorsFormat) {
   EXPECT_EQ(report(0x14, bytes("00 00 00 00 00 00 00 00")), usb::Answer::done);
   EXPECT_EQ(report(0x11, bytes("00 00 00 00 3F 9C 00 00 06 81")), usb::Answer::done);
@@ -44,8 +47,9 @@ TEST_F(Usb1608Vectors, SamplesHaveTheVendorsFormat) {
   EXPECT_EQ(mismatch(samples, "00 00 00 C0"), "");
 }
 
-// src/usb/ai/AiUsb1608fsPlus.cpp, getCalCoefIndex: 8 inputs x range code + input; a slope and an
-// offset, each a float. Request 0x30 (CMD_MEM_CAL_KEY) reads the memory; its value is the address.
+// src/usb/ai/AiUsb1608fsPlus.cpp, getCalCoefIndex: index = 8 inputs x range code + input. Each
+// pair is a slope and an offset, both floats. Request 0x30 (CMD_MEM_CAL_KEY) reads the memory at
+// the address in its value.
 TEST_F(Usb1608Vectors, ConstantsHaveTheVendorsAddresses) {
   EXPECT_EQ(calibration_address(0, 0), 0);
   EXPECT_EQ(calibration_address(5, 3), 8 * (8 * 5 + 3));
@@ -54,9 +58,9 @@ TEST_F(Usb1608Vectors, ConstantsHaveTheVendorsAddresses) {
   EXPECT_EQ(device.identity().product, 0x00EA);
 }
 
-// src/usb/UsbDaqDevice.cpp: vendor 0x09db; src/usb/Usb1608fsPlus.cpp and AiUsb1608fsPlus.cpp: eight
-// inputs, a serial number of 8 characters, 100 kS/s per input and 400 kS/s in total; product
-// 0x00ea.
+// src/usb/UsbDaqDevice.cpp: vendor 0x09db. src/usb/Usb1608fsPlus.cpp and AiUsb1608fsPlus.cpp:
+// product 0x00ea, eight inputs, a serial number of 8 characters, 100 kS/s per input and 400 kS/s
+// in total.
 TEST_F(Usb1608Vectors, NumbersEqualTheVendors) {
   EXPECT_EQ(kVendor, 0x09DB);
   EXPECT_EQ(kProduct, 0x00EA);

@@ -131,7 +131,7 @@ TEST(ModbusClient, RefusesTooManyRegistersBeforeSending) {
   EXPECT_TRUE(client->read_holding(0, std::span(into).first(2)));
 }
 
-// libmodbus aborts on such a descriptor.
+// libmodbus aborts the program if a descriptor is too large for select().
 TEST(ModbusClient, RefusesADescriptorTooLargeForSelect) {
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);

@@ -168,7 +168,8 @@ TEST(ModbusDriver, BrokenConnectionIsAnErrorUntilReopened) {
       }
       scans += static_cast<int>(block.scans());
     }
-    EXPECT_FALSE(driver->read(block, milliseconds(1)));  // until it is opened again
+    // Reads fail until the driver is opened again.
+    EXPECT_FALSE(driver->read(block, milliseconds(1)));
   }
   EXPECT_EQ(errors, 3);
   EXPECT_GT(scans, 6);
@@ -191,7 +192,8 @@ TEST(ModbusDriver, UnwrapsThe32BitCountsOfAPoKeys) {
   EXPECT_EQ(one_scan(*driver).value[0][0], -1'073'742'000.0);
 }
 
-// It is unknown whether the device kept its power; an absolute scale does not need this check.
+// After the driver is opened again, it cannot know whether the device kept its power. An absolute
+// scale does not need this check.
 TEST(ModbusDriver, CountIsSuspectAfterAReopenUntilTrusted) {
   SimulatedModbus device([](auto, auto) { return 5.0; }, {profile_of("pokeys57e"), {}});
   ServedDevice served(device);
@@ -236,12 +238,12 @@ TEST(ModbusDriver, SmaxCountsBelowZero) {
   smax.position = 1;
   ASSERT_TRUE(smax.driver->open());
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], 100.0);
-  // A ring of 11 bits reads 2045; the simulated ring has 13 bits and reads 8189.
+  // At -3 counts a ring of 11 bits shows 2045. The simulated ring has 13 bits and shows 8189.
   smax.position = -3;
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], -300.0);
 }
 
-// Calculated by hand: at -5 counts of 100 um the ring of 13 bits reads 8187.
+// Calculated by hand: at -5 counts (-500 um) the ring of 13 bits shows 8187.
 TEST(ModbusDriver, SmaxReopenedBelowZeroKeepsItsPosition) {
   Smax smax;
   smax.position = 5;
@@ -251,7 +253,7 @@ TEST(ModbusDriver, SmaxReopenedBelowZeroKeepsItsPosition) {
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], -500.0);
   ASSERT_TRUE(smax.driver->open());
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], -500.0);
-  smax.position = -7;  // while the driver is closed
+  smax.position = -7;  // the axis moves while the driver is closed
   ASSERT_TRUE(smax.driver->open());
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], -700.0);
 }
@@ -311,8 +313,9 @@ TEST(ModbusDriver, ReadReturnsInTimeBetweenPolls) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, milliseconds(2000));
 }
 
-// A serial line: the driver on the slave side of a pseudo terminal, the device on the other. Then
-// the adapter is unplugged: each attempt fails immediately and must not load the CPU.
+// The driver uses the slave side of a pseudo terminal, the device uses the other side. Then the
+// adapter is unplugged. Each attempt to read now fails immediately, but the attempts must not load
+// the CPU.
 TEST(ModbusDriver, ReadsASmaxOnASerialLineUntilUnplugged) {
   auto plugged = std::make_unique<ByteStream>(::posix_openpt(O_RDWR | O_NOCTTY), "pty");
   ByteStream& master = *plugged;

@@ -1,4 +1,4 @@
-// Bytes in the notation of manuals: "01 04 3F800000".
+// Converts bytes in the notation of manuals, such as "01 04 3F800000".
 #pragma once
 
 #include <cctype>

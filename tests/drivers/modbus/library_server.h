@@ -1,4 +1,4 @@
-// A Modbus slave made of the server part of libmodbus, on one end of a pair of sockets.
+// A Modbus slave that uses the server functions of libmodbus, on one end of a pair of sockets.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ namespace mdof::drivers {
 class LibraryServer {
  public:
   enum class Kind { tcp, rtu };
-  // Holding and input registers 0 ... 199; holding register n contains 1000 + n, input register n
-  // 2000 + n.
+  // The slave has the holding and input registers 0 ... 199. Holding register n contains 1000 + n,
+  // input register n contains 2000 + n.
   explicit LibraryServer(Kind kind, int unit = 1) : tcp_(kind == Kind::tcp) {
     EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends_.data()), 0);
     context_.reset(tcp_ ? ::modbus_new_tcp("127.0.0.1", 1502)

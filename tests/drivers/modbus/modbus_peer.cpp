@@ -37,7 +37,7 @@ int serve_serial(SimulatedModbus& device) {
   if (::grantpt(master.fd()) != 0 || ::unlockpt(master.fd()) != 0 ||
       ::ptsname_r(master.fd(), path.data(), path.size()) != 0)
     return 1;
-  // Otherwise the first close() hangs up the line.
+  // Without this descriptor, the line would hang up when a client closes it for the first time.
   const int kept_open = ::open(path.data(), O_RDWR | O_NOCTTY);
   device.opened(0, 1, 0);
   std::atomic<bool> stop = false;

@@ -1,4 +1,4 @@
-// Any bytes as a reply, and as requests to the simulated slave.
+// Any bytes are used as a reply, and as requests to the simulated slave.
 #include <cstddef>
 #include <cstdint>
 #include <map>

@@ -17,7 +17,7 @@ struct Vector {
   const char* adu;
 };
 
-// Reads and replies of a LabJack T7, an ADAM-6017 and a Lika SMAX according to their manuals.
+// Requests and replies from the manuals of a LabJack T7, an ADAM-6017 and a Lika SMAX.
 std::vector<Vector> vectors() {
   const std::array<std::uint16_t, 2> ten_volts = {0x4120, 0};
   const std::array<std::uint16_t, 2> quadrature = {0, 10};
@@ -121,7 +121,8 @@ TEST(ModbusProtocol, RefusesAWrongHeader) {
   EXPECT_NE(why_not(Framing::tcp, asked, good + '\0'), "accepted");
 }
 
-// MODBUS Messaging on TCP/IP 3.1.3: the length includes unit and PDU, and a PDU has a function.
+// MODBUS Messaging on TCP/IP 3.1.3: the length includes the unit and the PDU. A PDU has at least a
+// function.
 TEST(ModbusProtocol, ReplyWithoutAFunctionIsIncomplete) {
   const Frame asked{2, 1, read_request(kReadHolding, 55100, 2)};
   EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 01 01")), "the reply is incomplete");
@@ -155,7 +156,8 @@ TEST(ModbusProtocol, EchoConfirmsAWrite) {
 }
 
 TEST(ModbusProtocol, ExceptionsHaveNames) {
-  // MODBUS Application Protocol V1.1b3, 7; 7 from the older Modicon guide.
+  // Source: MODBUS Application Protocol V1.1b3, section 7. Exception 7 is from the older Modicon
+  // guide.
   EXPECT_STREQ(exception_name(1), "illegal function");
   EXPECT_STREQ(exception_name(3), "illegal data value");
   EXPECT_STREQ(exception_name(4), "server device failure");

@@ -22,7 +22,7 @@ std::string value(const std::string& keys) {
   return "[[value]]\nname = \"v\"\naddress = 0\n" + keys;
 }
 
-// Reads the only value of a profile from these registers.
+// Makes a profile with one value, and reads this value from the registers in `hex`.
 Reading reading(const std::string& keys, const std::string& hex, double um_per_count = 1) {
   const Profile profile = profile_from(value(keys));
   Readings readings(profile, {{profile.values[0], um_per_count}});
@@ -107,7 +107,7 @@ TEST(ModbusReadings, RingContinuesOverItsEnds) {
   EXPECT_EQ(count(5), 2053);
 }
 
-// A LabJack T7 and a PoKeys57E have opposite word orders.
+// A LabJack T7 and a PoKeys57E have opposite orders of words.
 TEST(ModbusReadings, EncodesValuesInBothWordOrders) {
   const auto words = [](const std::string& keys, double raw) {
     return encode(profile_from(value(keys)).values[0], raw);
@@ -160,7 +160,7 @@ TEST(ModbusProfiles, BuiltInProfilesAreValidAndNeedOneRead) {
   EXPECT_EQ(load_profile("pokeys57e", "")->values[24].at.address, 748);
 }
 
-// Appendix of the SMAX manual: alarms and position in one reply.
+// The appendix of the SMAX manual has this reply with alarms and position.
 TEST(ModbusProfiles, ReadsASmaxReplyOfTheManual) {
   const auto smax = load_profile("lika-smax", "");
   Readings readings(*smax, {{smax->values[0], 100}});
@@ -226,16 +226,18 @@ TEST(ModbusSentinels, SentinelLengthIsUnusedAndNotPending) {
   const Shape three{kReadInput, 3}, two{kReadInput, 2}, one{kReadInput, 1}, four{kReadInput, 4};
   EXPECT_TRUE(sentinels.add_regular(three));
   EXPECT_EQ(sentinels.pick(three), two);
-  EXPECT_EQ(sentinels.pick(three), two);  // the same until it has proved the line
+  EXPECT_EQ(sentinels.pick(three), two);  // the same length, until a reply has proved the line
   sentinels.proved();
-  EXPECT_EQ(sentinels.pick(three), two);  // its reply has arrived; none is pending
+  // The reply to the sentinel has arrived, so no request is pending.
+  EXPECT_EQ(sentinels.pick(three), two);
   sentinels.failed();
-  sentinels.proved();  // proved by the second; the reply may be that to the first
+  sentinels.proved();  // the reply that proved the line may be the late reply to the first sentinel
   EXPECT_EQ(sentinels.pick(three), one);
   sentinels.proved();
   EXPECT_EQ(sentinels.pick(three), two);
   sentinels.failed();
-  EXPECT_FALSE(sentinels.add_regular(two));  // pending: the line must be tested first
+  // A sentinel of this length is pending, so the line must be tested first.
+  EXPECT_FALSE(sentinels.add_regular(two));
   EXPECT_EQ(sentinels.pick(two), one);
   sentinels.proved();
   EXPECT_TRUE(sentinels.add_regular(two));

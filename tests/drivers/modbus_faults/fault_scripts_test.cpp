@@ -1,6 +1,6 @@
-// Random fault scripts in virtual time: the client returns no wrong value, reports every fault and
-// recovers within two poll periods. The library alone, with the same scripts, does not.
-// MDOF_MODBUS_SCRIPTS sets their number (default 5000).
+// Random faults in virtual time. The client returns no wrong value, reports every fault and
+// recovers within two poll periods. libmodbus without the client returns wrong values for the same
+// faults. MDOF_MODBUS_SCRIPTS: number of scripts (default 5000).
 #include <gtest/gtest.h>
 #include <modbus/modbus.h>
 
@@ -29,7 +29,7 @@ struct Script {
   Framing framing = Framing::rtu;
   int unit = 1;
   std::int64_t timeout_ms = 100, period_ns = 0;
-  std::vector<Read> reads;  // reads of one poll
+  std::vector<Read> reads;  // all reads of one poll
   Fault fault;
 };
 
@@ -67,11 +67,12 @@ Script script_of(std::uint64_t seed) {
 struct Outcome {
   int wrong = 0, right = 0;
   bool flagged = false;
-  std::int64_t took_ns = -1;  // from the end of the fault to the end of a good poll; -1: never
+  // Time from the end of the fault to the end of the first good poll; -1: no good poll.
+  std::int64_t took_ns = -1;
 };
 
-// Polls like ModbusDriver: at its ticks, and immediately on a line that needs a test; connects
-// again after a broken connection.
+// Polls at the same times as ModbusDriver: at its ticks, and immediately if the line needs a test.
+// Connects again after a broken connection.
 template <class Client>
 Outcome run(const Script& script, std::uint64_t seed) {
   world = {true, 1'000 * kMs, nullptr};
@@ -137,7 +138,7 @@ class Ours {
   bool flagged_ = false;
 };
 
-// libmodbus as its example programs use it; connects again after a broken connection.
+// libmodbus, used as in its example programs. Connects again after a broken connection.
 class Plain {
  public:
   Plain(const Script& script, FaultySlave& slave) : script_(script), slave_(slave) { connect(); }
@@ -180,7 +181,7 @@ int scripts() {
 TEST(ModbusFaults, GivesNoWrongValueAndRecoversWithinTwoPolls) {
   std::array<int, static_cast<std::size_t>(FaultKind::kinds)> tried{};
   std::int64_t right = 0;
-  double longest = 0;  // in poll periods
+  double longest = 0;  // unit: poll periods
   for (int i = 0; i < scripts(); ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
     const Script script = script_of(seed);
@@ -201,8 +202,9 @@ TEST(ModbusFaults, GivesNoWrongValueAndRecoversWithinTwoPolls) {
               static_cast<long long>(right), longest);
 }
 
-// A device with one register refuses every sentinel. Exceptions do not show their request, so its
-// line is proved by the time in which all older replies must have arrived: six response time-outs.
+// A device with one register rejects every sentinel. An exception does not show to which request
+// it belongs. Therefore the client waits until all older replies must have arrived: six response
+// time-outs. Then it uses the line again.
 TEST(ModbusFaults, RefusedSentinelsAreProvedByTime) {
   for (int i = 0; i < std::min(scripts(), 5000); ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
@@ -219,7 +221,7 @@ TEST(ModbusFaults, RefusedSentinelsAreProvedByTime) {
   }
 }
 
-// Shows that the tests above can fail.
+// Control: shows that the tests above can fail.
 TEST(ModbusFaults, LibraryAloneReturnsWrongValues) {
   std::array<int, 2> with_wrong{};
   for (int i = 0; i < std::min(scripts(), 5000); ++i) {

@@ -1,6 +1,6 @@
-// A Modbus slave on a virtual line with one fault for a while. Its registers contain a number made
-// of unit, register and number of received requests, so that a value of another request, register
-// or unit is never the expected one.
+// A Modbus slave on a virtual line that has one fault for some requests. The value of a register
+// is calculated from the unit, the register and the number of received requests. Therefore the
+// reply to another request, register or unit never has the expected value.
 #pragma once
 
 #include <algorithm>
@@ -14,30 +14,31 @@
 namespace mdof::drivers {
 
 enum class FaultKind {
-  late,         // delay of 1.01 ... 5 time-outs
-  drip,         // byte by byte, in 1.05 ... 3 time-outs
-  cut,          // the end is missing
-  unit,         // number and values of another unit
-  function,     // number of another function
-  length,       // one register too many or too few, in a valid frame
-  byte_count,   // wrong byte count in an otherwise valid frame
-  transaction,  // TCP
-  header,       // TCP: protocol or length
-  crc,          // RTU
-  exception,    // 1 ... 11
-  noise,        // RTU: bytes before the reply
-  twice,        // the same reply is sent again
+  late,         // reply is delayed by 1.01 ... 5 time-outs
+  drip,         // reply arrives byte by byte during 1.05 ... 3 time-outs
+  cut,          // the end of the reply is missing
+  unit,         // reply has the number and the values of another unit
+  function,     // reply has the number of another function
+  length,       // valid frame with one register too many or too few
+  byte_count,   // valid frame except for the byte count
+  transaction,  // TCP: wrong transaction number
+  header,       // TCP: wrong protocol or length
+  crc,          // RTU: wrong CRC
+  exception,    // exception 1 ... 11
+  noise,        // RTU: random bytes before the reply
+  twice,        // the same reply is sent twice
   foreign,      // RTU: traffic of other devices before the reply
-  reset,        // TCP: closed or reset, possibly within the reply
-  half_open,    // no bytes for up to ten time-outs
+  reset,        // TCP: connection is closed or reset, also within a reply
+  half_open,    // slave sends nothing for up to ten time-outs
   kinds
 };
 
 struct Fault {
   FaultKind kind = FaultKind::late;
-  int first = 5, requests = 1;        // affected requests
-  bool ignores_when_busy = true;      // RTU; otherwise, as with TCP, requests are queued
-  int most = modbus::kMostRegisters;  // reads of more registers are refused
+  int first = 5, requests = 1;  // first affected request, number of affected requests
+  // RTU: ignores requests that arrive before the reply is sent; false, and with TCP: queues them.
+  bool ignores_when_busy = true;
+  int most = modbus::kMostRegisters;  // rejects requests for more registers
 };
 
 class FaultySlave {
@@ -51,7 +52,7 @@ class FaultySlave {
   }
   int requests() const { return requests_; }
   bool struck() const { return struck_; }
-  // Arrival of the last byte of the fault, or the end of the silence.
+  // Time at which the last byte of the fault arrives, or at which the silence ends.
   std::int64_t fault_end_ns() const { return fault_end_ns_; }
 
   void received(VirtualLine& line, std::string_view adu) {
@@ -99,7 +100,7 @@ class FaultySlave {
     return bytes;
   }
 
-  // Returns the time of the last byte.
+  // Sends the reply with the fault. Returns the time at which its last byte arrives.
   std::int64_t spoil(VirtualLine& line, const std::string& asked, modbus::Frame reply,
                      std::int64_t at_ns) {
     std::string adu = modbus::wrap(framing_, reply);

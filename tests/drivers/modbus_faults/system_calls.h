@@ -1,6 +1,7 @@
-// Replaces system calls in the whole test program: virtual for the descriptor of world.line,
-// otherwise real. Include it in one source file of a program without other tests. Shared libraries
-// use these functions, because symbols of the program precede those of its libraries.
+// Replaces system calls in the whole test program. For the descriptor of world.line they act on
+// the virtual line, for all other descriptors on the real system. Include this file in only one
+// source file, in a program without other tests. Shared libraries use these functions too, because
+// the linker prefers symbols of the program.
 #pragma once
 
 #include <poll.h>
@@ -22,8 +23,8 @@ inline timespec to_timespec(std::int64_t ns) {
   return {ns / 1'000'000'000, ns % 1'000'000'000};
 }
 
-// Own C++ names with the linker names of the C library, because its headers may contain inline
-// versions.
+// These functions have their own C++ names and the linker names of the C library, because headers
+// of the C library may contain inline versions.
 // NOLINTBEGIN(misc-definitions-in-headers): for one file, see above
 extern "C" {
 
@@ -62,7 +63,7 @@ int virtual_poll(pollfd* fds, nfds_t n, int timeout_ms) {
       ::syscall(SYS_ppoll, fds, n, timeout_ms < 0 ? nullptr : &timeout, nullptr, 0));
 }
 
-// Returns the unused time, as Linux does.
+// Like Linux, stores the unused time in `left`.
 int virtual_select(int n, fd_set* in, fd_set* out, fd_set* except, timeval* left) __asm__("select");
 int virtual_select(int n, fd_set* in, fd_set* out, fd_set* except, timeval* left) {
   std::int64_t left_ns = left ? left->tv_sec * 1'000'000'000 + left->tv_usec * 1'000 : 0;

@@ -1,6 +1,6 @@
-// A line to a device and a clock that exist only in memory. They answer the system calls of
-// libmodbus and ByteStream for a marked descriptor, and waiting takes no real time. Other
-// descriptors and threads use the real system (system_calls.h).
+// A line to a device and a clock that exist only in memory. For one marked descriptor, they answer
+// the system calls of libmodbus and ByteStream, and waiting takes no real time. Other descriptors
+// and threads use the real system (system_calls.h).
 #pragma once
 
 #include <fcntl.h>
@@ -16,7 +16,7 @@ namespace mdof::drivers {
 
 class VirtualLine;
 
-// The clock and the line (if any) of this thread.
+// The virtual clock of this thread, and its line (nullptr if it has none).
 struct VirtualWorld {
   bool active = false;
   std::int64_t now_ns = 0;
@@ -26,8 +26,8 @@ inline thread_local VirtualWorld world;
 
 class VirtualLine {
  public:
-  // `sent` receives the bytes that the tested program writes. The program must close the
-  // descriptor.
+  // The tested program writes bytes to the descriptor; `sent` is called with these bytes. The
+  // program must close the descriptor.
   explicit VirtualLine(std::function<void(VirtualLine&, std::string_view)> sent)
       : fd_(::open("/dev/null", O_RDWR | O_CLOEXEC)), sent_(std::move(sent)) {
     world.line = this;
@@ -39,11 +39,12 @@ class VirtualLine {
   VirtualLine& operator=(const VirtualLine&) = delete;
 
   int fd() const { return fd_; }
-  // Bytes on the way to the program; times may be in any order.
+  // The bytes arrive at the program at `at_ns`. Calls need not be in the order of their times.
   void deliver(std::int64_t at_ns, std::string bytes) {
     if (!bytes.empty()) arriving_.emplace(at_ns, std::move(bytes));
   }
-  // The peer breaks the connection at this time: reads give 0 bytes, or ECONNRESET.
+  // The peer breaks the connection at this time. After that, a read returns 0 bytes, or the error
+  // ECONNRESET.
   void hang_up(std::int64_t at_ns, int error) {
     gone_ns_ = at_ns;
     error_ = error;
@@ -56,7 +57,7 @@ class VirtualLine {
     }
     return !inbox_.empty() || gone();
   }
-  // Advances the clock until bytes arrive, at most to `until_ns`.
+  // Advances the clock until bytes arrive, but not beyond `until_ns`.
   bool wait(std::int64_t until_ns) {
     if (readable()) return true;
     std::int64_t next_ns = gone_ns_;

@@ -1,4 +1,4 @@
-// Any bytes as replies, as requests to the simulated device, and as serial numbers.
+// Any bytes are used as replies, as requests to the simulated device, and as serial numbers.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace mdof::drivers::pokeys57u;
   std::string bytes(reinterpret_cast<const char*>(data), size);
   (void)may_be_serial(bytes, 12345);
-  // With a valid checksum, so that the rest of the parser is reached.
+  // Adds a valid checksum, so that the parser does not stop at the checksum.
   bytes.resize(kFrameBytes, '\0');
   unsigned sum = 0;
   for (std::size_t i = 1; i < 7; ++i) sum += static_cast<std::uint8_t>(bytes[i]);

@@ -13,7 +13,7 @@ using modbus::bytes;
 
 struct Vector {
   Frame frame;
-  const char* first;  // bytes; the rest is zero
+  const char* first;  // first bytes; all others are zero
 };
 
 std::vector<Vector> vectors() {
@@ -55,7 +55,7 @@ TEST(PoKeys57uProtocol, AcceptsNothingElseAsAReply) {
   EXPECT_FALSE(unwrap(Way::reply, good.substr(0, 63)));
   EXPECT_FALSE(unwrap(Way::reply, good + '\0'));
   EXPECT_FALSE(unwrap(Way::reply, ""));
-  // Each bit that the checksum covers, and the bits of the checksum.
+  // Inverts each bit that the checksum covers, and each bit of the checksum.
   for (std::size_t i = 0; i < 8; ++i) {
     for (int bit = 0; bit < 8; ++bit) {
       std::string bad = good;
@@ -146,8 +146,8 @@ TEST(PoKeys57uProtocol, UsesAFreeNumberBeforeTheOldest) {
   EXPECT_EQ(ids.next(301), first);
 }
 
-// Data of a frame stay within their offsets: encoder 13 ends at byte 59, input 7 at 21, the tick at
-// 5.
+// Offsets in a frame: encoder 13 ends at byte 59, input 7 at byte 21, the tick at byte 5. Nothing
+// is written beyond them.
 TEST(PoKeys57uProtocol, WritesOnlyWithinTheOffsets) {
   struct {
     Counts counts;
@@ -170,7 +170,8 @@ TEST(PoKeys57uProtocol, WritesOnlyWithinTheOffsets) {
   EXPECT_EQ(wrap(Way::reply, reply).substr(0, 12), bytes("AA 00 FF FF FF FF 00 A6 00 00 00 00"));
 }
 
-// "increment per request": the last number plus one, skipping pending numbers.
+// The specification requires "increment per request": the next number is the last plus one.
+// Numbers of pending requests are skipped.
 TEST(PoKeys57uProtocol, NumbersIncreaseAndSkipPendingOnes) {
   RequestIds ids;
   const std::uint8_t owed = ids.next(0);

@@ -1,4 +1,4 @@
-// Requests of PoLabs' own library, and the way it parses replies: c-core-labs/pokeyslib.
+// Requests of PoLabs' own library, and replies as this library parses them: c-core-labs/pokeyslib.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,14 +11,14 @@ namespace {
 
 using modbus::bytes;
 
-// Encoder n gives n, the ultra-fast encoder -2; the first analogue input is at the end of its
-// range.
+// Encoder n has the count n, the ultra-fast encoder has -2. The first analogue input is at the end
+// of its range.
 double senses(std::size_t input, std::int64_t /*t_ns*/) {
   if (input < kEncoders) return static_cast<double>(input + 1);
   return input == kUltraFast ? -2 : input == kCounters ? kAnalogueTop_V : 0;
 }
 
-// Pads to a whole frame; bytes are separated by spaces.
+// Adds bytes `with` until the frame is complete. In `hex`, spaces separate the bytes.
 std::string padded(const std::string& hex, const char* with) {
   std::string all = hex;
   const auto given = 1 + std::count(hex.begin(), hex.end(), ' ');
@@ -27,8 +27,8 @@ std::string padded(const std::string& hex, const char* with) {
 }
 
 TEST(PoKeys57uVectors, SimulatedDeviceAnswersAsTheVendorAccepts) {
-  // 0xAA; the number of the request at byte 6; the sum of bytes 0 to 6 at byte 7: PoKeysLibCore.c,
-  // SendRequest.
+  // A reply begins with 0xAA. Byte 6 is the number of the request. Byte 7 is the sum of the bytes
+  // 0 to 6. Source: PoKeysLibCore.c, SendRequest.
   const VendorVector vectors[] = {
       {"encoders 1 to 13", "BB CD 00 00 00 00 02 8A",
        "AA .. .. .. .. .. 02 .. 01 00 00 00 02 00 00 00 03 00 00 00 04 00 00 00 05 00 00 00 06 00 "
@@ -61,9 +61,8 @@ TEST(PoKeys57uVectors, SimulatedDeviceAnswersAsTheVendorAccepts) {
   }
 }
 
-// PoKeysLibCore.c: vendor 0x1DC3, product 0x1001, interface 1, frames of 64 bytes. The
-// specification: 25 encoders and an ultra-fast encoder, seven analogue inputs of 12 bits, 0 to 3.3
-// V.
+// PoKeysLibCore.c: vendor 0x1DC3, product 0x1001, interface 1, frames of 64 bytes. Specification:
+// 25 encoders, an ultra-fast encoder, and seven analogue inputs of 12 bits and 0 to 3.3 V.
 TEST(PoKeys57uVectors, NumbersEqualTheVendors) {
   EXPECT_EQ(kVendor, 0x1DC3);
   EXPECT_EQ(kProduct, 0x1001);
@@ -77,7 +76,7 @@ TEST(PoKeys57uVectors, NumbersEqualTheVendors) {
   EXPECT_EQ(kAnalogueTop_V, 3.3);
 }
 
-// The specification's table of hardware numbers.
+// Source: the table of hardware numbers in the specification.
 TEST(PoKeys57uVectors, BoardsHaveNames) {
   const auto named = [](int hardware) { return Identity{1, hardware, ""}.model(); };
   EXPECT_EQ(named(10), "PoKeys56U");

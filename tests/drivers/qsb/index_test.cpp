@@ -1,4 +1,4 @@
-// The reference mark of an encoder at a QSB.
+// The reference mark of an encoder that a QSB counts.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -14,7 +14,7 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr double kMark = 1000;  // counts from the position at which it was switched on
+constexpr double kMark = 1000;  // position of the mark in counts; 0 is the position at switch-on
 
 class QsbIndex : public testing::Test {
  protected:
@@ -25,14 +25,14 @@ class QsbIndex : public testing::Test {
     served_.emplace(*device_);
     options_.port = served_->path();
     options_.channel = {"encoder", "count", 0.5, "", std::nullopt, 12.5};
-    options_.long_at_mark = std::chrono::seconds(30);  // also on a busy machine
+    options_.long_at_mark = std::chrono::seconds(30);  // sufficient also on a busy machine
   }
   void open() {
     driver_.emplace("scale", options_);
     const auto opened = driver_->open();
     ASSERT_TRUE(opened) << opened.error().message;
   }
-  // The last reading at a position of the axis.
+  // The last reading after the axis has stopped at a position.
   struct Shown {
     double um;
     Quality quality;
@@ -64,7 +64,7 @@ TEST_F(QsbIndex, PositionsAreCountedFromThePassedMark) {
   expect_shown(200, 100);
   expect_shown(990, 495);
   EXPECT_EQ(driver_->marks_passed(), 0);
-  EXPECT_EQ(at(1004).quality, Quality::missing);  // the count has not moved on yet
+  EXPECT_EQ(at(1004).quality, Quality::missing);  // the count is still too near to the mark
   EXPECT_EQ(driver_->marks_passed(), 0);
   expect_shown(1100, 50);
   EXPECT_EQ(driver_->marks_passed(), 1);
@@ -94,8 +94,8 @@ TEST_F(QsbIndex, MarkStartsANewBlock) {
   EXPECT_TRUE(passed);
 }
 
-// Loading is switched off after the first mark: neither the next mark nor later lost counts shift
-// positions.
+// After the first mark, the driver switches the loading of the counter off. Then neither the next
+// mark nor lost counts shift the positions.
 TEST_F(QsbIndex, LoadsNothingAfterTheMark) {
   serve({}, false, 1200);
   open();
@@ -124,10 +124,12 @@ TEST_F(QsbIndex, FindsAMarkThatWasPassedWhileClosed) {
   EXPECT_EQ(driver_->marks_passed(), 1);
 }
 
-// A count that another program or an earlier mdofd left in the counter is not a datum.
+// The counter may have a count from another program or from an earlier start of mdofd. Such a
+// count is not a datum.
 TEST_F(QsbIndex, NewProgramMustPassTheMarkAgain) {
   serve();
-  for (int start = 0; start < 4; ++start) {  // the count goes once through its 32 bits
+  // Each start adds a quarter of the range of 32 bits to the count.
+  for (int start = 0; start < 4; ++start) {
     position_ = 0;
     open();
     EXPECT_EQ(driver_->marks_passed(), 0);
@@ -147,7 +149,7 @@ TEST_F(QsbIndex, SuspectAfterAResetUntilTheMarkIsPassed) {
   expect_shown(1100, 50);
   EXPECT_NE(collect(*driver_, 1000).error.find("was reset during the stream"), std::string::npos);
   ASSERT_TRUE(driver_->open());
-  expect_shown(1300, 100, Quality::suspect);  // a count of 1100 has become 0
+  expect_shown(1300, 100, Quality::suspect);  // the reset has set a count of 1100 to 0
   EXPECT_NE(driver_->info().datum_lost, "");
   EXPECT_EQ(driver_->info().datum_remedy, Remedy::pass_reference_mark);
   expect_shown(900, -50);

@@ -4,7 +4,8 @@
 
 #include "drivers/qsb/protocol.h"
 
-// A line that is parsed gives the same line when it is encoded, except the case of its digits.
+// If a line can be parsed, encoding the result gives the same line, except for the case of its
+// hexadecimal digits.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mdof::drivers;
   const std::string_view line(reinterpret_cast<const char*>(data), size);

@@ -77,7 +77,8 @@ TEST(TickLength, KeepsTheLengthIfDelaysExplainTheDifference) {
     EXPECT_EQ(learned(1e6, 1e6 * (1 + ppm * 1e-6), 70), 1e6) << ppm;
 }
 
-// The length from the roll-over time in the manual, and its other value.
+// The lengths are the one that follows from the roll-over time in the manual, 1/256 s, and a value
+// near 1/512 s.
 TEST(TickLength, LearnsAnotherLength) {
   for (const double true_ns : {94.5 * 86400e9 / 4294967296.0, 1e9 / 256, 1e9 / 512 * 1.004}) {
     EXPECT_NEAR(learned(qsb::kTick_ns, true_ns, 0.7) / true_ns, 1, 0.02) << true_ns;
@@ -85,7 +86,7 @@ TEST(TickLength, LearnsAnotherLength) {
   }
 }
 
-// The first lines were delayed by 0.2 s and arrived together: the tick length stays the same.
+// The first lines were delayed and arrived together after 0.2 s. The tick length must not change.
 TEST(TickLength, DelayAtTheBeginningDoesNotChangeTheLength) {
   TickLength tick(1e6);
   for (std::int64_t ticks = 0; ticks < 2000; ++ticks)
@@ -93,8 +94,8 @@ TEST(TickLength, DelayAtTheBeginningDoesNotChangeTheLength) {
   EXPECT_EQ(tick.ns(), 1e6);
 }
 
-// Lines from 0.12 to 0.36 s arrived 9 ms late; the length is measured from the first line to the
-// lines near 0.5 s.
+// The lines from 0.12 s to 0.36 s arrived 9 ms late. The length must be measured from the first
+// line to the lines near 0.5 s.
 TEST(TickLength, MeasuresWithTheLastQuarterOfASpan) {
   constexpr std::int64_t kTrue_ns = 3'906'250;  // 1/256 s
   TickLength tick(qsb::kTick_ns);
@@ -106,8 +107,8 @@ TEST(TickLength, MeasuresWithTheLastQuarterOfASpan) {
   EXPECT_NEAR(tick.ns() / static_cast<double>(kTrue_ns), 1, 1e-3);
 }
 
-// Ticks of 1050 ns. Only the first packet arrives without delay; the others of the beginning, 8 ms
-// late, must not be used as the quickest.
+// The true tick length is 1050 ns. The first packet arrives without delay. The next packets are 8
+// ms late and must not be used as the packets with the smallest delay.
 TEST(QsbTickLength, UsesTheQuickestPacket) {
   TickLength tick(1000);
   for (int ms = 0; ms <= 600; ++ms) {

@@ -14,7 +14,7 @@ namespace mdof::drivers {
 namespace {
 
 double ramp(std::size_t, std::int64_t t_ns) {
-  return -1000 + static_cast<double>(t_ns % 1'000'000'000'000) * 1e-6;  // 1 count/ms
+  return -1000 + static_cast<double>(t_ns % 1'000'000'000'000) * 1e-6;  // 1 count per millisecond
 }
 double still(std::size_t, std::int64_t) {
   return -5;
@@ -40,9 +40,9 @@ TEST(Qsb, StreamsWithTheDevicesTimes) {
   EXPECT_EQ(driver.malformed_lines(), 0u);
   expect_growing(all.time_ns);
   for (std::size_t i = 2; i < all.scans.size(); ++i) {
-    // 0.5 µm per count, 1.953125 counts per line, rounded.
+    // 1.953125 counts per line at 0.5 µm per count; the count is rounded.
     EXPECT_NEAR(all.scans[i][0] - all.scans[i - 1][0], 0.9765625, 0.51) << i;
-    // The fit is still settling, so times may slew by 20 %.
+    // The clock has not settled yet. Until then, its times may differ by 20 % from the true rate.
     EXPECT_NEAR(static_cast<double>(all.time_ns[i] - all.time_ns[i - 1]), qsb::kTick_ns,
                 0.2 * qsb::kTick_ns + 2);
   }
@@ -70,7 +70,7 @@ TEST(Qsb, ResetDuringTheStreamIsAnErrorAndRestarts) {
   Qsb driver("scale", options_for_test(served));
   ASSERT_TRUE(driver.open());
   const Collected all = collect(driver, 1000);
-  EXPECT_GE(all.scans.size(), 20u);  // lines before the reset are valid
+  EXPECT_GE(all.scans.size(), 20u);  // the lines before the reset are valid
   for (std::size_t i = 0; i < all.scans.size(); ++i) {
     EXPECT_EQ(all.scans[i][0], -2.5);
     EXPECT_EQ(all.first_quality(i), Quality::good);
@@ -83,7 +83,8 @@ TEST(Qsb, ResetDuringTheStreamIsAnErrorAndRestarts) {
   EXPECT_NE(driver.info().description.find("lost power"), std::string::npos);
   const Collected anew = collect(driver, 1);
   EXPECT_EQ(anew.scans.at(0)[0], 0);
-  EXPECT_EQ(anew.first_quality(0), Quality::suspect);  // 0 is not a position
+  // A count of 0 after the reset is not a position.
+  EXPECT_EQ(anew.first_quality(0), Quality::suspect);
   EXPECT_NE(driver.info().datum_lost.find("count restarted at 0"), std::string::npos);
 }
 
@@ -95,7 +96,8 @@ TEST(Qsb, TruncatedLineIsCountedAndItsScansAreLost) {
   const Collected all = collect(driver, 50);
   ASSERT_EQ(all.error, "");
   EXPECT_EQ(driver.malformed_lines(), 1u);
-  EXPECT_EQ(all.lost, 2u);  // the truncated line and the line joined to it
+  // Two lines are lost: the truncated line and the line that follows it without a line end.
+  EXPECT_EQ(all.lost, 2u);
 }
 
 TEST(Qsb, StampStepCountsLostLines) {

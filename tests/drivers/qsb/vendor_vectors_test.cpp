@@ -1,6 +1,6 @@
 // Commands and replies of a program that reads real QSB-D devices:
-// tmtsoftware/m1cs-qsb-linear-encoder-reader, QSBLinearEncoderReader/Qsb.cs. US Digital publishes
-// no source.
+// tmtsoftware/m1cs-qsb-linear-encoder-reader, QSBLinearEncoderReader/Qsb.cs. US Digital itself
+// publishes no source.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -12,7 +12,7 @@ namespace {
 
 struct Line {
   const char* command;
-  const char* reply;  // accepted by Qsb.cs, as a regular expression
+  const char* reply;  // regular expression that Qsb.cs accepts
   const char* function;
 };
 
@@ -35,17 +35,17 @@ TEST(QsbVectors, SimulatedDeviceAnswersAsTmtsProgramAccepts) {
     EXPECT_TRUE(std::regex_match(reply, std::regex(line.reply)))
         << line.command << " -> " << reply << " (Qsb.cs, " << line.function << ")";
   }
-  // ParseEncoderCountStreamResponse: one line per interval of 1/512 s.
+  // ParseEncoderCountStreamResponse: the device sends one line each 1/512 s.
   const std::string stream = device.exchange(0, 1, "", 1'004'000'000);
   EXPECT_TRUE(std::regex_match(stream, std::regex("(s 0E [0-9A-F]{8} [0-9A-F]{8} !\r\n){2}")))
       << stream;
 }
 
-// The QSB forwards its registers 03 and 08 to its counter, an LS7366R. QSB Command List v1.28,
-// MDR0: "Sync Index, Reset on Index, Free Running, X4 mode, W0363".
-// MikroElektronika/mikrosdk_click_v2, clicks/counter/lib_counter/include/counter.h:
-// COUNTER_INDEX_LOAD_CNTR 0x10, COUNTER_INDEX_RESET_CNTR 0x20, COUNTER_4X_QUAD 0x03;
-// counter_write_dtr: the index loads DTR into the counter.
+// The QSB writes its registers 03 and 08 to its counter, an LS7366R.
+// - QSB Command List v1.28, MDR0: "Sync Index, Reset on Index, Free Running, X4 mode, W0363"
+// - MikroElektronika/mikrosdk_click_v2, clicks/counter/lib_counter/include/counter.h:
+//   COUNTER_INDEX_LOAD_CNTR 0x10, COUNTER_INDEX_RESET_CNTR 0x20, COUNTER_4X_QUAD 0x03
+// - the same file, counter_write_dtr: the index loads DTR into the counter
 TEST(QsbVectors, IndexLoadsTheCounter) {
   constexpr std::uint32_t kSyncResetX4 = 0x63, kReset = 0x20, kLoad = 0x10;
   EXPECT_EQ(qsb::kIndexLoads, kLoad);
@@ -57,8 +57,8 @@ TEST(QsbVectors, IndexLoadsTheCounter) {
   const auto ask = [&](const std::string& command) {
     return device.exchange(0, 1, command + "\r\n", 1'000'000'000);
   };
-  ask("W150000000B");  // no time stamps
-  ask("W08000001F3");  // example of the command list: 499
+  ask("W150000000B");  // switches time stamps off
+  ask("W08000001F3");  // 499, the example of the command list
   ask("W0353");
   EXPECT_EQ(ask("R0E"), "r 0E 00000064 !\r\n");
   position = 160;
@@ -68,8 +68,8 @@ TEST(QsbVectors, IndexLoadsTheCounter) {
   EXPECT_EQ(ask("R0E"), "r 0E 000001E9 !\r\n");
 }
 
-// ConnectionStatus.cs: serial number, type and firmware are bits 31-12, 11-8 and 7-0 of register
-// 14.
+// ConnectionStatus.cs: in register 14, bits 31-12 are the serial number, bits 11-8 the type and
+// bits 7-0 the firmware.
 TEST(QsbVectors, ReadsTheVersionAsTmtDoes) {
   const QsbIdentity id = qsb_identity(0x0BEEF012);
   EXPECT_EQ(id.serial, "0BEEF");
@@ -77,7 +77,7 @@ TEST(QsbVectors, ReadsTheVersionAsTmtDoes) {
   EXPECT_EQ(id.firmware, 0x12);
   EXPECT_EQ(qsb::kPowerWasLost, 1U << 2);
   EXPECT_EQ(qsb_identity(0x0BEEF212).model, "QSB-S");
-  EXPECT_EQ(qsb_identity(0x0BEEF312).model, "QSB");  // unknown type
+  EXPECT_EQ(qsb_identity(0x0BEEF312).model, "QSB");  // this type is unknown
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Truncated, damaged and changed recordings, and other files.
+// Recordings that are truncated, damaged or changed, and files that are not recordings.
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 namespace mdof::drivers {
 namespace {
 
-// 20 times: a child process appends as fast as possible and is killed; all acknowledged samples
-// must exist.
+// A child process appends samples as fast as possible and is killed. All acknowledged samples must
+// be in the file. The test does this 20 times.
 TEST_F(RecordingTest, SigkillLosesNoAcknowledgedSamples) {
   for (int turn = 0; turn < 20; ++turn) {
     const fs::path file = folder_ / (std::to_string(turn) + ".mdofrec");
@@ -59,7 +59,8 @@ TEST_F(RecordingTest, FlippedBitErrorNamesChunkSpanAndUndamaged) {
 
 TEST_F(RecordingTest, DetectsARemovedChunk) {
   write(file_, 5, true);
-  for (const int seq : {5, 2}) {  // the last chunk first: only the seal contains its number
+  // Chunk 5 is removed first, because only the seal contains the number of chunks.
+  for (const int seq : {5, 2}) {
     auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
     ASSERT_TRUE(db->execute("DROP TRIGGER IF EXISTS chunk_no_delete"));
     ASSERT_TRUE(db->execute("DELETE FROM chunk WHERE seq = " + std::to_string(seq)));
@@ -82,7 +83,8 @@ TEST_F(RecordingTest, DetectsAChangedRig) {
   EXPECT_TRUE(contains(outcome.status.error().message, "header"));
 }
 
-// A flipped bit never changes a sample, although fewer samples may be returned.
+// An inverted bit never changes a sample. Reading either returns all samples, or reports the
+// damage and returns fewer samples.
 TEST_F(RecordingTest, NoFlippedBitChangesASample) {
   write(file_, 5, true);
   const std::vector<std::int64_t> truth = read_all(file_).time_ns;
@@ -101,7 +103,7 @@ TEST_F(RecordingTest, NoFlippedBitChangesASample) {
       ++noticed;
     }
   }
-  EXPECT_GT(noticed, tried / 3);  // the others changed bytes without meaning
+  EXPECT_GT(noticed, tried / 3);  // SQLite and the recording do not use the other bytes
 }
 
 TEST_F(RecordingTest, TruncatedFileIsAnError) {
@@ -157,7 +159,8 @@ TEST_F(RecordingTest, RequestIsStoredAndProtected) {
   };
   for (const char* sql : {"UPDATE header SET value = '{}' WHERE key = 'request'",
                           "DELETE FROM header WHERE key = 'request'",
-                          "PRAGMA user_version = 1"}) {  // its hash would not include the request
+                          // The hash of format 1 does not include the request.
+                          "PRAGMA user_version = 1"}) {
     const Outcome outcome = outcome_of(sql);
     ASSERT_FALSE(outcome.status) << sql;
     EXPECT_TRUE(contains(outcome.status.error().message, "header"))

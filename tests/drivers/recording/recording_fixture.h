@@ -1,4 +1,4 @@
-// Recordings that tests write, read and damage.
+// For tests that write, read and damage recordings.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ inline SampleBlock block(std::int64_t first, std::int64_t n, const std::string& 
   return b;
 }
 
-// Writes `commits` commits of 1000 scans; each commit has one chunk.
+// Writes `commits` commits of 1000 scans. Each commit makes one chunk.
 inline void write(const fs::path& file, int commits, bool seal) {
   auto writer = RecordingWriter::create(file, header());
   ASSERT_TRUE(writer) << writer.error().message;

@@ -1,6 +1,6 @@
-// Damaged recordings: the input states which bytes of a sealed recording are changed and where it
-// is truncated (three bytes each: two for the position, one for the value). Reading must return all
-// samples or report the damage.
+// Damaged recordings. The input states which bytes of a sealed recording are changed, and where
+// the file is truncated. Each change has three bytes: two for the position, one for the value.
+// Reading must return all samples or report the damage.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -16,7 +16,8 @@ namespace {
 
 using namespace mdof;
 
-// Two devices, three chunks; sealed. Small, because it is written and read for each input.
+// A sealed recording with two devices and three chunks. It is small, because the fuzzer writes and
+// reads it for each input.
 std::string whole_recording(const std::filesystem::path& file) {
   RecordingHeader header;
   header.software_version = "0.1.0";

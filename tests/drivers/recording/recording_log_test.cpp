@@ -14,8 +14,8 @@
 namespace mdof::drivers {
 namespace {
 
-// Runs `body` in a child process with `folder` mounted read-only; skips if this machine does not
-// permit it.
+// Runs `body` in a child process in which `folder` is mounted read-only. Skips the test if this
+// machine does not permit it.
 template <class Body>
 void in_read_only_folder(const fs::path& folder, Body body) {
   constexpr int kCannot = 77;
@@ -127,7 +127,7 @@ TEST_F(RecordingTest, KeepsDevicesAndLostScansSeparate) {
   EXPECT_EQ(seen, (decltype(seen){{"b", 0}, {"a", 0}, {"b", 10}}));
 }
 
-// The writer was interrupted, so its last chunks are only in the -wal file.
+// The writer was interrupted. Its last chunks are only in the -wal file.
 TEST_F(RecordingTest, ReadsThroughOpenDescriptors) {
   const fs::path copy = folder_ / "copy.mdofrec", wal = copy.string() + "-wal";
   {
@@ -152,7 +152,7 @@ TEST_F(RecordingTest, ReadsThroughOpenDescriptors) {
   EXPECT_EQ(b.time_ns, block(0, 1000).time_ns);
   EXPECT_EQ(b.value, block(0, 1000).value);
   EXPECT_EQ(log.read(b, milliseconds(0)).value(), ReadState::end);
-  ASSERT_EQ(log.notices().size(), 1u);  // not sealed
+  ASSERT_EQ(log.notices().size(), 1u);  // the recording is not sealed
   EXPECT_FALSE(RecordingLog("replay", copy, {file_fd, -1}).open()) << "all of it is in the -wal";
   ::close(file_fd);
   ::close(wal_fd);
@@ -165,8 +165,8 @@ TEST_F(RecordingTest, UnsealedFileIsReadToTheLastCommit) {
     auto writer = RecordingWriter::create(file_, header());
     ASSERT_TRUE(writer->append(block(0, 1000)));
     ASSERT_EQ(writer->commit().value(), 1);
-    ASSERT_TRUE(writer->append(block(1000, 1000)));  // never committed
-    const Outcome live = read_all(file_);            // also during writing
+    ASSERT_TRUE(writer->append(block(1000, 1000)));  // these scans are never committed
+    const Outcome live = read_all(file_);            // reads while the writer is open
     EXPECT_TRUE(live.status);
     EXPECT_EQ(live.time_ns.size(), 1000u);
   }
@@ -178,7 +178,7 @@ TEST_F(RecordingTest, UnsealedFileIsReadToTheLastCommit) {
   EXPECT_EQ(test::number(after.notices[0], "chunk"), 1);
 }
 
-// Made by an mdof version before format 2.
+// An mdof version before format 2 wrote this file.
 TEST_F(RecordingTest, ReadsAndChecksAFileOfFormatOne) {
   const fs::path kept = MDOF_TEST_DATA "/devices/recordings/format-1/mcc_usb1608fs_plus.mdofrec";
   RecordingLog log("replay", kept);

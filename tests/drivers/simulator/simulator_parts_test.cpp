@@ -1,4 +1,4 @@
-// Parts of the simulator: motion, raw readings.
+// Parts of the simulator: motion and raw readings.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -26,7 +26,8 @@ Rig five_probes() {
   return rig;
 }
 
-// First-order model: A and B above, C to E at the side. It is sufficient to distinguish the errors.
+// A first-order model. A and B are on the top, C to E on the side. The errors can be distinguished
+// with it.
 void forward(double d_m, const Errors5& e, std::span<double> probe_m) {
   for (std::size_t k = 0; k < probe_m.size(); ++k) {
     const double lever_m = d_m + 0.01 * static_cast<double>(k);
@@ -34,7 +35,7 @@ void forward(double d_m, const Errors5& e, std::span<double> probe_m) {
   }
 }
 
-// A clock that advances only during sleep.
+// A clock whose time advances only when the simulator sleeps.
 struct ManualTime {
   std::int64_t now_ns = 5'000'000'000;
   Clock clock() {
@@ -76,7 +77,7 @@ void append(SampleBlock& all, const SampleBlock& block) {
   }
 }
 
-// Reads to the end and opens again after each disconnect.
+// Reads to the end of the simulation, and opens the simulator again after each disconnection.
 Recording record(Simulator& simulator, std::vector<int> timeouts_ms = {100}) {
   Recording recording;
   SampleBlock block;
@@ -101,7 +102,7 @@ Recording record(const SimulatorOptions& options) {
   return record(*make(options, time));
 }
 
-// FNV-1a hash of the bits of all values, qualities and times relative to the first.
+// FNV-1a hash of all values, qualities and times. The times are relative to the first.
 std::uint64_t hash_of(const SampleBlock& all) {
   std::uint64_t hash = 0xcbf29ce484222325;
   const auto mix = [&](std::uint64_t word) {
@@ -211,7 +212,7 @@ TEST(Simulator, SameSeedGivesTheSameBitsInAnyReads) {
   options.real_time = true;
   for (const std::vector<int>& timeouts_ms : {std::vector{0, 1, 0, 7}, {1000}, {3, 50}}) {
     ManualTime time;
-    std::int64_t slow_ns = 0;  // a reader that is sometimes late
+    std::int64_t slow_ns = 0;  // delay of a reader that is sometimes late
     Clock clock = time.clock();
     clock.now_ns = [&] { return time.now_ns += slow_ns++ % 1000 == 0 ? 50'000'000 : 10'000; };
     auto simulator = Simulator::make("sim", five_probes(), options, forward, clock);
@@ -292,7 +293,7 @@ TEST(Simulator, EndsAfterItsRepeatsOrNever) {
   const auto cycle = static_cast<double>(once->machine().motion().cycle_ns());
   EXPECT_NEAR(static_cast<double>(record(*once).all.scans()), cycle / 1e6, 1);
   SampleBlock block;
-  EXPECT_EQ(*once->read(block, milliseconds(1)), ReadState::end);  // repeatedly
+  EXPECT_EQ(*once->read(block, milliseconds(1)), ReadState::end);  // the end may be read repeatedly
   options.repeats = 3;
   EXPECT_NEAR(static_cast<double>(record(options).all.scans()), 3 * cycle / 1e6, 1);
   options.loop = true;
@@ -313,7 +314,8 @@ TEST(Simulator, NeverReturnsMoreThanTheScansDue) {
   SampleBlock block;
   std::size_t scans = 0;
   for (int i = 0; i < 200; ++i) {
-    if (i == 100) time.now_ns += 50'000'000;  // a stall: all scans due are returned at once
+    // The reader stalls, and then gets all scans of this time at once.
+    if (i == 100) time.now_ns += 50'000'000;
     ASSERT_TRUE(simulator->read(block, milliseconds(1)));
     scans += block.scans();
     ASSERT_EQ(scans, static_cast<std::size_t>((time.now_ns - start_ns) / 250'000 + 1));
@@ -331,7 +333,7 @@ TEST(Simulator, ReadTimesOutWithoutScans) {
   ASSERT_TRUE(simulator->open());
   SampleBlock block;
   ASSERT_TRUE(simulator->read(block, milliseconds(10)));
-  EXPECT_EQ(block.scans(), 1u);  // the scan at the start
+  EXPECT_EQ(block.scans(), 1u);  // only the scan at the start
   const std::int64_t before_ns = time.now_ns;
   EXPECT_EQ(*simulator->read(block, milliseconds(10)), ReadState::more);
   EXPECT_EQ(block.scans(), 0u);
@@ -346,7 +348,7 @@ TEST(Simulator, DisconnectedDeviceOpensOnlyAfterItsReturn) {
   const std::int64_t start_ns = time.now_ns;
   const auto simulator = make(options, time);
   SampleBlock block;
-  EXPECT_FALSE(simulator->read(block, milliseconds(1)));  // not open
+  EXPECT_FALSE(simulator->read(block, milliseconds(1)));  // the simulator is not open
   ASSERT_TRUE(simulator->open());
   Result<ReadState> state = ReadState::more;
   std::size_t scans = 0;

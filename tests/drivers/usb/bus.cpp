@@ -36,8 +36,8 @@ Bus::Bus(std::function<std::int64_t()> clock)
     ADD_FAILURE() << "to be run by umockdev-wrapper";
     std::abort();
   }
-  std::signal(SIGHUP, SIG_IGN);              // from a terminal that closes
-  ::chmod(root_of(testbed_).c_str(), 0777);  // for forbid()
+  std::signal(SIGHUP, SIG_IGN);              // the terminal sends this signal when it closes
+  ::chmod(root_of(testbed_).c_str(), 0777);  // so that forbid() has an effect
   g_signal_connect(base_, "handle-ioctl", G_CALLBACK(on_ioctl), this);
   thread_ = std::thread([this] {
     while (!stop_) turn();
@@ -93,7 +93,7 @@ std::string Bus::describe(const Node& node) {
   return text;
 }
 
-// Frees nodes that neither a device nor a program uses.
+// Removes the nodes that neither a device nor a program uses.
 int Bus::free_number() {
   const std::lock_guard lock(mutex_);
   std::erase_if(nodes_,
@@ -145,7 +145,7 @@ void Bus::change(const std::function<void()>& act) {
 void Bus::forbid(int number) {
   change([&] {
     ::chmod(nodes_.at(number)->terminal.c_str(), 0);
-    // umockdev connects to its own socket even if the node may not be opened.
+    // umockdev must connect to its own socket, even if programs may not open the node.
     ::chmod((root_of(testbed_) + "/ioctl" + nodes_.at(number)->devnode).c_str(), 0777);
   });
 }

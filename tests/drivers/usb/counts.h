@@ -1,4 +1,4 @@
-// Resources of this process.
+// Resources that this process uses.
 #pragma once
 
 #include <unistd.h>
@@ -24,7 +24,7 @@ inline std::int64_t resident_bytes() {
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-// Number of times that a test replugs a device: 20, or the value of MDOF_USB_REPLUGS.
+// Number of times that a test unplugs and replugs a device: the value of MDOF_USB_REPLUGS, or 20.
 inline int replugs() {
   const char* text = std::getenv("MDOF_USB_REPLUGS");
   return text ? std::atoi(text) : 20;

@@ -1,4 +1,4 @@
-// The libusb layer with a device on a simulated bus.
+// The libusb layer of the drivers, with a device on a simulated bus.
 #include "drivers/usb/handle.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST_F(UsbHandle, PermissionErrorNamesTheRule) {
   const int number = bus.plug(device);
   bus.forbid(number);
   const auto user = ::geteuid();
-  // Changes the user of this thread only, because root may open every file.
+  // Root may open every file. Therefore this thread, and only this thread, changes its user.
   if (user == 0) ::syscall(SYS_setresuid, -1, 65534, -1);
   const std::string message = refusal();
   if (user == 0) ::syscall(SYS_setresuid, -1, 0, -1);
@@ -98,7 +98,7 @@ TEST_F(UsbHandle, FindsAProgramThatHasAFileOpen) {
   char path[] = "/tmp/mdof-owner-XXXXXX";
   const int fd = ::mkstemp(path);
   ASSERT_GE(fd, 0);
-  EXPECT_EQ(find_program_with_file(path), "");  // this process is ignored
+  EXPECT_EQ(find_program_with_file(path), "");  // this process itself does not count
   int ready[2], stop[2];
   ASSERT_EQ(::pipe(ready) | ::pipe(stop), 0);
   const pid_t child = ::fork();
@@ -231,7 +231,8 @@ TEST_F(UsbInStream, UnplugEndsTheStreamAfterEarlierData) {
   EXPECT_TRUE(has(message(stream.next(steady_clock::now() + 5s)), "is gone from the USB"));
 }
 
-// Every tenth handle is closed with pending transfers. A descriptor lost in each round is detected.
+// Every tenth handle is closed while transfers are pending. If each round lost a descriptor, the
+// test would fail.
 TEST_F(UsbInStream, OpenedManyTimesLosesNoDescriptor) {
   bus.plug(device);
   int before = 0;
@@ -242,7 +243,7 @@ TEST_F(UsbInStream, OpenedManyTimesLosesNoDescriptor) {
     if (i % 10 == 0) InStream stream = start(*handle);
     if (i == 10) before = open_descriptors();
   }
-  EXPECT_LE(open_descriptors(), before + 8);  // the peer is still closing some
+  EXPECT_LE(open_descriptors(), before + 8);  // the peer may still be closing some descriptors
 }
 
 }  // namespace

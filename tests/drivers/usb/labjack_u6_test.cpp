@@ -1,4 +1,4 @@
-// The driver and the simulated U6, through the real libusb.
+// The driver reads the simulated U6 through the real libusb.
 #include "drivers/labjack_u6/labjack_u6.h"
 
 #include <gtest/gtest.h>
@@ -15,13 +15,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kRate_Hz = 1000;  // each packet has its own transfer
+constexpr double kRate_Hz = 1000;  // so low that each packet has its own transfer
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// AIN0 is the time in s since the start, AIN1 is at its rail, AIN2 is -1.5 V; 1 count/us.
+// True values of the inputs. AIN0 is the time in s since the start. AIN1 is at the end of its
+// range. AIN2 is -1.5 V. The counter counts 1 count/us.
 struct Truth {
   std::int64_t zero_ns = monotonic_ns();
   double operator()(std::size_t input, std::int64_t t_ns) const {
@@ -38,7 +39,8 @@ class UsbLabjackU6 : public testing::Test {
         std::make_unique<SimulatedLabjackU6>(truth, SimulatedLabjackU6::Options{.faults = faults});
     number = bus.plug(*device);
   }
-  void again(const SimulatedLabjackU6::Faults& faults) {  // replaces the device
+  // Replaces the device by a device with these faults.
+  void again(const SimulatedLabjackU6::Faults& faults) {
     made.reset();
     bus.unplug(number);
     plug(faults);
@@ -71,7 +73,7 @@ class UsbLabjackU6 : public testing::Test {
   std::string serial;
   double rate_hz = kRate_Hz, most_counts_per_s = 0;
   Input third = {{"C", Unit::volt}, 2, 0};
-  int fio = 0;  // line of the encoder
+  int fio = 0;  // FIO number of the encoder
   int number = 0;
   usb::Bus bus;
   std::unique_ptr<LabjackU6> made;
@@ -89,9 +91,9 @@ TEST_F(UsbLabjackU6, GivesVoltsAndMicrometresAtTheirTimes) {
   expect_growing(all.time_ns);
   for (std::size_t i = 0; i < all.scans.size(); ++i) {
     const double age_s = static_cast<double>(all.time_ns[i] - truth.zero_ns) * 1e-9;
-    ASSERT_NEAR(all.scans[i][0], age_s, 0.3) << i;  // a busy machine is late
+    ASSERT_NEAR(all.scans[i][0], age_s, 0.3) << i;  // a busy machine reads late
     ASSERT_NEAR(all.scans[i][2], -1.5, 2e-4);
-    // Five slots of 10 us lie between AIN0 and the counter; its zero is the count at its start.
+    // The counter is read five slots of 10 us after AIN0. Its zero is the count at the start.
     const double counts = all.scans[i][3] - all.scans[0][3];
     ASSERT_NEAR(counts, -0.5e6 * static_cast<double>(i) / kRate_Hz, 0.6) << i;
     ASSERT_EQ(all.quality[i][0], Quality::good);
@@ -100,7 +102,7 @@ TEST_F(UsbLabjackU6, GivesVoltsAndMicrometresAtTheirTimes) {
   }
 }
 
-// AIN2 against AIN3 is 0 V; with the constants of another range it would be 1 mV.
+// AIN2 minus AIN3 is 0 V. With the constants of another range the value would be 1 mV.
 TEST_F(UsbLabjackU6, InputRangeAndEncoderLinesAreSelectable) {
   third.gain = 3;
   third.differential = true;
@@ -112,11 +114,11 @@ TEST_F(UsbLabjackU6, InputRangeAndEncoderLinesAreSelectable) {
   for (const auto& scan : all.scans) ASSERT_NEAR(scan[2], 0, 1e-6);
   EXPECT_LT(all.scans.back()[3], all.scans.front()[3]);
   EXPECT_EQ(all.quality.back()[3], Quality::good);
-  ASSERT_EQ(refusal(), "opened");  // the count continues
+  ASSERT_EQ(refusal(), "opened");  // the driver opens the device again, and the count continues
   EXPECT_EQ(driver().info().datum_lost, "");
 }
 
-// The counter counts 1,000,000 counts/s.
+// The encoder counts 1,000,000 counts/s.
 TEST_F(UsbLabjackU6, CountIsSuspectAfterExceedingItsSpeedLimit) {
   most_counts_per_s = 30'000;
   plug();
@@ -151,7 +153,7 @@ TEST_F(UsbLabjackU6, SilenceIsAnError) {
   EXPECT_TRUE(has(collect(driver(), 1000).error, "no data for 2 s"));
 }
 
-// The last packet does not fill a transfer.
+// The last packet arrives, although the transfer is not full.
 TEST_F(UsbLabjackU6, FindsTheReasonOfSilence) {
   SimulatedLabjackU6::Faults faults;
   faults.stop_at = 8;
@@ -200,7 +202,7 @@ TEST_F(UsbLabjackU6, BadChecksumsAreErrors) {
 
 TEST_F(UsbLabjackU6, DiscardsAStreamThatRunsAtTheStart) {
   SimulatedLabjackU6::Faults faults;
-  faults.streaming = true;  // a packet with counter 7 is pending
+  faults.streaming = true;  // a packet of an earlier stream, with counter 7, is pending
   plug(faults);
   ASSERT_EQ(refusal(), "opened");
   const Collected all = collect(driver(), 100);
@@ -256,8 +258,8 @@ TEST_F(UsbLabjackU6, InvalidStreamIsAnErrorAndIsRestarted) {
     const Collected before = collect(driver(), 10'000);
     EXPECT_TRUE(has(before.error, c.says)) << before.error;
     EXPECT_TRUE(has(before.error, "\"daq\"")) << before.error;
-    // All valid scans were returned: eight packets, except those that share a transfer with the
-    // fault.
+    // Eight packets were valid. All their scans were returned, except packets in the same transfer
+    // as the fault.
     ASSERT_GT(before.scans.size(), 4 * 25U / 5) << c.says;
     ASSERT_LE(before.scans.size(), 8 * 25U / 5) << c.says;
     if (device->gone()) {
@@ -269,7 +271,7 @@ TEST_F(UsbLabjackU6, InvalidStreamIsAnErrorAndIsRestarted) {
     ASSERT_EQ(refusal(), "opened");
     const Collected after = collect(driver(), 20);
     ASSERT_EQ(after.error, "");
-    // The scans of the interruption are lost.
+    // All scans during the interruption count as lost.
     const auto gap_ns = static_cast<double>(after.time_ns.front() - before.time_ns.back());
     EXPECT_NEAR(static_cast<double>(after.lost), gap_ns * 1e-9 * kRate_Hz - 1, 0.6);
   }

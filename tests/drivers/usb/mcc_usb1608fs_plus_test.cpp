@@ -1,4 +1,4 @@
-// The driver and the simulated USB-1608FS-Plus, through the real libusb.
+// The driver reads the simulated USB-1608FS-Plus through the real libusb.
 #include "drivers/mcc_usb1608fs_plus/mcc_usb1608fs_plus.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// CH0 is the time in s since the start, CH1 is outside of its range, CH4 is -1.5 V.
+// True values of the inputs. CH0 is the time in s since the start. CH1 is outside of its range.
+// CH4 is -1.5 V.
 struct Truth {
   std::int64_t zero_ns = monotonic_ns();
   double operator()(std::size_t input, std::int64_t t_ns) const {
@@ -31,7 +32,7 @@ struct Truth {
   }
 };
 
-// Different for each input, so that tests detect wrong constants.
+// Each input has other constants, so that a test detects the use of wrong constants.
 Calibrations odd() {
   Calibrations all;
   for (std::size_t i = 0; i < kInputs; ++i)
@@ -61,7 +62,7 @@ class Usb1608 : public testing::Test {
   void change(const SimulatedMccUsb1608fsPlus::Faults& faults) {
     bus.change([&] { device->set_faults(faults); });
   }
-  // Checks that all returned scans are valid: CH0 gives the time of each scan.
+  // Checks that all returned scans are valid. The value of CH0 is the true time of a scan.
   void expect_sound(const Collected& all) {
     expect_growing(all.time_ns);
     for (std::size_t i = 1; i < all.scans.size(); ++i)
@@ -90,7 +91,7 @@ TEST_F(Usb1608, GivesCalibratedVoltsAtTheirTimes) {
   for (std::size_t i = 0; i < all.scans.size(); ++i) {
     const double age_s = static_cast<double>(all.time_ns[i] - truth.zero_ns) * 1e-9;
     ASSERT_NEAR(all.scans[i][0], -1.5, 4e-4);
-    ASSERT_NEAR(all.scans[i][1], age_s, 0.3) << i;  // a busy machine is late
+    ASSERT_NEAR(all.scans[i][1], age_s, 0.3) << i;  // a busy machine reads late
     ASSERT_EQ(all.quality[i][1], Quality::good);
     ASSERT_EQ(all.quality[i][2], Quality::over_range);
   }
@@ -142,18 +143,18 @@ TEST_F(Usb1608, OverrunIsAnErrorWithoutLaterScans) {
     const Collected after = collect(driver(), 100);
     EXPECT_EQ(after.error, "");
     expect_sound(after);
-    // All scans that were not returned are lost.
+    // All scans that were not returned count as lost.
     const auto gap_ns = static_cast<double>(after.time_ns.front() - rest.time_ns.back());
     EXPECT_NEAR(static_cast<double>(after.lost), gap_ns * 1e-9 * kRate_Hz - 1, 0.6);
   }
 }
 
-// Checks expect_sound(): it detects a scan that is missing without a report.
+// Checks that expect_sound() detects a scan that is missing and was not reported.
 TEST_F(Usb1608, DetectsAMissingScan) {
   SimulatedMccUsb1608fsPlus::Faults faults;
   faults.drop_at = 50;
   plug(faults);
-  settings.rate_hz = 500;  // 500 scans/s: a scan is six codes of CH0
+  settings.rate_hz = 500;  // in one scan period, CH0 increases by six codes
   ASSERT_EQ(refusal(), "opened");
   const Collected all = collect(driver(), 150);
   ASSERT_EQ(all.error, "");
@@ -205,7 +206,7 @@ TEST_F(Usb1608, RefusesImpossibleCalibration) {
     EXPECT_TRUE(has(refusal(), "CH1: the constants in the calibration memory are impossible"))
         << refusal();
     bad[1].slope = 1;
-    bad[2].slope = slope;  // of an unused input
+    bad[2].slope = slope;  // this input is not used
     bus.change([&] { device->set_memory(calibration_memory(bad)); });
     EXPECT_EQ(refusal(), "opened");
   }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kSetup = 8;
 
-// The data at which the ioctl's argument points, `size` bytes.
+// The data to which the ioctl's argument points. Their size is `size` bytes.
 UMockdevIoctlData* pointed(UMockdevIoctlClient* client, std::size_t size) {
   return umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0, size, nullptr);
 }
@@ -151,7 +151,7 @@ void Bus::Node::submit(UMockdevIoctlClient* client) {
   complete(client);
 }
 
-// Reaps the oldest transfer that has ended.
+// Returns the oldest ended transfer of this program to the program.
 void Bus::Node::reap(UMockdevIoctlClient* client) {
   const auto urb = std::find_if(urbs.begin(), urbs.end(), [&](const Urb& each) {
     return each.done && each.client == client;
@@ -186,12 +186,12 @@ void Bus::Node::discard(UMockdevIoctlClient* client) {
   wake();
 }
 
-// A cancelled transfer keeps the packets that have arrived.
+// A cancelled transfer contains the packets that arrived before.
 void Bus::Node::take_part(Urb& urb) {
   if (urb.type != USBDEVFS_URB_TYPE_BULK || !(urb.endpoint & 0x80)) return;
   for (const Urb& each : urbs)
     if (!each.done && each.endpoint == urb.endpoint) {
-      if (&each != &urb) return;  // only for the oldest
+      if (&each != &urb) return;  // packets belong to the oldest transfer only
       break;
     }
   while (urb.got.size() + kFullSpeedPacket <= urb.length) {
@@ -225,11 +225,11 @@ void Bus::Node::clear_halt(UMockdevIoctlClient* client) {
   complete(client);
 }
 
-// Answers the transfers of each endpoint in their order.
+// The transfers of one endpoint are answered in the order of submission.
 void Bus::Node::serve(std::int64_t now_ns) {
   if (gone) return;
   last_ns_ = now_ns;
-  std::map<std::uint8_t, bool> waits;  // after it was served
+  std::map<std::uint8_t, bool> waits;  // endpoints that still have a pending transfer
   for (Urb& urb : urbs) {
     if (urb.done) continue;
     bool& waiting = waits[urb.endpoint];
@@ -241,7 +241,8 @@ void Bus::Node::serve(std::int64_t now_ns) {
   wake();
 }
 
-// For an endpoint that had pending transfers when it was served.
+// Called for an endpoint that had pending transfers before it was served. `waiting`: it still has
+// pending transfers.
 void Bus::Node::note(Asked& a, bool waiting, std::int64_t now_ns) {
   if (a.idle_since_ns) a.longest_ns = std::max(a.longest_ns, now_ns - *a.idle_since_ns);
   a.idle_since_ns.reset();

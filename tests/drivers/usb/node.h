@@ -1,4 +1,5 @@
-// The usbfs node of one device: its transfers, and the pseudo terminal that programs poll.
+// The usbfs node of one device. It has the transfers of the device and the pseudo terminal that
+// programs poll.
 #pragma once
 
 #include <umockdev.h>
@@ -14,28 +15,29 @@
 
 namespace mdof::drivers::usb {
 
-// A transfer from SUBMITURB until it is reaped.
+// A transfer from SUBMITURB until the program reaps it.
 struct Urb {
   UMockdevIoctlData* data = nullptr;    // struct usbdevfs_urb
-  UMockdevIoctlData* buffer = nullptr;  // nullptr if it has no bytes
+  UMockdevIoctlData* buffer = nullptr;  // nullptr if the transfer has no bytes
   UMockdevIoctlClient* client = nullptr;
   std::uint8_t type = 0, endpoint = 0;
   std::size_t length = 0;
-  std::string sent;  // data of an OUT transfer, or of a control transfer with its setup packet
+  // Data of an OUT transfer; of a control transfer, the setup packet and its data.
+  std::string sent;
   bool done = false;
   int status = 0;
   std::string got;
-  std::size_t taken = 0;  // number of bytes accepted, OUT
+  std::size_t taken = 0;  // OUT: number of bytes that the device has accepted
 };
 
-// All functions need the lock of the bus.
+// The caller of every function must hold the lock of the bus.
 struct Bus::Node {
   Node(SimulatedUsb& usb, int number);
   ~Node();
 
-  // Answers an ioctl; returns false if it is not of usbfs.
+  // Answers an ioctl. Returns false if the ioctl does not belong to usbfs.
   bool answer(UMockdevIoctlClient* client);
-  // Lets the device answer pending transfers.
+  // The device answers pending transfers, if it can.
   void serve(std::int64_t now_ns);
   void leave();  // leaves the bus: pending transfers end with ESHUTDOWN
 
@@ -46,10 +48,10 @@ struct Bus::Node {
   std::list<Urb> urbs;  // in order of submission
   int submitted = 0;
   struct Asked {
-    std::optional<std::int64_t> idle_since_ns;  // set when the last pending transfer has ended
+    std::optional<std::int64_t> idle_since_ns;  // time at which the last pending transfer ended
     std::int64_t longest_ns = 0;
   };
-  std::map<std::uint8_t, Asked> asked;  // by endpoint
+  std::map<std::uint8_t, Asked> asked;  // key: endpoint
 
  private:
   void submit(UMockdevIoctlClient* client);

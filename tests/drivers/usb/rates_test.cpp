@@ -1,5 +1,5 @@
-// The highest rates through the real libusb: every sample of the device is accounted for. Each
-// input gives the number of its sample.
+// Checks the highest sampling rates through the real libusb. The value of each input is the number
+// of the sample, so a missing sample is detected.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -24,11 +24,12 @@ constexpr double kFor_s = 1;
 struct Count {
   std::uint64_t scans = 0, lost = 0, wrong = 0;
   std::string error;
-  std::int64_t idle_ns = 0;  // longest time without a pending transfer
+  std::int64_t idle_ns = 0;  // longest time in which no transfer was pending
 };
 
-// Reads the scans that a device takes in `seconds`, even if they arrive late on a busy machine.
-// `wrong(block, scan, k)`: scan k of all is not the expected one.
+// Reads the scans that the device samples in `seconds`, even if they arrive late on a busy
+// machine. `wrong(block, scan, k)`: returns true if scan `scan` of the block is not the expected
+// scan k of the whole reading.
 template <class Wrong>
 Count read_for(Driver& driver, double seconds, double rate_hz, const Wrong& wrong) {
   Count count;
@@ -57,7 +58,7 @@ void expect_all(const Count& count, double rate_hz) {
       static_cast<double>(count.lost), static_cast<double>(count.idle_ns) * 1e-6);
 }
 
-// A clock with steps of a scan period, so that the number of the scan is always exact.
+// A clock that advances in steps of one scan period. So the number of a scan is exact.
 struct ScanClock {
   std::int64_t zero_ns = monotonic_ns();
   std::atomic<std::int64_t> period_ns = 1;
@@ -69,7 +70,7 @@ struct ScanClock {
   }
 };
 
-// --- LabJack U6: the counter counts scans --------------------------------------------------------
+// --- LabJack U6: its counter is the number of the scan ------------------------------
 
 class UsbU6Rates : public testing::Test {
  protected:
@@ -85,7 +86,7 @@ class UsbU6Rates : public testing::Test {
     settings.rate_hz = std::floor(50'000.0 / static_cast<double>(words));
     rate_hz_ = stream_clock(settings.rate_hz)->rate_hz;
     clock.period_ns = std::llround(1e9 / rate_hz_);
-    // AIN0 increases by one code per scan, from the middle of the range on.
+    // AIN0 increases by one code per scan and begins in the middle of its range.
     const AinCalibration c = SimulatedLabjackU6::calibration(0);
     device = std::make_unique<SimulatedLabjackU6>(
         [this, c](std::size_t input, std::int64_t t_ns) {
@@ -133,18 +134,19 @@ TEST_F(UsbU6Rates, OneInputAtFiftyThousand) {
   EXPECT_EQ(rate_hz_, 50'000);
 }
 
-// Shows that a loss is detected: a missing packet ends the run.
+// Control: if a packet is missing, the driver reports an error.
 TEST_F(UsbU6Rates, DetectsAMissingPacket) {
   labjack_u6::SimulatedLabjackU6::Faults faults;
   faults.skip_at = 300;
   EXPECT_NE(run(5, true, faults).error.find("packets are missing"), std::string::npos);
 }
 
-// --- USB-1608FS-Plus: its inputs count samples, in codes -----------------------------------------
+// --- USB-1608FS-Plus: the code of an input is the number of its sample --------------------
 
 class Usb1608Rates : public testing::Test {
  protected:
-  static constexpr std::uint64_t kCodes = 65'000;  // none at the end of the range
+  // So small that no code is at the end of the range.
+  static constexpr std::uint64_t kCodes = 65'000;
 
   Count run(std::size_t inputs, double rate_hz,
             const mcc_usb1608fs_plus::SimulatedMccUsb1608fsPlus::Faults& faults,
@@ -198,7 +200,7 @@ TEST_F(Usb1608Rates, FiveInputsAtEightyThousand) {
   expect_all(run(5, 80'000, {}), 80'000);
 }
 
-// Shows that a lack of pending transfers is detected: the host sleeps longer than they last.
+// Control: the host sleeps so long that all pending transfers end. The test must detect this.
 TEST_F(Usb1608Rates, DetectsAHostThatSleeps) {
   run(4, 100'000, {}, 0.2);
   std::this_thread::sleep_for(milliseconds(600));
@@ -207,7 +209,7 @@ TEST_F(Usb1608Rates, DetectsAHostThatSleeps) {
   EXPECT_GT(bus.longest_idle_ns(number, mcc_usb1608fs_plus::kSamplesIn), 100'000'000);
 }
 
-// Shows that a loss is detected: one scan of 24,000 is missing without a report.
+// Control: one of 24,000 scans is missing and was not reported. The test must detect this.
 TEST_F(Usb1608Rates, DetectsAMissingScan) {
   mcc_usb1608fs_plus::SimulatedMccUsb1608fsPlus::Faults faults;
   faults.drop_at = 10'000;

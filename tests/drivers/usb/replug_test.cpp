@@ -1,5 +1,5 @@
-// Unplugs and replugs a device many times during a stream: the driver opens it each time, and no
-// resources are lost. MDOF_USB_REPLUGS=1000 selects the long run.
+// Unplugs and replugs a device many times during a stream. The driver must open the device each
+// time, and no resources may be lost. MDOF_USB_REPLUGS=1000 gives the long test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
-#ifdef MDOF_SANITIZED  // sanitizers keep freed memory and open a file to their symbolizer
+#ifdef MDOF_SANITIZED  // sanitizers keep freed memory, and a file to their symbolizer stays open
 constexpr bool kSanitized = true;
 constexpr int kOfSymbolizer = 2;
 #else
@@ -34,14 +34,15 @@ double sense(std::size_t input, std::int64_t /*t_ns*/) {
   return input == 0 ? 1 : 2;
 }
 
-// Tries again after a pause, as the daemon does.
+// Opens the driver, with pauses between the attempts as in mdofd. Returns the time since
+// `since_ns`.
 double reopen_s(Driver& driver, std::int64_t since_ns) {
   const auto until = steady_clock::now() + 5s;
   while (!driver.open() && steady_clock::now() < until) std::this_thread::sleep_for(10ms);
   return static_cast<double>(monotonic_ns() - since_ns) * 1e-9;
 }
 
-// Reads until scans arrive; returns the error, or "".
+// Reads until scans arrive or the driver has failed. Returns the error, or "".
 std::string read_some(Driver& driver) {
   SampleBlock block;
   const auto until = steady_clock::now() + 5s;
@@ -63,11 +64,11 @@ std::string read_to_the_end(Driver& driver) {
 struct Found {
   std::vector<double> reopen_s;
   int failures = 0;
-  int descriptors = 0;  // more than after the first tenth of the rounds
+  int descriptors = 0;  // increase since the first tenth of the rounds
   std::int64_t growth_bytes = 0;
 };
 
-// `each` is called after each unplug.
+// Calls `each` after each time that the device was unplugged.
 template <class Device>
 Found replug(Driver& driver, Device& device, int times, const std::function<void()>& each) {
   usb::Bus bus;
@@ -135,8 +136,8 @@ TEST(UsbReplug, MccUsb1608fsPlus) {
   expect_sound(replug(driver, device, usb::replugs(), [] {}));
 }
 
-// Shows that the checks can fail: a descriptor and 64 KiB lost in each round are detected, as is a
-// device that does not return.
+// Control: each round loses a descriptor and 64 KiB of memory, or the device does not return. The
+// test must detect this.
 TEST(UsbReplug, DetectsLostResourcesAndDevices) {
   labjack_u6::SimulatedLabjackU6 device(sense, {});
   const auto driver = labjack_u6_driver();

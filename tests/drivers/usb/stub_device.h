@@ -1,4 +1,4 @@
-// A simulated device that only returns received bytes.
+// A simulated device that returns the bytes that it receives.
 #pragma once
 
 #include <deque>
@@ -8,8 +8,11 @@
 
 namespace mdof::drivers::usb {
 
-// Returns the bytes of bulk OUT 0x01 on IN 0x81; IN 0x82 streams `stream`. Vendor request 1 returns
-// 4 bytes, request 2 accepts bytes, all others stall.
+// Endpoints and requests:
+// - bulk OUT 0x01 receives bytes, and IN 0x81 returns them
+// - IN 0x82 sends `stream`
+// - vendor request 1 returns 4 bytes, request 2 accepts bytes
+// - all other requests stall
 class StubDevice final : public SimulatedUsb {
  public:
   explicit StubDevice(const std::string& serial) {

@@ -1,5 +1,5 @@
-// The hash of a table, compared with the bytes that its header states; another program (Python's
-// struct and hashlib) assembled them.
+// Compares the hash of a table with the hash of the bytes that the header of table_sha256
+// describes. Another program assembled these bytes (Python's struct and hashlib).
 #include "schema/compensation_table.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(TableHash, DoesNotDependOnIdAndDate) {
   EXPECT_EQ(table_sha256(same), table_sha256(table()));
 }
 
-// A change of one bit in any member changes the hash.
+// If one bit of any member changes, the hash must change.
 TEST(TableHash, DiffersWithEachMember) {
   const std::string before = table_sha256(table());
   const auto differs = [&](auto change) {

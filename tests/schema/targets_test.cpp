@@ -46,8 +46,8 @@ TEST(Targets, ErrorsNameTheKey) {
 }
 
 TEST(Targets, ReportsIntervalsOfWholePeriods) {
-  EXPECT_TRUE(scale_period_notice({0, 5, 10}, 20));  // 250 periods
-  EXPECT_TRUE(scale_period_notice({0, 5, 12}, 20));  // 250 and 350
+  EXPECT_TRUE(scale_period_notice({0, 5, 10}, 20));  // each interval is 250 periods
+  EXPECT_TRUE(scale_period_notice({0, 5, 12}, 20));  // the intervals are 250 and 350 periods
   EXPECT_FALSE(scale_period_notice({0, 5.007, 10}, 20));
   EXPECT_FALSE(scale_period_notice({0, 5, 10}, 0));
   EXPECT_FALSE(scale_period_notice({0}, 20));

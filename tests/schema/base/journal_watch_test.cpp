@@ -32,7 +32,7 @@ class WatchedJournal : public testing::Test {
     db.watch_journal();
     return db;
   }
-  // Inserts a row in a transaction; success is the acknowledgement.
+  // Inserts a row in a transaction. If this succeeds, the row is acknowledged.
   static Status insert(Connection& db) {
     MDOF_TRY(Transaction transaction, Transaction::begin(db));
     MDOF_CHECK(db.execute("INSERT INTO t VALUES (1)"));
@@ -42,7 +42,8 @@ class WatchedJournal : public testing::Test {
     auto db = Connection::open(file_, OpenMode::read_write);
     return db ? db->integer("SELECT count(*) FROM t").value_or(-1) : -1;
   }
-  // Exit status of a child that does the work and exits without cleanup, as if it were killed.
+  // Does the work in a child process, which then exits without cleanup, as if it were killed.
+  // Returns the status of the child.
   static int in_child(const std::function<bool()>& work) {
     const pid_t child = fork();
     if (child == 0) _exit(work() ? 0 : 1);
@@ -57,7 +58,7 @@ TEST_F(WatchedJournal, KeepsTheContentOfARemovedOrReplacedWal) {
   const std::function<void()> spoils[] = {
       [this] { fs::remove(wal_); },
       [this] {
-        fs::copy_file(wal_, folder_ / "old");  // the old WAL would be applied over later changes
+        fs::copy_file(wal_, folder_ / "old");  // SQLite would apply the old WAL over later changes
         fs::rename(folder_ / "old", wal_);
       },
       [this] { fs::remove(shm_); },
@@ -77,7 +78,8 @@ TEST_F(WatchedJournal, KeepsTheContentOfARemovedOrReplacedWal) {
           auto transaction = Transaction::begin(db);
           if (!transaction || !db.execute("INSERT INTO t VALUES (2)")) return false;
           spoil();
-          if (!transaction->commit()) return false;  // it was kept, so it is acknowledged
+          // The commit must succeed, so its row is acknowledged.
+          if (!transaction->commit()) return false;
         } else {
           spoil();
         }
@@ -118,7 +120,7 @@ TEST_F(WatchedJournal, CheckpointOfAnotherProgramIsNoFault) {
   }
 }
 
-// The file is truncated to 0 or to 4096 bytes; the rest of the index is not used.
+// The file is truncated to 0 bytes, or to 4096 bytes, after which the index is not used.
 TEST_F(WatchedJournal, ProcessSurvivesATruncatedShm) {
   for (const std::uintmax_t bytes : {std::uintmax_t{0}, std::uintmax_t{4096}}) {
     const fs::path file = folder_ / std::to_string(bytes);
@@ -133,7 +135,7 @@ TEST_F(WatchedJournal, ProcessSurvivesATruncatedShm) {
         return false;
       fs::resize_file(file.string() + "-shm", bytes);
       const auto read = reader->integer("SELECT count(*) FROM u WHERE length(x) = 4000");
-      if (read && *read != 1500) return false;  // an error or the correct number
+      if (read && *read != 1500) return false;  // the read gives an error or the correct number
       return !insert(db) && db.journal_fault().find("-shm was cut short") != std::string::npos;
     });
     EXPECT_EQ(status, 0) << "cut to " << bytes;
@@ -146,8 +148,8 @@ TEST_F(WatchedJournal, ProcessSurvivesATruncatedShm) {
   }
 }
 
-// The file is truncated during a read transaction: with an empty index, SQLite would return older
-// pages.
+// The file is truncated during a read transaction. The index is then empty, and without the check
+// SQLite would return older pages.
 TEST_F(WatchedJournal, TruncatedShmGivesNoOlderPages) {
   const int status = in_child([&] {
     survive_truncated_shm();

@@ -21,7 +21,7 @@ TEST(JsonPage, ContainsAsManyItemsAsFit) {
   std::size_t taken = 0;
   EXPECT_EQ(page({1, 2, 3}, 100, taken), R"(["x","xx","xxx"])");
   EXPECT_EQ(taken, 3u);
-  // ["x","xx" has nine bytes, the third item has five.
+  // The text ["x","xx" has nine bytes. The third item needs five more bytes.
   EXPECT_EQ(page({1, 2, 3}, 14, taken), R"(["x","xx","xxx"])");
   EXPECT_EQ(page({1, 2, 3}, 13, taken), R"(["x","xx"])");
   EXPECT_EQ(taken, 2u);

@@ -74,10 +74,11 @@ TEST(JsonWriter, ReplacesBytesThatAreNotUtf8) {
   EXPECT_EQ(string_value("a\xff"
                          "b"),
             "\"a" + bad + "b\"");
-  EXPECT_EQ(string_value("\xc3"), '"' + bad + '"');                                // cut off
-  EXPECT_EQ(string_value("\xc0\x80"), '"' + bad + bad + '"');                      // overlong
-  EXPECT_EQ(string_value("\xed\xa0\x80"), '"' + bad + bad + bad + '"');            // surrogate
-  EXPECT_EQ(string_value("\xf4\x90\x80\x80"), '"' + bad + bad + bad + bad + '"');  // > U+10FFFF
+  EXPECT_EQ(string_value("\xc3"), '"' + bad + '"');            // an incomplete character
+  EXPECT_EQ(string_value("\xc0\x80"), '"' + bad + bad + '"');  // a longer encoding than necessary
+  EXPECT_EQ(string_value("\xed\xa0\x80"), '"' + bad + bad + bad + '"');  // a surrogate
+  // Greater than U+10FFFF.
+  EXPECT_EQ(string_value("\xf4\x90\x80\x80"), '"' + bad + bad + bad + bad + '"');
 }
 
 TEST(JsonWriter, InsertsRawJsonUnchanged) {

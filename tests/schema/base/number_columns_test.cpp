@@ -18,7 +18,7 @@
 namespace mdof {
 namespace {
 
-// Text of rows with two columns, with other text around it; the tests read the first column.
+// Rows with two columns, and other text before and after them. The tests read the first column.
 class Rows {
  public:
   explicit Rows(const std::vector<std::string>& fields, const std::string& line_end = "\n")
@@ -74,7 +74,8 @@ void expect_like_baseline(const Rows& rows) {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Value of a whole field by std::from_chars; NaN if it is no finite number.
+// The value that std::from_chars reads from the whole field; NaN if the field is not a finite
+// number.
 double from_chars(const std::string& field) {
   double x = kNaN;
   const char* const end = field.data() + field.size();
@@ -84,7 +85,7 @@ double from_chars(const std::string& field) {
   return error == std::errc::invalid_argument || !std::isfinite(x) ? kNaN : x;
 }
 
-// Reads up to each field that is no number, and continues after it.
+// Reads all fields. After each field that is not a number, it continues with the next.
 void expect_as_from_chars(const Rows& rows) {
   std::vector<double> expected;
   for (std::size_t j = 0; j < rows.size(); ++j) expected.push_back(from_chars(rows.field(j)));
@@ -144,8 +145,9 @@ TEST(NumberColumns, ReadsMixedShortAndLongNumbers) {
   expect_as_from_chars(Rows(many(40'003, make)));
 }
 
-// Values halfway between two doubles, and their neighbours in the last digit: 2^53 + 1, times
-// powers of two and five, so that the decimal text ends exactly at the half.
+// Numbers that are exactly halfway between two doubles, and numbers that differ from them in the
+// last digit. They are 2^53 + 1 and similar numbers, divided by powers of two, so that their
+// decimal text is exact.
 TEST(NumberColumns, RoundsHalvesToEven) {
   std::vector<std::string> fields;
   for (const std::uint64_t half :
@@ -163,14 +165,16 @@ TEST(NumberColumns, RoundsHalvesToEven) {
   expect_as_from_chars(Rows(fields));
 }
 
-// A cell as in usual files, or as an attacker would write it; without a stop byte.
+// A field as in usual files, or as an attacker would write it. It contains no byte that ends a
+// field.
 std::string adversarial_field(RandomFields& random) {
   switch (random.below(16)) {
     case 0:
       return random.number(1, 17) + "e-" +
-             random.digits(1 + random.below(3));  // down to denormals and 0
+             random.digits(1 + random.below(3));  // the smallest numbers are denormal or 0
     case 1:
-      return random.number(18, 3) + "E" + random.digits(1 + random.below(3));  // up to infinity
+      // The largest numbers are infinite.
+      return random.number(18, 3) + "E" + random.digits(1 + random.below(3));
     case 2:
       return std::string(random.below(28), '0') + random.digits(random.below(20));
     case 3:
@@ -180,7 +184,7 @@ std::string adversarial_field(RandomFields& random) {
     case 5:
       return std::array{
           "nan", "-inf", "inf", "NaN", "", "-", ".", "-.", "--1", "1e"}[random.below(10)];
-    case 6: {  // one byte of a valid number is changed
+    case 6: {  // changes one byte of a valid number
       std::string text = random.number(4, 14);
       text[random.below(text.size())] = "./-0:e9;_\x7f"[random.below(10)];
       return text;
@@ -204,7 +208,7 @@ TEST(NumberColumns, ReadsAMillionHostileCellsLikeFromChars) {
   }
 }
 
-// Shortest texts of random doubles: all exponents, denormals, 1 to 17 digits.
+// The shortest texts of random doubles: all exponents, denormal numbers, 1 to 17 digits.
 TEST(NumberColumns, ReadsTextsOfRandomDoubles) {
   RandomFields random;
   const auto cell = [&] {
@@ -246,7 +250,7 @@ TEST(NumberColumns, ReadsEdgeCases) {
                              "1"}));
 }
 
-// Texts shorter and longer than the part that is read at once.
+// Texts that are shorter or longer than the part that is read in one step.
 TEST(NumberColumns, AcceptsAPointBeforeAllDigits) {
   for (std::size_t size = 2; size < 40; ++size) {
     const std::string digits(size - 1, '0');
@@ -255,8 +259,8 @@ TEST(NumberColumns, AcceptsAPointBeforeAllDigits) {
   }
 }
 
-// A field that is no number, at any place of a group, must be found and must not change its
-// neighbours.
+// A field is not a number. It must be found at any place of a group, and the fields beside it must
+// be read correctly.
 TEST(NumberColumns, StopsBeforeAFieldThatIsNoNumber) {
   for (const char* odd :
        {"",      "-",        ".",     "-.",   "--1",
@@ -269,7 +273,8 @@ TEST(NumberColumns, StopsBeforeAFieldThatIsNoNumber) {
       fields[at] = odd;
       const Rows rows(fields);
       expect_like_baseline(rows);
-      if (std::string(odd).starts_with("1234567890")) continue;  // a number, although a long one
+      // This field is a number, although a long one.
+      if (std::string(odd).starts_with("1234567890")) continue;
       EXPECT_EQ(read_all(rows, InstructionSet::baseline).size(), at) << odd;
     }
   }

@@ -22,8 +22,8 @@ std::uint64_t bits(double x) {
   return std::bit_cast<std::uint64_t>(x);
 }
 
-// The fast scanner may reject a text. If it accepts a text, it must use the whole text and give the
-// correct number, with any bytes around the text.
+// The fast scanner may reject a text. If it accepts the text, it must use all of it and return the
+// correct number. The bytes before and after the text must have no effect.
 bool expect_scan_agrees(const std::string& text, bool is_number, double expected) {
   bool understood = false;
   for (const char around : {'7', '.', '-', ',', '\xff'}) {
@@ -45,7 +45,8 @@ void expect_as_from_chars(const std::string& text, bool must_scan = false) {
   const char* const end = begin + text.size();
   const auto [after, error] = std::from_chars(begin, end, expected);
   ASSERT_EQ(parse_double(begin, end, got), after) << text;
-  if (error == std::errc::result_out_of_range) {  // std keeps the value, ours is ±inf or ±0
+  // Std::from_chars leaves the value unchanged; parse_double returns ±inf or ±0.
+  if (error == std::errc::result_out_of_range) {
     ASSERT_TRUE(std::isinf(got) || got == 0) << text;
     return;
   }
@@ -64,7 +65,7 @@ void expect_like_printf(double x) {
   ASSERT_STREQ(got, expected);
 }
 
-// Each text equals that of a single number, for any neighbours.
+// The text of a number must not depend on the other numbers of the array.
 void expect_single_number_texts(const std::vector<double>& x) {
   for (const InstructionSet set : available_instruction_sets()) {
     SCOPED_TRACE(to_string(set));
@@ -128,7 +129,8 @@ TEST(ParseDouble, MatchesFromCharsForExponents) {
 
 TEST(ParseDouble, RoundsHalfwayCasesToEven) {
   Random random;
-  for (int i = 0; i < 50'000; ++i) {  // exactly between two doubles, and slightly beside
+  // Numbers exactly between two doubles, and numbers slightly beside them.
+  for (int i = 0; i < 50'000; ++i) {
     const std::uint64_t odd =
         (std::uint64_t{1} << 53) + 2 * random.below(std::uint64_t{1} << 52) + 1;
     const std::string text = std::to_string(odd);
@@ -249,7 +251,8 @@ TEST(WriteDouble17, MatchesPrintfAroundPowersOfTwoAndTen) {
 }
 
 TEST(WriteDouble17,
-     MatchesPrintfForTies) {  // 18 digits that end in 5: odd multiples of small powers of 2
+     // Numbers whose 18 digits end in 5: odd multiples of small powers of 2.
+     MatchesPrintfForTies) {
   Random random;
   for (int e = -60; e <= -1; ++e)
     for (int i = 0; i < 2'000; ++i)

@@ -8,7 +8,7 @@
 namespace mdof {
 namespace {
 
-// Random123, tests/kat_vectors: zeros, ones, digits of pi.
+// Source: Random123, tests/kat_vectors. The inputs are zeros, ones and the digits of pi.
 TEST(Random, PhiloxMatchesThePublishedAnswers) {
   EXPECT_EQ(philox({0, 0, 0, 0}, 0), (Philox{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
   EXPECT_EQ(philox({~0u, ~0u, ~0u, ~0u}, ~0ull),
@@ -38,7 +38,7 @@ TEST(Random, GaussianInvertsTheDistributionOutToEightSigma) {
   EXPECT_LT(uniform(~0u, ~0u), 1);
 }
 
-// Arrays of different lengths, with values near both ends.
+// Arrays of different lengths. Their probabilities include values near 0 and near 1.
 TEST(Random, ArrayOfGaussiansEqualsSingleGaussians) {
   for (const std::size_t n : {0u, 1u, 63u, 64u, 65u, 20'001u}) {
     std::vector<double> p(n);

@@ -1,4 +1,4 @@
-// Units of the D-SI format; expected values by hand.
+// Units of the D-SI format. The expected values were calculated by hand.
 #include "schema/dcc/si_unit.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(SiUnit, ReadsPrefixesQuotientsAndPowers) {
   expect("\\volt", 1, 0, 1);
   expect("\\volt\\per\\micro\\metre", 1e6, -1, 1);
   expect("\\milli\\volt\\per\\micro\\metre", 1e3, -1, 1);
-  expect("\\per\\metre\\volt", 1, -1, 1);  // \per applies only to the unit after it
+  expect("\\per\\metre\\volt", 1, -1, 1);  // \per applies only to the next unit
   expect("\\volt\\metre\\tothe{-1}", 1, -1, 1);
   expect("\\volt\\milli\\metre\\tothe{-1}", 1e3, -1, 1);
   expect("\\micro\\metre\\per\\volt", 1e-6, 1, -1);

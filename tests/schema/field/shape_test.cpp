@@ -17,7 +17,7 @@ TEST(FieldNames, EachHasOneRowAndAMeaning) {
     EXPECT_FALSE(row.meaning.empty()) << row.name;
     EXPECT_FALSE(row.meaning.ends_with('.')) << row.name;
     EXPECT_EQ(find_field(row.name)->row, &row) << row.name;
-    json_schema(row.type);  // a type that cannot be read is a bug
+    json_schema(row.type);  // json_schema() must be able to read each type
   }
 }
 
@@ -36,7 +36,7 @@ TEST(FieldNames, UncertaintyRefersToAnotherRow) {
   ASSERT_TRUE(u);
   EXPECT_EQ(u->row->name, "u_random_{field}");
   EXPECT_NE(u->meaning.find("EC0Y_urad"), std::string::npos) << u->meaning;
-  EXPECT_EQ(find_field("u_covers")->row->name, "u_covers");  // has its own row
+  EXPECT_EQ(find_field("u_covers")->row->name, "u_covers");  // this member has its own row
 }
 
 TEST(FieldNames, RegularExpressionsMatchTheirFields) {
@@ -46,7 +46,7 @@ TEST(FieldNames, RegularExpressionsMatchTheirFields) {
   EXPECT_FALSE(std::regex_match("EYX_um", error));
 }
 
-// Expected texts written by hand from the rules of JSON Schema.
+// The expected texts were written by hand from the rules of JSON Schema.
 TEST(Shape, HasASchemaOfItsMembers) {
   EXPECT_EQ(
       json_schema("{active, scans_lost?}"),

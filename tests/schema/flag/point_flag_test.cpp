@@ -5,7 +5,7 @@
 namespace mdof {
 namespace {
 
-// Names stored in databases: runs with a renamed flag could not be read.
+// Databases contain these names. If a flag were renamed, older runs could not be read.
 TEST(PointFlag, HasTheNameStoredInDatabases) {
   const std::vector<std::string> stored = {
       "approach_assumed", "creep",       "frozen:A",      "gap",

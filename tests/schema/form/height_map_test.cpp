@@ -1,4 +1,5 @@
-// Height maps from text and from files of instruments, and texts that are no map.
+// Reads height maps from CSV and from files of instruments. Texts that are not a height map are
+// rejected.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -47,7 +48,8 @@ TEST(HeightMapCsv, AcceptsRowsInAnyOrderWithHoles) {
   EXPECT_EQ(map->measured(), 3u);
 }
 
-// No point is lost if the stated size is too small, or if the other rows of the file are shorter.
+// No point may be lost if the expected size is wrong, or if later rows of the file have another
+// length.
 TEST(HeightMapCsv, FileSizeIsOnlyAHint) {
   std::string text = "x_mm,y_mm,z_um\n";
   for (int i = 0; i < 1000; ++i)
@@ -64,7 +66,8 @@ TEST(HeightMapCsv, FileSizeIsOnlyAHint) {
   }
 }
 
-// Positions with three decimals at a pitch of 2/3 mm; 300 columns in the middle are missing.
+// The pitch is 2/3 mm and the positions have three decimals. 299 columns in the middle are
+// missing.
 TEST(HeightMapCsv, AcceptsRoundedPositions) {
   std::string text = "x_mm,y_mm,z_um\n";
   for (int j = 0; j < 3; ++j)
@@ -153,7 +156,7 @@ std::string data(const std::string& name) {
   return text.str();
 }
 
-// Example of the standard: 7 x 4 points, 1 um apart.
+// The example of the standard has 7 x 4 points with a pitch of 1 um.
 TEST(Sdf, ReadsTheExampleOfTheStandard) {
   const std::string text = data("sdf-1.sdf");
   ASSERT_TRUE(is_sdf(text));
@@ -179,7 +182,7 @@ TEST(Sdf, ReadsBadPointsAndOtherDialects) {
     ASSERT_TRUE(map) << map.error().message;
     EXPECT_TRUE(std::isnan(map->at(1, 0)));
     EXPECT_NEAR(map->at(2, 1), -6e-9, 1e-20);
-    EXPECT_DOUBLE_EQ(map->y_m(1), 4e-6);  // y grows with the profile
+    EXPECT_DOUBLE_EQ(map->y_m(1), 4e-6);  // y increases with the number of the profile
     EXPECT_DOUBLE_EQ(map->x_m(2), 4e-6);
   }
   const auto error = [&](const std::string& text) {
@@ -198,7 +201,7 @@ TEST(Sdf, ReadsBadPointsAndOtherDialects) {
   EXPECT_NE(error("aISO-1.0\nNumPoints = 9\n*\n1\n").find("no NumProfiles"), std::string::npos);
 }
 
-// A MetroPro file with two by two pixels.
+// A MetroPro file with 2 x 2 pixels.
 std::string zygo(int phase_res, int sign, const std::vector<std::int32_t>& phase) {
   std::string bytes(834 + 6, '\0');
   const auto put = [&](std::size_t at, std::uint32_t value, int size) {
@@ -209,7 +212,7 @@ std::string zygo(int phase_res, int sign, const std::vector<std::int32_t>& phase
   put(0, 0x881b036f, 4);
   put(4, 1, 2);
   put(6, 834, 4);
-  put(60, 6, 4);  // intensities
+  put(60, 6, 4);  // size of the intensities in bytes
   put(64, 10, 2);
   put(66, 20, 2);
   put(68, 2, 2);

@@ -67,7 +67,8 @@ TEST(MachineToml, IsRead) {
   EXPECT_DOUBLE_EQ(read->tool_m[2], 0.12);
 }
 
-// A fixed frame is after its link, on the side of this link.
+// The key `after` names a link. A fixed frame follows this link and belongs to the same side of
+// the chain.
 TEST(MachineToml, ReadsFixedFramesInTheirOrder) {
   const auto frame = [](const char* id, const char* after) {
     return "[[frame]]\nid = \"" + std::string(id) + "\"\nafter = \"" + after +
@@ -119,7 +120,7 @@ TEST(MachineToml, ReadsAMovingBodyAndASource) {
   EXPECT_NEAR(screw.acts_on[2].factor_per_position, 3e-6 * 180 / 3.141592653589793, 1e-18);
 }
 
-// Table 1 has six part errors for each of 14 joints.
+// Table 1 of the source has 14 joints with six part errors each.
 TEST(MachineToml, CoPlanarMachineHas84PartErrors) {
   const auto read = parse_machine(co_planar_machine(), "co-planar");
   ASSERT_TRUE(read) << read.error().message;

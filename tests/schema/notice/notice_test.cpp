@@ -22,7 +22,7 @@ TEST(Notice, EachCodeIsFoundByItsName) {
   for (int i = 0;; ++i) {
     const auto code = static_cast<NoticeCode>(i);
     EXPECT_EQ(notice_code_from(to_string(code)), code);
-    if (code == NoticeCode::made_of_several_probes) break;  // the last row
+    if (code == NoticeCode::made_of_several_probes) break;  // the last row of the list of codes
   }
   EXPECT_FALSE(notice_code_from("probe"));
   EXPECT_FALSE(notice_code_from(""));
@@ -69,7 +69,8 @@ TEST(NoticeJson, MissingNumberIsNull) {
   EXPECT_TRUE(std::isnan(test::number(read->at(0), "travel_m")));
 }
 
-// Databases and recordings of older versions contain sentences; the first word may be the severity.
+// Older versions stored a notice as a sentence. The first word of the sentence may be the
+// severity.
 TEST(NoticeJson, ReadsASentenceWithItsSeverity) {
   const auto read = read_notices(
       R"(["interrupted","information: the axis was parked","invalid: x","no information: y"])");

@@ -33,8 +33,8 @@ TEST(PlausibilityJson, IsReadAsItWasWritten) {
   EXPECT_TRUE(std::isnan(back->probes[1].sd_m));
 }
 
-// Each member in turn gets another name: a missing member is not read as 0. Sums are only for
-// readers.
+// Renames one member after another. A missing member must be an error and must not be read as 0.
+// Members that only people read are an exception (target, targets, left_out_total).
 TEST(PlausibilityJson, ReportsAMissingMember) {
   const std::string json = plausibility_json(example());
   const std::regex key(R"re("([A-Za-z_]+)":)re");

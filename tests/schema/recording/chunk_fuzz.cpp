@@ -1,6 +1,6 @@
-// Chunks of a recording. Most inputs of a fuzzer would fail the checksum of the zstd frame, so the
-// input is also used as the content of the frame. A decoded block must encode to bytes that decode
-// to the same block.
+// Chunks of a recording. Most inputs of a fuzzer have a wrong checksum of the zstd frame.
+// Therefore the input is also used as the content of a valid frame. If a block is decoded, it is
+// encoded and decoded again and must be the same block.
 #include <zstd.h>
 
 #include <cstddef>

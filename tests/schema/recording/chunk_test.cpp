@@ -27,7 +27,8 @@ std::vector<std::int64_t> random_times(Random& random, std::size_t n) {
   return times;
 }
 
-// Random bits: NaN payloads, infinities, denormals and -0.0 are included.
+// If any_bits is true, the values have random bits, which include NaN payloads, infinities,
+// denormals and -0.0.
 std::vector<double> random_values(Random& random, std::size_t n) {
   const bool any_bits = below(random, 2);
   std::vector<double> values;
@@ -78,7 +79,7 @@ void expect_same(const SampleBlock& a, const SampleBlock& b) {
   for (std::size_t c = 0; c < a.value.size(); ++c) EXPECT_TRUE(same_bits(a.value[c], b.value[c]));
 }
 
-// The invariants that all users of a block need, for any input bytes.
+// Properties that all users of a block need. They must be true for any input bytes.
 bool sound(const SampleBlock& block) {
   for (std::size_t i = 1; i < block.scans(); ++i)
     if (block.time_ns[i] <= block.time_ns[i - 1]) return false;
@@ -91,7 +92,7 @@ bool sound(const SampleBlock& block) {
   return true;
 }
 
-// A complete chunk with the given raw bytes.
+// A complete chunk whose content is `raw`. `claimed`: the size in its header.
 std::string chunk_of(const std::string& raw, std::size_t claimed) {
   std::string out = "MDC1";
   for (int k = 0; k < 4; ++k) out.push_back(static_cast<char>(claimed >> (8 * k)));
@@ -112,7 +113,7 @@ std::string unpacked(const std::string& chunk) {
 
 TEST(Chunk, RoundTripsAnyBlockToTheSameBits) {
   Random random(1);
-  SampleBlock back;  // reused, as in a reader
+  SampleBlock back;  // the same block is used again, as in a reader
   for (int i = 0; i < 2000; ++i) {
     const SampleBlock block = random_block(random);
     const auto bytes = encode_chunk(block);
@@ -165,7 +166,8 @@ TEST(Chunk, DetectsEveryFlippedBit) {
     std::string flipped = bytes;
     flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
     if (decode_chunk(flipped, back)) {
-      // An unused bit of the frame may change, but the samples must be equal.
+      // A changed bit that zstd does not use has no effect. In this case the samples must be
+      // equal.
       expect_same(block, back);
     }
   }
@@ -179,7 +181,7 @@ TEST(Chunk, DetectsEveryTruncation) {
     EXPECT_FALSE(decode_chunk(std::string_view(bytes).substr(0, size), back)) << size;
 }
 
-// Below the checksum: mutated bytes in a frame that is valid for zstd.
+// Changed bytes inside a valid zstd frame, so that the checksum is correct.
 TEST(Chunk, MutatedPayloadsAreRejectedOrValid) {
   Random random(4);
   SampleBlock back;
@@ -198,7 +200,7 @@ TEST(Chunk, MutatedPayloadsAreRejectedOrValid) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, 3000);  // otherwise the mutations had no effect
+  EXPECT_GT(refused, 3000);  // the test is useless if most changes have no effect
 }
 
 TEST(Chunk, MutatedFramesAreRejectedOrValid) {
@@ -225,10 +227,11 @@ TEST(Chunk, RejectsHugeCounts) {
   SampleBlock back;
   const std::string huge = "\xff\xff\xff\xff\xff\xff\xff\xff\x7f";
   const std::string none(1, '\0');
-  EXPECT_FALSE(decode_chunk(chunk_of(huge), back));                       // device name
-  EXPECT_FALSE(decode_chunk(chunk_of(none + huge), back));                // channels
-  EXPECT_FALSE(decode_chunk(chunk_of(none + none + none + huge), back));  // scans
-  EXPECT_FALSE(decode_chunk(chunk_of(std::string(20, '\xff')), back));    // a varint without end
+  EXPECT_FALSE(decode_chunk(chunk_of(huge), back));                       // size of the device name
+  EXPECT_FALSE(decode_chunk(chunk_of(none + huge), back));                // number of channels
+  EXPECT_FALSE(decode_chunk(chunk_of(none + none + none + huge), back));  // number of scans
+  // A varint that does not end.
+  EXPECT_FALSE(decode_chunk(chunk_of(std::string(20, '\xff')), back));
 }
 
 TEST(Chunk, RejectsBytesAfterTheEnd) {

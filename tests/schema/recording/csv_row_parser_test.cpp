@@ -19,8 +19,8 @@ namespace {
 struct Parsed {
   std::vector<SampleBlock> blocks;
   std::vector<std::string> bad_lines;
-  Notices missing;    // of columns
-  std::string error;  // empty: no error
+  Notices missing;    // notices about missing values of columns
+  std::string error;  // empty if there is no error
 
   std::vector<std::int64_t> times() const {
     std::vector<std::int64_t> all;
@@ -35,7 +35,8 @@ struct Parsed {
   }
 };
 
-// Passes `text` to the parser in pieces of at most `piece` bytes, each in separate memory.
+// Passes `text` to the parser in pieces of at most `piece` bytes. Each piece is in separate
+// memory.
 Parsed parse(std::string text, CsvLimits limits = {}, CsvKind kind = CsvKind::probe_log,
              std::size_t piece = 1'000'000) {
   Parsed result;
@@ -155,7 +156,7 @@ TEST(CsvRowParser, TreatsAnEmptyFieldAndNanAsMissing) {
     EXPECT_EQ(p.blocks[0].quality_at(1, row), a_missing[row] ? Quality::missing : Quality::good);
     EXPECT_EQ(p.blocks[0].quality_at(2, row), b_missing[row] ? Quality::missing : Quality::good);
   }
-  EXPECT_TRUE(p.blocks[0].quality[0].empty());  // no value of the encoder is marked
+  EXPECT_TRUE(p.blocks[0].quality[0].empty());  // all values of the encoder are good
   EXPECT_EQ(test::shown(p.missing),
             "log_values_missing x.csv: column A_um missing=4 rows=7 first=at 0.000 s\n"
             "log_values_missing x.csv: column B_um missing=3 rows=7 first=at 2.000 s\n");
@@ -173,7 +174,8 @@ TEST(CsvRowParser, SkipsALineWithoutPositionOrTime) {
   EXPECT_EQ(test::shown(p.missing), "") << "a line that is skipped has no missing values";
 }
 
-// A probe that is permanently lost, and all other patterns in batches of 256 rows.
+// The parser processes 256 rows at a time. In the first half of the text, probe A misses random
+// values; in the second half, it misses all values.
 TEST(CsvRowParser, FindsEachMissingValueInItsRow) {
   std::string text = kTwoProbes;
   std::mt19937_64 random(3);
@@ -220,7 +222,8 @@ TEST(CsvRowParser, AcceptsBlankLinesAtTheEnd) {
 TEST(CsvRowParser, LimitsConsecutiveEmptyLines) {
   const CsvLimits limits{.blank_bytes = 10};
   const std::string row = "0,1,2\n", next = "1,1,2\n";
-  EXPECT_EQ(parse(kHeader + row + "\n\r\n\n \r\n\n \n", limits).error, "");  // 10 bytes
+  // 10 bytes of empty lines.
+  EXPECT_EQ(parse(kHeader + row + "\n\r\n\n \r\n\n \n", limits).error, "");
   for (const char* blank : {"\n\n\n\n\n\n\n\n\n\n\n", "\n         \n", "\r\n\r\n\r\n\r\n\r\n\r\n"})
     for (const std::string& end : {std::string(), next})
       for (const std::size_t piece : {1u, 7u, 1'000'000u})
@@ -256,7 +259,7 @@ TEST(CsvRowParser, RecognisesADecimalComma) {
   expect_contains(parse(kHeader + "0,000,1,500,2,250\n").error, {"x.csv:2: ", "decimal comma"});
   expect_contains(parse(kHeader + "0,000;1,500;2,250\n").error, {"x.csv:2: "});
   expect_contains(parse(kHeader + "0.000;1.500;2.250\n").error, {"x.csv:2: ", "semicolon"});
-  // two joined lines are only a bad line
+  // Two joined lines are reported as a bad line and are no other error.
   EXPECT_EQ(parse(kHeader + "0.1,1.0,2.00.2,1.0,2.0\n0.3,1.0,2.0\n").bad_lines.size(), 1u);
 }
 
@@ -275,7 +278,7 @@ TEST(CsvRowParser, NumbersTheRowsOfAFramesFile) {
   EXPECT_EQ(p.column(0), (std::vector<double>{5, 4, 4}));
 }
 
-// A log with every kind of field and line end, and some bad lines.
+// A log with all kinds of fields and line ends, and with some bad lines.
 std::string wild_log(int rows) {
   std::mt19937_64 random(7);
   std::string text = "# c\nA_um,time_s,encoder_mm,B_um\n";
@@ -297,7 +300,7 @@ std::string wild_log(int rows) {
   return text;
 }
 
-// Bits, so that NaN is equal to itself.
+// The bits of all values. With bits, a NaN is equal to the same NaN.
 std::vector<std::uint64_t> bits(const std::vector<std::vector<double>>& columns) {
   std::vector<std::uint64_t> all;
   for (const auto& column : columns)

@@ -1,4 +1,5 @@
-// CSV rows of any kind, as a whole and cut anywhere, give the same rows and the same errors.
+// For any CSV rows, parsing the whole text and parsing it in pieces must give the same rows and
+// the same errors.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -29,7 +30,7 @@ void take(const Result<bool>& got, const SampleBlock& block, Rows& rows) {
   }
 }
 
-// Whole lines in a buffer with the margins that the parser may read.
+// Copies whole lines to a buffer that has the margins that the parser may read, and parses them.
 Rows parsed(const CsvHeader& header, std::string_view lines, std::size_t piece) {
   CsvRowParser parser(header, {.bad_lines = 5, .scans_per_block = 16});
   Rows rows;

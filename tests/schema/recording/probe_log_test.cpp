@@ -97,7 +97,8 @@ TEST(ProbeLogHeader, AcceptsThePositionInAnyNamedUnitOfLength) {
        {std::pair{"encoder_um", Unit::um},
         {"encoder_mm", Unit::mm},
         {"encoder_m", Unit::metre},
-        {"encoder_V", Unit::volt}}) {  // the rig decides whether there is a scale
+        // Volts are accepted here; the rig decides whether it has a scale.
+        {"encoder_V", Unit::volt}}) {
     const auto header = log_header("time_s," + std::string(name) + ",A_um\n");
     ASSERT_TRUE(header) << header.error().message;
     EXPECT_EQ(header->channels[0], (Channel{"encoder", unit})) << name;
@@ -113,7 +114,7 @@ TEST(ProbeLogHeader, RejectsTimeAndPositionInOtherUnits) {
     expect_error(std::string(name) + ",encoder_mm,A_um\n",
                  {"column 1 \"" + std::string(name) + "\"", "time_s", "seconds"});
   expect_error("time_s,encoder_mm,A_m\n", {"column 3", "A_m", "to um"});
-  // Both columns have a clear meaning, but neither has the required name.
+  // The meaning of both columns is obvious, but their names are not the required names.
   expect_error("t_s,encoder_mm,A_um\n", {"time_s", "t_s"});
   EXPECT_TRUE(log_header("time_s,encoder_mm,A_um,timer,encoders\n"));
 }

@@ -1,4 +1,4 @@
-// Rigs that refer to calibration records.
+// Rigs that use calibration records.
 #include "schema/rig/calibrated.h"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,8 @@ TEST(CalibratedRig, TakesTheRecordAndKeepsTheRest) {
   EXPECT_TRUE(calibration_notices("no rig with a [[calibration_record]]").empty());
 }
 
-// The target is perpendicular to the nominal direction.
+// A record may give another direction of a probe. The rig must keep the nominal direction, because
+// the target is perpendicular to it.
 TEST(CalibratedRig, KeepsTheNominalDirection) {
   CalibrationRecord record = mounting();
   record.probes[0].direction = Vec3{2e-4, -1e-4, 1};
@@ -99,7 +100,8 @@ TEST(CalibratedRig, KeepsCovariancesOfRecordedQuantities) {
     for (std::size_t j = 0; j < 3; ++j)
       EXPECT_NEAR(all.m2.at(i).at(j), mounting().covariance.m2[i][j], 1e-27) << i << j;
   EXPECT_EQ(with_record().probes[1].uncertainty.sensitivity.freedom, 7);
-  // A zero whose uncertainty the rig declares is independent of the record.
+  // If the rig declares u of a zero, this zero is independent of the record and not in its
+  // covariance.
   const auto declared = covariance(with_record("u_calibration_um = 0.5\n"));
   EXPECT_EQ(declared.of, (std::vector<std::string>{"B.x", "B.y"}));
   ASSERT_EQ(declared.m2.size(), 2U);
@@ -127,7 +129,7 @@ TEST(CalibratedRig, UncertaintiesFollowTheReplacedValues) {
   EXPECT_NEAR(rig.uncertainty.installation_offset.u[1], 0.4e-3, 1e-18) << "declared";
 }
 
-// A declared 0 is a declaration.
+// A declared uncertainty of 0 is a declaration and is not replaced.
 TEST(CalibratedRig, KeepsWhatTheRigDeclaresAsZero) {
   const Rig rig = with_record("u_calibration_um = 0\n", "[installation]\nu_offset_mm = 0\n");
   EXPECT_EQ(rig.probes[1].uncertainty.calibration.u, 0);
@@ -136,7 +138,8 @@ TEST(CalibratedRig, KeepsWhatTheRigDeclaresAsZero) {
   EXPECT_TRUE(rig.uncertainty.installation_offset.known());
 }
 
-// A correction refers to the raw reading: with another offset it is at another t = raw - offset.
+// A linearity correction is given at t = raw - offset and belongs to a raw reading. If a record
+// changes the offset, t of each correction changes too.
 TEST(CalibratedRig, LinearityMovesWithTheOffset) {
   const Rig table = with_record("offset_um = 1\nlinearity = [[-50, 0.2], [50, -0.1]]\n");
   EXPECT_EQ(table.probes[1].calibration.linearity[0], (std::array<double, 2>{-51.5, 0.2}));
@@ -154,7 +157,7 @@ TEST(CalibratedRig, HasTheCalibratedRangeOfAProbe) {
   CalibrationRecord record = mounting();
   record.probes[0].linearity = {{-50, 0.2}, {50, -0.1}};
   record.probes[0].calibrated_um = {-12.5, 1.0 / 3};
-  record.probes[2].linearity = {{-50, 0.2}, {50, -0.1}};  // from an older version
+  record.probes[2].linearity = {{-50, 0.2}, {50, -0.1}};  // an older version wrote no calibrated_um
   const auto with = [](const std::string& text) {
     return parse_rig(rig_text() + text.substr(text.find(kRecordHead)), "rig.toml");
   };
@@ -169,7 +172,8 @@ TEST(CalibratedRig, HasTheCalibratedRangeOfAProbe) {
   EXPECT_NE(refused.error().message.find("calibrated_um"), std::string::npos);
 }
 
-// A later mounting record has another zero, so the same raw readings are at another t.
+// The second record changes the offset from 0 to 2.5 um. The calibrated range belongs to raw
+// readings, so its limits in t decrease by 2.5 um.
 TEST(CalibratedRig, CalibratedRangeMovesWithTheOffset) {
   CalibrationRecord sensitivity = mounting();
   sensitivity.kind = "sensitivity";
@@ -187,7 +191,8 @@ TEST(CalibratedRig, CalibratedRangeMovesWithTheOffset) {
   EXPECT_EQ(rig->probes[1].calibration.calibrated_um, (std::array{-22.5, 27.5}));
 }
 
-// The limits of chi-square for a probability of 1e-6: 38.26 for 6 degrees of freedom (tables).
+// A chi-square with a probability below 1e-6 is reported. The limit for 6 degrees of freedom is
+// 38.26 (from tables).
 TEST(CalibratedRig, ReportsAMountingThatDoesNotFitItsReadings) {
   const auto said = [](double chi_square, std::int64_t freedom) {
     CalibrationRecord record = mounting();
@@ -207,7 +212,8 @@ TEST(CalibratedRig, ReportsAMountingThatDoesNotFitItsReadings) {
   EXPECT_EQ(said(1e300, std::numeric_limits<std::int64_t>::max()).size(), 2U);
 }
 
-// The certificate of a laboratory. The table of the record refers to the offset of the record.
+// A record from a laboratory's certificate. Its linearity table refers to the offset of the
+// record.
 TEST(CalibratedRig, TakesACertificate) {
   CalibrationRecord record;
   record.kind = "sensitivity";
@@ -290,7 +296,7 @@ TEST(CalibratedRig, LoadsTheNamedRecordFiles) {
   const auto text = load_rig_text(folder / "rig.toml");
   ASSERT_TRUE(text) << text.error().message;
   EXPECT_EQ(*text, rig_text() + record_part());
-  // A text that already contains its records needs no file.
+  // If a text already contains its records, the files of the records are not needed.
   std::ofstream(folder / "whole.toml") << *text;
   std::filesystem::remove(folder / "m.toml");
   EXPECT_EQ(load_rig_text(folder / "whole.toml").value_or(""), *text);

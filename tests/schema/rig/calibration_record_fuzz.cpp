@@ -1,5 +1,6 @@
-// Calibration records: the input is the body of a record with a matching hash. After a rig, it is
-// read or rejected with a reason; a record that was read is written and read again.
+// Calibration records. The input is the body of a record, and the fuzzer adds the correct hash.
+// The record follows the text of a rig. It is read, or rejected with a reason. If it is read, it
+// is written and read again.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

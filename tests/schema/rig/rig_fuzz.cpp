@@ -1,5 +1,5 @@
-// Rigs as TOML: each text is read or rejected with a reason; a rig that was read is read again with
-// the same result.
+// Rigs as TOML. For any input, the text is read or rejected with a reason. If a text was read,
+// reading it again gives the same rig.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -10,7 +10,7 @@
 namespace mdof {
 namespace {
 
-// The default rig with `keys` in the table of probe A and `end` after the text.
+// The default rig. `keys` are added to probe A, `end` is added at the end.
 Result<Rig> rig(const std::string& keys, const std::string& end = "") {
   std::string toml = test::rig_x_toml();
   toml.insert(toml.find('\n', toml.find("id = \"A\"")) + 1, keys + "\n");
@@ -48,7 +48,8 @@ TEST(RigUncertainty, ReadsEachKeyInItsUnit) {
   EXPECT_DOUBLE_EQ(parsed->planes[0].u_flatness.u, 0.03e-6);
   EXPECT_DOUBLE_EQ(parsed->planes[0].flatness_length_m, 0.012);
   EXPECT_DOUBLE_EQ(parsed->planes[1].flatness_length_m, 0.030);
-  // One plane and the other probes do not declare these uncertainties.
+  // The second plane and the probes B to E do not declare these uncertainties, and the keys of
+  // [temperature] are missing.
   EXPECT_EQ(
       parsed->undeclared_uncertainties(),
       (std::vector<std::string>{"u_calibration_um", "u_sensitivity_ppm", "u_position_mm",
@@ -57,7 +58,10 @@ TEST(RigUncertainty, ReadsEachKeyInItsUnit) {
   EXPECT_EQ(rig("")->undeclared_uncertainties().size(), 12u);
 }
 
-// GUM 4.3.7 and 4.3.9: u = a/√3 and a/√6; the arcsine distribution has a/√2.
+// u of a distribution with half-width a:
+// - rectangular: a/√3 (GUM 4.3.7)
+// - triangular: a/√6 (GUM 4.3.9)
+// - arcsine: a/√2
 TEST(RigUncertainty, LimitsBecomeAStandardUncertainty) {
   const auto u = [](const std::string& table) {
     return rig("u_calibration_um = " + table)->probes[0].uncertainty.calibration;
@@ -112,8 +116,8 @@ TEST(RigUncertainty, ErrorsStateThePlaceOfInvalidValues) {
             std::string::npos);
 }
 
-// has() does not read a key: a key that is never read is rejected, and a key that was only checked
-// with has() is the suggestion for a misspelt one.
+// has() does not count as reading. A key that is only checked with has() is rejected as unknown.
+// It is still suggested if a similar key is misspelt.
 TEST(TomlTable, KeyCheckedWithHasIsNotRead) {
   auto there = TomlTable::parse("drift = 1\n", "f.toml").value();
   EXPECT_TRUE(there.has("drift"));

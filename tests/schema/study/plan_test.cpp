@@ -1,4 +1,4 @@
-// Plans as files: valid plans, and the error for each kind of invalid plan.
+// Valid plans of studies, and the error of each kind of invalid plan.
 #include "schema/study/plan.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +86,7 @@ TEST(StudyPlan, EveryNameResolvesForTheRig) {
   }
 }
 
-// Each bin has a histogram for each output and thread.
+// The number of bins is limited, because each bin needs a histogram for each output and thread.
 TEST(StudyPlan, AcceptsUpToTwoHundredBins) {
   const auto plan = parse_study_plan(kHead + "[bins]\ncount = 200\n", kFolder + "plan.toml");
   ASSERT_TRUE(plan) << plan.error().message;
@@ -97,7 +97,7 @@ struct Bad {
   std::string text, says;
 };
 
-// Without this function the address of the object is part of the test's name.
+// Without this function, the name of the test would contain the address of the object.
 void PrintTo(const Bad& bad, std::ostream* out) {
   *out << bad.says;
 }

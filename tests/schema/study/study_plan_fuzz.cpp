@@ -1,5 +1,5 @@
-// Plans of studies as TOML: each text is read or rejected with a reason. The rig of a plan is
-// another file.
+// Plans of studies as TOML. For any input, the plan is read or rejected with a reason. The rig of
+// a plan is in another file and is not read.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

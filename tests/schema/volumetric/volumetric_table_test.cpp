@@ -1,4 +1,4 @@
-// The hash of a volumetric table contains all its statements, and its nodes have the stated order.
+// The hash of a volumetric table covers all its statements. The order of its nodes is as stated.
 #include "schema/volumetric/volumetric_table.h"
 
 #include <gtest/gtest.h>
@@ -82,7 +82,8 @@ TEST(VolumetricTable, HashContainsEveryStatement) {
   }
   EXPECT_EQ(hashes.size(), changes.size() + 1);
   VolumetricTable stored = small_table();
-  stored.id = 7, stored.created_utc = "now";  // the store adds these
+  // The store adds these two; the hash does not cover them.
+  stored.id = 7, stored.created_utc = "now";
   EXPECT_TRUE(hashes.contains(volumetric_sha256(stored)));
 }
 
@@ -101,7 +102,8 @@ TEST(VolumetricTable, UHasTwoPartsIfTheyAreKnown) {
   t.u_independent_m.assign(6, Vec3{3e-8, 3e-8, 1.0000000001e-8});
   EXPECT_NEAR(t.u_common_at(4)[0], 4e-8, 1e-20);
   EXPECT_EQ(t.u_common_at(4)[1], 0);
-  EXPECT_EQ(t.u_common_at(4)[2], 0);  // rounding, not NaN
+  // The difference is negative because of rounding; the result must be 0, not NaN.
+  EXPECT_EQ(t.u_common_at(4)[2], 0);
   EXPECT_EQ(t.u_independent_at(4)[0], 3e-8);
   EXPECT_NE(covers_text(t).find("u_common"), std::string::npos);
 }

@@ -27,7 +27,7 @@ class Output : public testing::Test {
   void make(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  // Names and texts of all files of the folder.
+  // The text of each file in the folder, by name.
   std::map<std::string, std::string> found() const {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::directory_iterator(folder_)) {
@@ -77,7 +77,7 @@ TEST_F(Output, RejectsAnExistingFile) {
   EXPECT_EQ(found()["made"], "new");
 }
 
-// This includes a file that appears after the check.
+// Neither write_file() nor OutputFiles may replace these files.
 TEST_F(Output, DoesNotReplaceDatabasesLogsAndRecordings) {
   using namespace std::string_literals;
   const Files valuable = {{"database", "SQLite format 3\0 and pages"s},
@@ -120,7 +120,7 @@ TEST_F(Output, ReplacesAllFilesOrNone) {
     OutputFiles files(Existing::replace);
     const auto a = files.add(folder_ / "a"), b = files.add(folder_ / "b");
     ASSERT_TRUE(a && b && files.write(*a, "new a") && files.write(*b, "new b"));
-    fs::remove(folder_ / "b");  // done by another program
+    fs::remove(folder_ / "b");  // another program removes the file
     ASSERT_FALSE(files.publish());
   }
   EXPECT_EQ(found(), (Files{{"a", "old a"}}));

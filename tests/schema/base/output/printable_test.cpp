@@ -22,7 +22,7 @@ TEST(Printable, ReplacesEachControlCharacter) {
       {"\x7f", "?"},
       {"\xc2\x9b"
        "31m",
-       "?31m"},  // CSI in one character
+       "?31m"},  // U+009B is CSI (control sequence introducer) as one character
       {"\xc2\x85", "?"},
       {"\xe2\x80\xae"
        "abc",
@@ -40,7 +40,7 @@ TEST(Printable, ReplacesEachInvalidByte) {
       {"\x9b", "?"},           {"\xfc", "?"},
       {"µ\xb5µ", "µ?µ"},       {"\xc2", "?"},
       {"\xe2\x80", "??"},      {"\xc0\x9b", "??"},
-      {"\xe0\x82\x9b", "???"},  // too long
+      {"\xe0\x82\x9b", "???"},  // a longer encoding than necessary
       {"\xed\xa0\x80", "???"}, {"\xf4\x90\x80\x80", "????"},
       {"\xc2\x1b", "??"},
   };

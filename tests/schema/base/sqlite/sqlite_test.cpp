@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Without the copy, a text that was gone when the statement ran put other bytes into a table's
-// chain.
+// If a text was destroyed before the statement ran, other bytes were stored in the chain of a
+// table. Therefore the connection copies bound texts.
 TEST(Sqlite, CopiesBoundTexts) {
   auto connection = Connection::open(":memory:", OpenMode::create);
   ASSERT_TRUE(connection) << connection.error().message;
@@ -48,12 +48,12 @@ class ForeignDatabase : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // Runs `sql` in a process that exits without closing the database.
+  // Runs `sql` in a child process that exits without closing the database.
   void leave(const std::string& sql) const {
     const pid_t child = fork();
     if (child == 0) {
       auto db = Connection::open(file_, OpenMode::read_write);
-      _exit(db && db->execute(sql) ? 0 : 1);  // without closing the database
+      _exit(db && db->execute(sql) ? 0 : 1);  // exits without closing the database
     }
     int status = -1;
     waitpid(child, &status, 0);
@@ -66,7 +66,8 @@ class ForeignDatabase : public testing::Test {
         "WHERE i < 500) INSERT INTO half SELECT zeroblob(2000) FROM n");
     ASSERT_GT(fs::file_size(file_.string() + "-journal"), 0u);
   }
-  // Appends the name of a super-journal, as SQLite does for a transaction over several databases.
+  // Adds the name of a super-journal to the journal. SQLite does this for a transaction over
+  // several databases.
   void name_super_journal(const fs::path& victim) const {
     const std::string name = victim.string();
     std::uint32_t sum = 0;
@@ -81,7 +82,7 @@ class ForeignDatabase : public testing::Test {
     put(sum);
     journal << std::string("\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8);
   }
-  // All files of the folder with their bytes.
+  // The bytes of each file in the folder, by name.
   std::map<std::string, std::string> contents() const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::directory_iterator(folder_)) {
@@ -111,8 +112,8 @@ TEST_F(ForeignDatabase, DoesNotDeleteAFileNamedInAJournal) {
     EXPECT_NE(opened.error().message.find("names a super-journal"), std::string::npos);
     EXPECT_EQ(contents(), before);
   }
-  // The journal may appear between the check and the opening: SQLite itself must not delete the
-  // file either.
+  // The journal may appear after the check and before SQLite opens the database. SQLite itself
+  // must not delete the file either.
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open(file_.c_str(), &database), SQLITE_OK);
   (void)sqlite3_exec(database, "SELECT count(*) FROM t", nullptr, nullptr, nullptr);
@@ -122,7 +123,7 @@ TEST_F(ForeignDatabase, DoesNotDeleteAFileNamedInAJournal) {
 
 TEST_F(ForeignDatabase, IsReadWithoutWriting) {
   const struct {
-    const char* sql;  // empty: a half-written transaction with its -journal
+    const char* sql;  // empty: the database has an incomplete transaction and a -journal
     std::int64_t sum;
   } cases[] = {
       {"SELECT 1", 1},
@@ -146,7 +147,8 @@ TEST_F(ForeignDatabase, IsReadWithoutWriting) {
   }
 }
 
-// A writer and its checkpoints run at full speed; each copy is a complete state of one moment.
+// Another process writes and makes checkpoints as fast as possible. Each copy must be the complete
+// state at one time.
 TEST_F(ForeignDatabase, CopiesAreConsistentDuringWrites) {
   int ready[2];
   ASSERT_EQ(pipe(ready), 0);
@@ -199,7 +201,7 @@ TEST_F(ForeignDatabase, FilesOpenForWritingAreKnownByAnyName) {
   EXPECT_FALSE(is_open_for_writing(folder_ / "absent"));
 }
 
-// Whether SQLite's reader lock on the file is visible to another process.
+// Returns whether another process finds SQLite's reader lock on the file.
 bool is_locked(const fs::path& file) {
   const pid_t child = fork();
   if (child == 0) {
@@ -233,7 +235,8 @@ TEST_F(ForeignDatabase, OtherNamesOfAFileKeepItsLocks) {
     EXPECT_EQ(errno, EBUSY) << name;
   }
   EXPECT_TRUE(is_locked(file_));
-  ::close(::open(file_.c_str(), O_RDONLY));  // the fault that open_foreign() prevents
+  // This drops SQLite's lock; open_foreign() prevents this fault.
+  ::close(::open(file_.c_str(), O_RDONLY));
   EXPECT_FALSE(is_locked(file_));
 }
 

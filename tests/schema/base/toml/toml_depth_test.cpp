@@ -18,7 +18,8 @@ std::string refusal(const std::string& text) {
   return table ? "" : table.error().message;
 }
 
-// Each of these texts caused a stack overflow, in the parser or when its tree was destroyed.
+// Each of these texts has caused a stack overflow, either in the parser or when the parsed tree
+// was destroyed.
 TEST(TomlDepth, IsLimitedBeforeParsing) {
   const std::string path = repeated("a.", 40'000) + "a";
   for (const std::string& deep :
@@ -42,8 +43,7 @@ TEST(TomlDepth, IsCountedExactly) {
   EXPECT_EQ(toml_line_over_depth("a.b.c = {d.e = [1]}", 4), 1U);
 }
 
-// Dots and brackets in strings, comments and numbers are not counted as levels, regardless of their
-// number.
+// Dots and brackets in strings, comments and numbers are not levels. Their number has no limit.
 TEST(TomlDepth, CountsOnlyKeysAndBrackets) {
   const std::string dots = repeated(".", 100), brackets = repeated("[{", 100);
   for (const std::string& flat :
@@ -55,7 +55,7 @@ TEST(TomlDepth, CountsOnlyKeysAndBrackets) {
     EXPECT_EQ(refusal(flat), "") << flat.substr(0, 40);
 }
 
-// Found by fuzzing: a multi-line string without closing quotes terminated the program.
+// A fuzzer has found that a multi-line string without closing quotes terminated the program.
 TEST(TomlDepth, RejectsAnUnterminatedString) {
   for (const char* open : {"t = \"\"\"", "t = '''", "t = '''x", "t = \"\"\"x\\", "t = '''x''",
                            "t = \"x\\", "t = \"", "t = '", "'''", "\"\"\"\"", "t = [\"\"\"a\n"}) {
@@ -64,7 +64,7 @@ TEST(TomlDepth, RejectsAnUnterminatedString) {
   }
 }
 
-// A string does not hide the text after it.
+// Levels in the text after a string must be counted.
 TEST(TomlDepth, IsCountedAfterStrings) {
   const std::string deep = "\n" + repeated("a.", 40) + "a = 1";
   for (const char* before :

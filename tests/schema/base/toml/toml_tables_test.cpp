@@ -1,4 +1,4 @@
-// Several readers of one table: each reads some of its keys.
+// Several readers of one table. Each reader reads some of the keys.
 #include <gtest/gtest.h>
 
 #include "schema/base/toml/toml_reader.h"

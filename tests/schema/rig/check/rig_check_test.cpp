@@ -1,5 +1,5 @@
-// Wrong units in a rig, key by key: each one is reported with its line. Correct rigs, also small
-// ones, have no findings.
+// Rigs with a wrong unit in one key. The error must contain the line of this key. Correct rigs,
+// also small ones, must be accepted.
 #include "schema/rig/check/rig_check.h"
 #include "tests/shown.h"
 
@@ -57,8 +57,8 @@ void expect_right(const std::string& text) {
   EXPECT_EQ(test::shown(unusual_values(*rig)), "");
 }
 
-// The rig has more probes than allowed and two equal probes: the number is checked before probes
-// are compared.
+// The rig has too many probes, and two of them are equal. The number of probes must be checked
+// first.
 TEST(RigCheck, RejectsMoreThanAThousandProbes) {
   std::string text = kRig;
   for (int i = 0; i < 999; ++i)
@@ -70,7 +70,7 @@ TEST(RigCheck, RejectsMoreThanAThousandProbes) {
 TEST(RigCheck, AcceptsCorrectRigs) {
   expect_right(kRig);
   expect_right(
-      with("[10, 0, 0]", "[1.5, 0, 0]", with("[0, 10, 0]", "[0, 1.5, 0]")));  // a small rig
+      with("[10, 0, 0]", "[1.5, 0, 0]", with("[0, 10, 0]", "[0, 1.5, 0]")));  // this rig is small
   expect_right(with("[10, 0, 0]", "[200, 0, 0]", with("[0, 10, 0]", "[0, 200, 100]")));
   for (const char* range : {"range_um = 10", "range_um = 50", "range_um = 12700"})
     expect_right(with("range_um = 200", range));
@@ -85,7 +85,7 @@ TEST(RigCheck, AcceptsCorrectRigs) {
 }
 
 TEST(RigCheck, ReportsPositionsInOtherUnits) {
-  // 12 m, as if in µm; and 10 mm, as if in m
+  // 12000 mm, if 12 mm was written in um; 10 mm, if it was written in m
   expect_refused(with("[10, 0, 0]", "[12000, 0, 0]"),
                  {"r.toml:6: ", "position_mm", "\"A\"", "1.2e+04 mm", "mm, not um"});
   expect_refused(with("[0, 10, 0]", "[0, -501, 0]"), {"r.toml:12: ", "position_mm", "\"B\""});

@@ -1,6 +1,7 @@
-// The mathematics of LinuxCNC's realtime component, without LinuxCNC. Known results: a polynomial
-// of first degree in each of X, Y, Z is its own interpolation on any grid; the time for a distance
-// with limited velocity and acceleration is calculated by hand.
+// The mathematics of LinuxCNC's realtime component, tested without LinuxCNC. Two results are
+// known:
+// - A function that is linear in each of X, Y and Z equals its own interpolation on any grid.
+// - The time for a distance with limited velocity and acceleration is calculated by hand.
 #include "tools/linuxcnc/mdof_compensation.h"
 
 #include <gtest/gtest.h>
@@ -75,12 +76,13 @@ TEST(InterpolationTest, AnAxisWithOneCoordinateIsFixed) {
   for (const double z : {2.0, 77.0}) {
     const double at[3] = {1, 1, z};
     double found[3];
-    EXPECT_EQ(mdof_table_at(&t.table, at, found), z == 2);  // the table has no value at 77
+    EXPECT_EQ(mdof_table_at(&t.table, at, found), z == 2);  // at z = 77 the table has no value
     EXPECT_NEAR(found[1], trilinear(1, 1, 1, 2), 1e-13);
   }
 }
 
-// Runs until the offset is `end`; returns the largest changes of its velocity and of itself.
+// Runs until the offset is `end`. step: largest change of the offset in one period. change:
+// largest change of its velocity. largest: largest offset.
 struct Ran {
   int periods = 0;
   double step = 0, change = 0, largest = 0;
@@ -103,8 +105,8 @@ TEST(FollowTest, AChangeOfTableFadesWithoutStepOrOvershoot) {
   mdof_offset offset{0, 0};
   const Ran ran = run_to(offset, 0.1);
   EXPECT_NEAR(ran.periods, 0.1 / kLimits.fade_velocity / kPeriod,
-              3);  // 2 s: full velocity immediately
-  EXPECT_LE(ran.step, kLimits.fade_velocity * kPeriod * (1 + 1e-9));  // 0.05 um per millisecond
+              3);  // 2 s: the full velocity is reached immediately
+  EXPECT_LE(ran.step, kLimits.fade_velocity * kPeriod * (1 + 1e-9));  // 0.05 um per period of 1 ms
   EXPECT_LE(ran.change, kLimits.max_acceleration * kPeriod * (1 + 1e-9));
   EXPECT_LE(ran.largest, 0.1);
 }
@@ -121,7 +123,8 @@ TEST(FollowTest, BrakesInTimeWithLowAcceleration) {
     largest = std::max(largest, offset.value);
     change = std::max(change, std::abs(offset.velocity - last));
   }
-  EXPECT_NEAR(periods, (0.1 / 0.05 + 0.05 / 0.1) / kPeriod, 5);  // s/v + v/a
+  // S/v + v/a, with the distance s, the velocity v and the acceleration a.
+  EXPECT_NEAR(periods, (0.1 / 0.05 + 0.05 / 0.1) / kPeriod, 5);
   EXPECT_LE(largest, 0.1 + 1e-12);
   EXPECT_LE(change, limits.max_acceleration * kPeriod * (1 + 1e-9));
 }
@@ -129,7 +132,8 @@ TEST(FollowTest, BrakesInTimeWithLowAcceleration) {
 TEST(FollowTest, FollowsTheTableWithoutLag) {
   mdof_offset offset{0, 0};
   double off = 0;
-  for (int i = 0; i < 2000; ++i) {  // 100 mm/s over a table of 0.5 um/mm
+  // The axis moves at 100 mm/s, and the table changes by 0.5 um/mm.
+  for (int i = 0; i < 2000; ++i) {
     const double before = 5e-5 * i, now = 5e-5 * (i + 1);
     mdof_follow(&offset, before, now, &kLimits, kPeriod);
     if (now <= 0.1) off = std::max(off, std::abs(offset.value - now));
@@ -141,7 +145,7 @@ TEST(FollowTest, AChangeDuringMotionFadesToTheNewTable) {
   const auto table = [](double x) { return 0.05 * std::sin(x / 100); };
   mdof_offset offset{table(0), 0.05 / 100 * 100};
   double step = 0, beyond = 0, last_off = 2 * offset.value;
-  for (int i = 0; i < 5000; ++i) {  // at first the offset is that of another table, 0.08 mm away
+  for (int i = 0; i < 5000; ++i) {  // at first the offset is from another table
     const double x = 0.1 * i;
     if (i == 1000) last_off = offset.value - -table(x);
     const double sign = i < 1000 ? 1 : -1;
@@ -167,7 +171,8 @@ TEST(FollowTest, TheLimitsHoldForAnyInput) {
     double at = 0, slope = 0;
     for (int i = 0; i < 3000; ++i) {
       if (i % 500 == 0) slope = 0.3 * any(random);
-      const double before = i % 700 == 0 ? 0.3 * any(random) : at;  // another table
+      // Another table at every 700th period.
+      const double before = i % 700 == 0 ? 0.3 * any(random) : at;
       at = before + slope * kPeriod;
       const mdof_offset last = offset;
       mdof_follow(&offset, before, at, &limits, kPeriod);
@@ -251,7 +256,7 @@ TEST_F(ReceiverTest, AcceptsACompleteTable) {
   const double at[3] = {10, 2.5, 3};
   double found[3];
   EXPECT_TRUE(mdof_table_at(&table_, at, found));
-  EXPECT_DOUBLE_EQ(found[0], .04);  // between nodes 3 and 5
+  EXPECT_DOUBLE_EQ(found[0], .04);  // the mean of the nodes 3 and 5
   EXPECT_DOUBLE_EQ(found[1], -.06);
 }
 
@@ -259,7 +264,7 @@ TEST_F(ReceiverTest, RejectsAnIncompleteTable) {
   send_grid();
   EXPECT_EQ(send(MDOF_NODE), MDOF_GOES_ON);
   EXPECT_EQ(send(MDOF_END), MDOF_OUT_OF_ORDER);
-  EXPECT_EQ(send(MDOF_NODE), MDOF_GOES_ON);  // ignored from then on
+  EXPECT_EQ(send(MDOF_NODE), MDOF_GOES_ON);  // ignored, because the table was rejected
   EXPECT_EQ(send(MDOF_END), MDOF_GOES_ON);
 }
 
@@ -267,7 +272,7 @@ TEST_F(ReceiverTest, ANewLoaderRestartsAndTheOldOneIsIgnored) {
   send_grid();
   send(MDOF_NODE, .09);
   EXPECT_EQ(send(MDOF_BEGIN, 13, 0, 0, 6), MDOF_GOES_ON);
-  EXPECT_EQ(send(MDOF_NODE, .01), MDOF_GOES_ON);  // from session 5
+  EXPECT_EQ(send(MDOF_NODE, .01), MDOF_GOES_ON);  // this message is from the old session 5
   EXPECT_EQ(send(MDOF_SIZE, 1, 1, 1, 6), MDOF_GOES_ON);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(send(MDOF_COORDINATE, i, 0, 0, 6), MDOF_GOES_ON);
   EXPECT_EQ(send(MDOF_NODE, .02, 0, 0, 6), MDOF_GOES_ON);
@@ -278,7 +283,7 @@ TEST_F(ReceiverTest, ANewLoaderRestartsAndTheOldOneIsIgnored) {
 TEST_F(ReceiverTest, RejectsInvalidTables) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   send(MDOF_BEGIN);
-  EXPECT_EQ(send(MDOF_NODE), MDOF_OUT_OF_ORDER);  // before its grid
+  EXPECT_EQ(send(MDOF_NODE), MDOF_OUT_OF_ORDER);  // a node before the grid
   send(MDOF_BEGIN);
   EXPECT_EQ(send(MDOF_SIZE, 3, 3, 1), MDOF_TOO_LARGE);
   send(MDOF_BEGIN);
@@ -297,7 +302,7 @@ TEST_F(ReceiverTest, RejectsInvalidTables) {
   EXPECT_EQ(send(MDOF_NODE, 0, 0, -.1001), MDOF_BEYOND_LIMIT);
   send_grid();
   for (int i = 0; i < 6; ++i) send(MDOF_NODE);
-  EXPECT_EQ(send(MDOF_NODE), MDOF_OUT_OF_ORDER);  // one too many
+  EXPECT_EQ(send(MDOF_NODE), MDOF_OUT_OF_ORDER);  // one node too many
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
-// Planted by tests/mutate into its copy of the sources. All changes are in one build, and the
-// environment variable MDOF_CHANGE selects the active one. With MDOF_REACHED the program records at
-// its end which changes it reached, so that each change is tried only with tests that reach it.
+// tests/mutate adds this file to its copy of the sources. One build contains all changes, and the
+// environment variable MDOF_CHANGE selects the active change. If MDOF_REACHED is set, the program
+// records at its end which changes it has reached. Then each change is tried only with tests that
+// reach it.
 #pragma once
 
-// Warnings about unused or odd expressions in a change are not errors of the change.
+// A changed line may be unused or odd. This must not cause a warning.
 #pragma GCC diagnostic ignored "-Wunused-variable"
 #pragma GCC diagnostic ignored "-Wunused-but-set-variable"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -26,7 +27,7 @@ namespace mutate {
 
 constinit inline std::array<bool, 8192> reached{};
 
-// Read millions of times: only a load, a store and a comparison.
+// This variable is read millions of times. Reading it must be only a load and a comparison.
 inline const std::size_t in_force = [] {
   const char* const text = std::getenv("MDOF_CHANGE");
   return text ? std::strtoul(text, nullptr, 10) : 0;
@@ -47,7 +48,7 @@ inline bool on(std::size_t n) {
   return n == in_force;
 }
 
-// a OP b is planted as a OP mutate::..(n) OP b, which has the same precedence.
+// tests/mutate replaces a OP b by: a OP mutate::..(n) OP b. Both have the same precedence.
 template <class T, class Kind>
 struct Held {
   const T& a;

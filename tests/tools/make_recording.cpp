@@ -1,5 +1,5 @@
-// Converts a probe log to a recording, for tests: make_recording LOG.csv RIG.toml OUT.mdofrec
-// [STARTED_UTC]
+// Converts a probe log to a recording, for tests.
+// Usage: make_recording LOG.csv RIG.toml OUT.mdofrec [STARTED_UTC]
 #include <cstdio>
 
 #include "daemon/store/recording_writer.h"

@@ -18,7 +18,7 @@ TEST(CheckClassDevices, ChecksEachBoardOfTheKernel) {
   for (const char* part : {"comedi0", "comedi0_subd0", "comedi1"})
     fs::create_directories(machine.at("sys/class/comedi") / part);
   fs::create_directories(machine.at("dev"));
-  std::ofstream(machine.at("dev/comedi1")) << "";  // comedi0 has no device node
+  std::ofstream(machine.at("dev/comedi1")) << "";  // there is no node for comedi0
   const auto found = check_class_devices(machine);
   fs::remove_all(machine.root);
   ASSERT_EQ(found.size(), 2U);
@@ -29,8 +29,8 @@ TEST(CheckClassDevices, ChecksEachBoardOfTheKernel) {
   EXPECT_NE(found[1].remedy.find("iocard"), std::string::npos);
 }
 
-// A simulated computer made of files: devices in /sys, and nodes in /dev that this user may open,
-// or none.
+// A simulated computer that consists of files: devices in /sys and nodes in /dev. This user may
+// open the nodes, or there are no nodes.
 class CheckUsb : public testing::Test {
  protected:
   ~CheckUsb() override { fs::remove_all(machine.root); }
@@ -57,7 +57,8 @@ TEST_F(CheckUsb, ChecksTheNodeThatTheDriverOpens) {
   plug("1-2", "1dc3", "1001", "PoLabs");
   plug("1-3", "0403", "6001", "US Digital");
   write("dev/bus/usb/001/009", "");
-  write("sys/bus/usb/devices/1-2/1-2:1.0/0003:1DC3:1001.0001/hidraw/hidraw0/dev", "");  // keyboard
+  // A keyboard.
+  write("sys/bus/usb/devices/1-2/1-2:1.0/0003:1DC3:1001.0001/hidraw/hidraw0/dev", "");
   write("sys/bus/usb/devices/1-2/1-2:1.1/0003:1DC3:1001.0002/hidraw/hidraw1/dev", "");
   write("sys/bus/usb/devices/1-3/1-3:1.0/ttyUSB0/tty/ttyUSB0/dev", "");
   write("dev/ttyUSB0", "");
@@ -74,7 +75,7 @@ TEST_F(CheckUsb, ChecksTheNodeThatTheDriverOpens) {
 }
 
 TEST_F(CheckUsb, IgnoresDevicesOfOtherMakers) {
-  plug("1-1", "0403", "6001", "FTDI");  // the chip of a QSB in a cable of another maker
+  plug("1-1", "0403", "6001", "FTDI");  // a QSB has the same chip; this cable is from another maker
   plug("1-2", "09db", "0001", "MCC");
   EXPECT_TRUE(check_usb(machine).empty());
 }
@@ -86,7 +87,8 @@ TEST_F(CheckUsb, ReportsADeviceWithoutANode) {
   EXPECT_EQ(found[0].what, "USB: PoKeys, serial 77: Linux has no /dev/hidraw for the device");
 }
 
-// With the file permissions that the udev rules set, and without them.
+// In the first case the files have the permissions that the udev rules set. In the second case
+// they do not.
 TEST(CheckSysfsFiles, TheServiceMustBeAbleToWriteTheRate) {
   const Machine machine{fs::temp_directory_path() /
                         ("mdof_doctor_iio_test." + std::to_string(::getpid()))};
@@ -119,8 +121,8 @@ TEST(CheckSysfsFiles, TheServiceMustBeAbleToWriteTheRate) {
   EXPECT_EQ(others[0].level, Diagnosis::Level::doubtful);
 }
 
-// The row of a counter names several files for each count; the first file without permission is
-// reported.
+// A counter has several files for each count. The check reports the first file that may not be
+// written.
 TEST(CheckSysfsFiles, EachCountOfACounterMustBeWritable) {
   const Machine machine{fs::temp_directory_path() /
                         ("mdof_doctor_counter_test." + std::to_string(::getpid()))};

@@ -1,5 +1,5 @@
-// Access of the packaged service to devices on a network: the drop-in, and the messages that name
-// the command for it.
+// The packaged service may reach network devices only if a drop-in allows their addresses. Checks
+// the drop-in, and the messages that name the command for it.
 #include "tools/mdof/checks/network_access.h"
 #include "daemon/words/error_text.h"
 
@@ -28,7 +28,7 @@ class NetworkAccess : public testing::Test {
 
   fs::path units() const { return machine.root / "etc/systemd/system"; }
   void install() { std::ofstream(units() / "mdofd.service") << "[Service]\n"; }
-  // Checks a configuration with one device at each address.
+  // Checks a configuration with one network device at each address, and returns the findings.
   std::string found(const std::vector<std::string>& addresses) const {
     daemon::Config config;
     auto& axis = config.axes.emplace_back();
@@ -37,7 +37,7 @@ class NetworkAccess : public testing::Test {
       device.name = "at " + address;
       device.identity = [address] { return "tcp " + address + ":502 unit 1"; };
     }
-    axis.devices.emplace_back();  // on USB
+    axis.devices.emplace_back();  // this device is on USB
     std::string all;
     for (const auto& d : check_network(machine, config))
       all += std::string(to_string(d.level)) + " " + d.what + " | " + d.remedy + "\n";
@@ -54,7 +54,7 @@ TEST_F(NetworkAccess, WritesADropInForSystemd) {
   std::stringstream text;
   text << std::ifstream(*file).rdbuf();
   EXPECT_NE(text.str().find("\n[Service]\nIPAddressAllow=192.168.0.0/24\n"), std::string::npos);
-  EXPECT_TRUE(allow_address(units(), "192.168.0.0/24"));  // a second time
+  EXPECT_TRUE(allow_address(units(), "192.168.0.0/24"));  // the same address again
 }
 
 TEST_F(NetworkAccess, RefusesInvalidAddresses) {
@@ -83,7 +83,7 @@ TEST_F(NetworkAccess, WithoutPermissionTheErrorNamesTheCommand) {
 }
 
 TEST_F(NetworkAccess, DoctorNamesUnreachableDevices) {
-  EXPECT_EQ(found({"192.168.0.7"}), "");  // the service is not installed
+  EXPECT_EQ(found({"192.168.0.7"}), "");  // the service is not installed, so nothing is reported
   install();
   EXPECT_EQ(found({"127.0.0.1", "[::1]"}), "");
   const std::string reported = found({"192.168.0.7", "192.168.1.9"});
@@ -111,7 +111,8 @@ TEST_F(NetworkAccess, ConnectErrorsNameTheSetupCommand) {
   };
   EXPECT_TRUE(names_setup_command(EPERM, true));
   EXPECT_TRUE(names_setup_command(EPERM, false));
-  EXPECT_TRUE(names_setup_command(ETIMEDOUT, true));  // the kernel drops the packets
+  // The kernel drops the packets, so the connection times out.
+  EXPECT_TRUE(names_setup_command(ETIMEDOUT, true));
   EXPECT_FALSE(names_setup_command(ETIMEDOUT, false));
   EXPECT_FALSE(names_setup_command(ECONNREFUSED, true));
 }

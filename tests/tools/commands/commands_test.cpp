@@ -13,14 +13,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "device probe" -> device_probe; "iso230-2" -> iso230_2
+// The name of a command's source file: "device probe" gives device_probe, "iso230-2" gives
+// iso230_2.
 std::string file_name_of(std::string command) {
   for (char& c : command)
     if (c == ' ' || c == '-') c = '_';
   return command;
 }
 
-// The commands that the source files define: {device_probe: device_probe.cpp}.
+// The commands that the source files define, each with its file: {device_probe: device_probe.cpp}.
 std::map<std::string, std::string> defined_commands() {
   const fs::path root = fs::path(MDOF_TEST_DATA).parent_path().parent_path();
   const std::regex definition("Command (\\w+)_command\\(\\)");
@@ -53,7 +54,7 @@ TEST(Commands, EachCommandIsCalledByItsName) {
   }
 }
 
-// The error for this value of the option; empty: the value is accepted.
+// The error message for this value of the option; empty if the value is accepted.
 std::string reported(const Command& row, const CLI::Option& option, const std::string& value) {
   CLI::App app("", "mdof");
   Action chosen;
@@ -63,7 +64,7 @@ std::string reported(const Command& row, const CLI::Option& option, const std::s
   try {
     app.parse(words);
   } catch (const CLI::RequiredError&) {
-    return "";  // about another option
+    return "";  // this error is about another option
   } catch (const CLI::ParseError& error) {
     return error.what();
   }
@@ -74,7 +75,7 @@ TEST(Commands, EachNumberIsFiniteAndItsLimitsAreReadable) {
   const std::regex many_digits("\\d{30}");
   int numbers = 0;
   for (const Command& row : all_commands()) {
-    if (std::string(row.name) == "sensitivity") continue;  // it checks its numbers itself
+    if (std::string(row.name) == "sensitivity") continue;  // this command checks its numbers itself
     CLI::App app("", "mdof");
     row.declare(app);
     for (const CLI::Option* option : app.get_options()) {

@@ -25,7 +25,7 @@ std::uint32_t word_at(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-// A submit command in the form that the kernel's vhci_hcd writes.
+// A submit command as the kernel's vhci_hcd sends it.
 std::string submit(std::uint32_t number, int endpoint, std::uint32_t length,
                    const std::string& setup = "", const std::string& out = "", bool in = true) {
   std::string text = word(1) + word(number) + word(0x10002) + word(in ? 1 : 0) +
@@ -45,7 +45,7 @@ struct Got {
   std::uint32_t actual;
   std::string bytes;
 };
-// `in`: the transfers go to the host and carry bytes.
+// `in`: the transfers are IN transfers, so the answers contain bytes.
 std::vector<Got> parse(std::string text, bool in = true) {
   std::vector<Got> all;
   while (text.size() >= 48) {

@@ -1,6 +1,6 @@
-// Checkpoints of studies. The input is a checkpoint; or, after a first byte of 1, it lists changes
-// to a valid checkpoint (three bytes each: place, place, value). An accepted checkpoint can be
-// continued.
+// Checkpoints of studies. If the first byte of the input is not 1, the input is a checkpoint. If
+// it is 1, the other bytes are changes to a valid checkpoint. Each change has three bytes: two for
+// the place, one for the value. It must be possible to continue an accepted checkpoint.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Whole simulated runs as trials of a study.
+// Trials of a study that are whole simulated runs.
 #include "tools/mdof/study/running/run_experiment.h"
 
 #include <gtest/gtest.h>
@@ -41,8 +41,8 @@ TEST(StudyRun, ARunWithoutPerturbationFindsTheTruth) {
     for (const double v : output) EXPECT_NEAR(v, 0, 1e-4);
 }
 
-// 1 % of the readings of the side probes: at most 20 nm of a wave of ±2 µm, and less if no target
-// is at its crest.
+// The side probes have an error of sensitivity of 1 %, and the wave of EYX has ±2 µm. A reading is
+// then wrong by at most 20 nm, or less if no target is at the maximum of the wave.
 TEST(StudyRun, ASensitivityErrorAppearsInTheRun) {
   const auto x = run(plan_text(constant("probe.D.sensitivity_percent", 1) +
                                    constant("probe.E.sensitivity_percent", 1),
@@ -54,14 +54,16 @@ TEST(StudyRun, ASensitivityErrorAppearsInTheRun) {
   }
 }
 
-// Means of about 100 samples with 50 nm noise: a pitch (A, B, C) of a few µrad without motion.
+// The axis has no errors of motion. The means of about 100 samples with 50 nm of noise (A, B, C)
+// give a pitch of some µrad.
 TEST(StudyRun, NoiseIsAveragedByTheDwell) {
   const std::string noise =
       "[[quantity]]\nname = \"probe.*.noise_nm\"\ndistribution = \"normal\"\nsd = 50\n";
   const auto x = run(plan_text(noise, "EYX_um = [0]\n"), 20);
   double mean = 0;
   for (const double v : x[1]) mean += v / 20;
-  // One reading has sd 50 √1.5/10 = 6.1 µrad; the worst of six means of 60 to 160 is about 1.
+  // The pitch from one sample has sd = 50 √1.5/10 = 6.1 µrad. A mean has 60 to 160 samples. The
+  // largest of six means is about 1 µrad.
   EXPECT_GT(mean, 0.4);
   EXPECT_LT(mean, 1.6);
 }

@@ -1,4 +1,4 @@
-// The runner of studies gives the same bytes for any division and interruption of the work.
+// The bytes of a study's result must not depend on the number of threads or on interruptions.
 #include "tools/mdof/study/running/runner.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@
 namespace mdof::tools {
 namespace {
 
-// A normal and a skewed output; some trials have no solution. Requests an interrupt when it first
-// reaches a given trial.
+// An experiment with a normal and a skewed output. Some trials have no solution. After arm(), it
+// requests an interrupt when it reaches the trial `interrupt_at`.
 class Noise final : public algo::Experiment {
  public:
   explicit Noise(std::uint64_t interrupt_at = ~std::uint64_t{0}) : interrupt_at_(interrupt_at) {}
@@ -67,7 +67,7 @@ StudyWork work_of(const algo::Experiment& experiment, const RunnerOptions& optio
   return empty_work(experiment, algo::pilot_scale(experiment, trials));
 }
 
-// The checkpoint without the elapsed time.
+// The bytes of a checkpoint with elapsed time 0.
 std::string bytes_of(StudyWork& work) {
   work.elapsed_s = 0;
   return checkpoint_bytes(work);
@@ -81,7 +81,8 @@ std::string run_through(const algo::Experiment& experiment, const RunnerOptions&
   return bytes_of(work);
 }
 
-// Interrupts the study once, stores and reads it, and continues it with another number of threads.
+// Interrupts the study once, writes and reads its checkpoint, and continues the study with another
+// number of threads.
 std::string run_interrupted(Noise& experiment, RunnerOptions options,
                             std::optional<std::uint64_t> after = std::nullopt) {
   Processes processes = Processes::join().value();
@@ -111,9 +112,9 @@ TEST(StudyRunner, GivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(one, run_through(noise, fixed(kTrials, 5)));
 }
 
-// Slow trials use shorter blocks. An interrupt discards the block in progress.
+// If trials are slow, blocks are shorter. An interrupt discards the current block.
 TEST(StudyRunner, SlowTrialsAreInterruptedWithinABlock) {
-  constexpr std::uint64_t kBlock = 4 * 512;  // four bins
+  constexpr std::uint64_t kBlock = 4 * 512;  // 512 trials for each of four bins
   Noise noise(3 * kBlock + 10);
   RunnerOptions slow = fixed(20000, 3);
   slow.slow = true;
@@ -139,7 +140,8 @@ TEST(StudyRunner, AContinuedStudyGivesTheSameBytes) {
 TEST(StudyRunner, AContinuedAdaptiveStudyGivesTheSameBytes) {
   Noise noise(60000);
   const std::string whole = run_through(noise, adaptive(1));
-  EXPECT_EQ(whole, run_through(noise, adaptive(4)));  // surplus blocks have no effect
+  // Blocks that are calculated too much have no effect.
+  EXPECT_EQ(whole, run_through(noise, adaptive(4)));
   EXPECT_EQ(whole, run_interrupted(noise, adaptive(2)));
 }
 
@@ -157,7 +159,7 @@ TEST(StudyRunner, TheAdaptiveRuleEndsAtItsLimit) {
   EXPECT_LT(work.trials, 100000u + algo::block_trials(noise));
 }
 
-// An experiment whose second output has no solution.
+// An experiment whose second output never has a solution.
 class HalfSolved final : public algo::Experiment {
  public:
   const std::vector<std::string>& outputs() const override { return noise_.outputs(); }
@@ -192,9 +194,10 @@ TEST(StudyRunner, ADamagedCheckpointIsAnError) {
   for (std::size_t at = 0; at < std::min<std::size_t>(bytes.size(), 600); ++at) {
     std::string damaged = bytes;
     damaged[at] = static_cast<char>(~damaged[at]);
-    (void)parse_checkpoint(damaged, noise);  // any result is accepted; the sanitizers detect errors
+    // Any result is permitted; sanitizers detect the errors.
+    (void)parse_checkpoint(damaged, noise);
   }
-  EXPECT_TRUE(parse_checkpoint(bytes, Noise(7)));  // an experiment of the same shape
+  EXPECT_TRUE(parse_checkpoint(bytes, Noise(7)));  // this experiment has the same outputs and bins
 }
 
 TEST(StudyWorkers, DoExactlyTheFirstPieces) {

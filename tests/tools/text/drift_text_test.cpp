@@ -5,7 +5,8 @@
 namespace mdof::tools {
 namespace {
 
-// A run of 3 min: δy +0.25 µm as a drift, δz +0.5 µm that may be steps.
+// A run of 3 min with two drifts: δy changes by +0.25 µm as a drift, δz by +0.5 µm, which may be
+// steps.
 algo::RunDrift drift_and_steps() {
   algo::RunDrift drift;
   drift.length_s = 180;

@@ -76,14 +76,14 @@ TEST(TextTable, BreaksLongWordsButNoPaths) {
   }
 }
 
-// GUM 7.2.6 with its own example: 10.057 62 Ω with u = 27 mΩ is 10.058 Ω.
+// The example of GUM 7.2.6: 10.057 62 Ω with u = 27 mΩ is written as 10.058 Ω.
 TEST(Rounded, UHasTwoDigitsAndTheValueTheSamePlace) {
   EXPECT_EQ(with_u(10.05762, 0.027, 4), "10.058 ± 0.027");
   EXPECT_EQ(with_u(12.3456, 1.149, 4), "12.3 ± 1.1");
-  EXPECT_EQ(with_u(-0.123456, 0.00996, 4), "-0.123 ± 0.010");  // 0.00996 is 0.010
+  EXPECT_EQ(with_u(-0.123456, 0.00996, 4), "-0.123 ± 0.010");  // 0.00996 is rounded to 0.010
   EXPECT_EQ(with_u(12345.6, 1234, 4), "12300 ± 1200");
   EXPECT_EQ(with_u(1.25, 99.6, 4), "0 ± 100");
-  EXPECT_EQ(with_u(-1e-9, 0.5, 4), "0.00 ± 0.50");  // never -0
+  EXPECT_EQ(with_u(-1e-9, 0.5, 4), "0.00 ± 0.50");  // the result is never -0
   EXPECT_EQ(um_with_u(1.23456e-6, 3.21e-9), "1.2346 ± 0.0032");
   EXPECT_EQ(urad_with_u(1.23456e-6, 0.32e-6), "1.23 ± 0.32");
   EXPECT_EQ(um_to_place(1.23456e-6, 0.64e-6), "1.23");
@@ -93,13 +93,13 @@ TEST(Rounded, UHasTwoDigitsAndTheValueTheSamePlace) {
 TEST(Rounded, AColumnWithSimilarUHasOnePlace) {
   EXPECT_EQ(column_u({0.9, 1.1, 0.5}), 1.1);
   EXPECT_EQ(column_u({0.2, 1.0}), 1.0);
-  EXPECT_EQ(column_u({0.19, 1.0}), 0);  // would have only one digit
+  EXPECT_EQ(column_u({0.19, 1.0}), 0);  // with the place of 1.0, 0.19 would have only one digit
   EXPECT_EQ(column_u({}), 0);
   EXPECT_EQ(um_with_u(1e-6, 0.99e-9, 1.1e-9), "1.0000 ± 0.0010");
   EXPECT_EQ(urad_with_u(1e-6, 0.099e-6, 0.11e-6), "1.00 ± 0.10");
 }
 
-// If u is unknown, the number has its usual decimals.
+// If u is unknown, the number has the usual number of decimals.
 TEST(Rounded, WithoutUHasTheUsualDecimals) {
   EXPECT_EQ(um_to_place(1.23456e-6, 0), "1.2346");
   EXPECT_EQ(urad_to_place(1.23456e-6, kNaN), "1.235");
@@ -136,7 +136,7 @@ TEST(NoticeLines, ShowsThreeOfACodeAndACount) {
   EXPECT_EQ(few[4].severity, Severity::doubtful);
   EXPECT_EQ(summarised(many, true), many);
   const Notices four(many.begin() + 1, many.begin() + 5);
-  EXPECT_EQ(summarised(four), four);  // "and 1 more" would save nothing
+  EXPECT_EQ(summarised(four), four);  // a line "and 1 more" would be as long as the fourth notice
 }
 
 TEST(TerminalColumns, APipeHas80OrTheStatedColumns) {
@@ -212,8 +212,8 @@ TEST(RunCsv, HasUnitsAndEmptyCellsForUnknownValues) {
             std::string::npos);
 }
 
-// The keys state errors of the moving body. If the fixture moves, the errors have the opposite
-// sign, as in the JSON.
+// The keys of the errors are for the moving body. If the fixture moves, the errors in the CSV have
+// the opposite sign, as in the JSON.
 TEST(RunCsv, StatesTheErrorsOfTheMovingBody) {
   auto run = one_point(true, "");
   EXPECT_NE(points_csv(run, noise_of(run)).find(",-123.4567,"), std::string::npos)

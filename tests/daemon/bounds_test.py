@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Every parameter of every method has a bound. mdofd refuses a value beyond the bound at once and by its name, and
-continues to serve.
+"""Every parameter of every method has a limit. If a value exceeds its limit, mdofd rejects the request at once,
+names the parameter, and continues to serve.
 
 usage: bounds_test.py MDOFD MDOF"""
 import os
@@ -15,11 +15,11 @@ from result_schemas import methods  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 USAGE = -32602
-LONG = 60_000  # bytes of a value that still fits into a request line
+LONG = 60_000  # bytes; a value of this length still fits into a request line
 
 
 def beyond(schema):
-    """Values of the right type that no method may accept."""
+    """Values that have the right type and that every method must reject."""
     kind = schema["type"]
     if kind == "string":
         return ["x" * (schema["maxLength"] + 1)] if schema["maxLength"] < LONG else []

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""mdof beside a running daemon: stop, replay into its database, and the same replies with and without it.
+"""mdof beside a running mdofd: it stops runs, it replays into the database of mdofd, and its replies are the same
+with and without mdofd.
 
 usage: command_line_test.py MDOFD MDOF"""
 import contextlib
@@ -110,7 +111,7 @@ class FreeText(CommandLine):
 
 class Record(CommandLine):
     def test_ends_with_what_show_prints_and_fits_the_terminal(self):
-        # A run is shown whether it is complete or not.
+        # A run is shown whether or not it is complete.
         _, out, _ = mdof("record", "--axis", "X", "--for-s", 6, "--socket", self.daemon.socket)
         run = self.client.call("run.list")["runs"][0]["run"]
         self.assertEqual(re.search(r"^run (\d+), axis X", out, re.MULTILINE)[1], str(run))
@@ -120,12 +121,12 @@ class Record(CommandLine):
 
 
     def test_names_the_run_that_has_the_result(self):
-        # A run that begins in reverse numbers its targets anew when it reaches lower ones.
+        # If a run begins in reverse, it numbers its targets again when it reaches targets at smaller positions.
         other = Daemon(MDOFD, os.path.join(self.folder.name, "back"), simulator("X", dwell_s=0.4))
         client = other.start()
         self.addCleanup(other.stop)
         for attempt in range(12):
-            time.sleep(0.3 * attempt)  # in another part of the cycle
+            time.sleep(0.3 * attempt)  # starts in another part of the cycle
             _, _, err = mdof("record", "--axis", "X", "--for-s", 3.5, "--socket", other.socket)
             newest = client.call("run.list", count=1)["runs"][0]
             if newest["supersedes"]:
@@ -134,7 +135,7 @@ class Record(CommandLine):
         self.assertIsNotNone(before, err)
         self.assertIn(f"run {newest['run']} contains the result", err)
         self.assertIn(f"contains the result and replaces run {before}", err)
-        # Only one run of one measurement is listed.
+        # Several runs may come from one measurement. Only one of them is listed.
         started = [r["started_utc"] for r in json.loads(self.done("runs", "--db", other.database, "--json"))["runs"]]
         self.assertEqual((len(set(started)), started[0]), (len(started), newest["started_utc"]))
         self.assertNotRegex(self.done("runs", "--db", other.database), rf"(?m)^ *{before} ")
@@ -189,8 +190,7 @@ class Replay(CommandLine):
             self.client.call("run.replay", path=LOG["X"], rig=open(RIG["X"]).read(), settle_s=-1)
 
     def wait_until_read(self):
-        """Waits until the daemon's thread that reads a CSV log exists: the replay itself takes only 0.2 s on a fast
-        computer."""
+        """Waits until mdofd has started the thread that reads a CSV log. The replay itself may take only 0.2 s."""
         tasks = f"/proc/{self.daemon.process.pid}/task"
         for _ in range(10_000):
             for task in os.listdir(tasks):
@@ -217,7 +217,7 @@ class Replay(CommandLine):
 
 
 class Holder(CommandLine):
-    """A command acts on the named database or not at all."""
+    """A command either acts on the named database or does nothing."""
 
     def setUp(self):
         super().setUp()
@@ -272,14 +272,16 @@ class TheSame(unittest.TestCase):
         self.folder.cleanup()
 
     def counted(self, name, text):
-        """Replaces generations, which are seconds since 1970 or later: the first of a database is 1, the next 2, ..."""
+        """Replaces each generation by 1, 2, ... in the order of their first occurrence. A generation is a time in
+        seconds since 1970, so it differs from run to run."""
         seen = self.generations[name]
 
         def count(match):
             if match[0] not in seen:
                 seen.append(match[0])
             return str(seen.index(match[0]) + 1)
-        return re.sub(r"(?<![\d.])\d{10}(?![\d.])", count, text)  # no digits of a fraction
+        # The digits after a decimal point are not a generation.
+        return re.sub(r"(?<![\d.])\d{10}(?![\d.])", count, text)
 
     def generation(self, reply):
         return int(self.counted("daemon", str(reply["generation"])))

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The database while mdofd uses it: links to it, other databases, its removal; and lists of its contents.
+"""The database while mdofd uses it: links to it, other databases, its removal, and the lists that it contains.
 
 usage: database_test.py MDOFD MDOF"""
 import contextlib
@@ -114,10 +114,10 @@ class Database(unittest.TestCase):
             self.refused(reason, "compensation.activate", despite_warnings=True, table=table)
             self.refused(reason, "compensation.deactivate", axis="X")
             self.refused(reason, "compensation.build", runs=[1])
-            self.assertEqual(self.client.call("compensation.status"), before)  # the active tables stay active
+            self.assertEqual(self.client.call("compensation.status"), before)  # the same tables are active
         code, out, _ = mdof("status", "--socket", self.daemon.socket)
         self.assertIn("storage lost", out)
-        os.rename(aside, self.daemon.database)  # the same file
+        os.rename(aside, self.daemon.database)  # restores the same file
         self.wait_for_event(watcher, "")
         self.client.call("compensation.deactivate", axis="X")
 
@@ -128,7 +128,8 @@ class Database(unittest.TestCase):
                 return
 
     def acknowledged(self):
-        """A run and an active table whose data are only in the -wal file: returns the rows and the active table."""
+        """Makes a run and an active table whose data are only in the -wal file. Returns the rows and the active
+        table."""
         run = self.replayed()
         self.client.call("compensation.activate", despite_warnings=True,
                          table=self.client.call("compensation.build", runs=[run])["table"])
@@ -140,8 +141,8 @@ class Database(unittest.TestCase):
         run = self.client.call("run.list")["runs"][0]["run"]
         return self.client.points(run), self.client.call("compensation.status")
 
-    # Closing a second descriptor would release the locks of SQLite; the next program that closes the database would
-    # then delete the -wal.
+    # If mdofd opened a file of its own a second time, closing this descriptor would release the locks of SQLite. The
+    # next program that closes the database would then delete the -wal.
     def test_the_own_files_are_never_opened_a_second_time(self):
         before = self.acknowledged()
         hard, soft = (os.path.join(self.folder.name, name) for name in ("hard", "soft"))
@@ -151,7 +152,8 @@ class Database(unittest.TestCase):
         recording = self.client.call("run.get", run=run)["recording"]["path"]
         for path in (*(self.daemon.database + end for end in ("", "-wal", "-shm")), hard, soft, recording, recording + "-shm"):
             with open(RIG["X"]) as rig:
-                reason = "" if path == soft else "mdofd is writing this file"  # a link may be refused because it is a link
+                # A link may be rejected because it is a link.
+                reason = "" if path == soft else "mdofd is writing this file"
                 self.refused(reason, "run.replay", path=path, rig=rig.read())
         os.remove(hard)
         self.client.call("run.stop", run=run, abort=True)
@@ -184,10 +186,10 @@ class Database(unittest.TestCase):
                 self.assertEqual(self.after_a_kill(), before)
                 self.assertEqual(self.client.call("server.info")["storage"], "ok")
 
-    # Lost data cannot be recovered, but the database must not look as if they had never existed.
+    # Lost data cannot be recovered. But mdofd must report that they are lost.
     def test_what_is_lost_with_a_wal_is_told_and_no_older_table_is_served(self):
         self.acknowledged()
-        self.daemon.stop()  # data stored before this are in the database file
+        self.daemon.stop()  # after this, the data are in the database file
         self.client = self.daemon.start()
         status = self.acknowledged()[1]
         self.head_told()
@@ -206,7 +208,7 @@ class Database(unittest.TestCase):
         self.assertEqual(code, 3)
         self.assertIn("which mdofd reported last", err)
         self.daemon.stop()
-        os.remove(self.daemon.database + ".head")  # as the message says
+        os.remove(self.daemon.database + ".head")  # the message recommends this
         self.client = self.daemon.start()
         self.assertEqual(self.client.call("server.info")["storage"], "ok")
         self.assertIn("X", self.client.call("compensation.status")["axes"])
@@ -224,7 +226,7 @@ class Database(unittest.TestCase):
             database.execute("DELETE FROM deed WHERE id = (SELECT max(id) FROM deed)")
             database.execute("DELETE FROM ledger WHERE id > (SELECT max(id) - 2 FROM ledger)")
 
-        def calculate_anew(database):  # recalculates only the last link; a consistent one would agree with the head
+        def calculate_anew(database):  # recalculates only the last hash, so the chain differs from the announced head
             database.execute("UPDATE ledger SET sha256 = ? WHERE id = (SELECT max(id) FROM ledger)", ("0" * 64,))
         for spoil in (cut, calculate_anew):
             for under_mdofd in (False, True):
@@ -263,7 +265,8 @@ class Database(unittest.TestCase):
             database.execute("UPDATE point SET dy_m = dy_m + 1e-6 WHERE run = ? AND row = 3", (run,))
         self.client.call("run.points", run=run, offset=0, count=2)
         self.refused("were changed after they were stored", "run.points", run=run, offset=2, count=2)
-        self.refused("were changed after they were stored", "run.points", run=run, offset=0, count=2)  # the run is now known to be changed
+        # Mdofd has now found that the run was changed.
+        self.refused("were changed after they were stored", "run.points", run=run, offset=0, count=2)
 
     def test_a_run_under_way_fails_with_that_reason(self):
         watcher = Client(self.daemon.socket)
@@ -301,7 +304,7 @@ class Database(unittest.TestCase):
     def test_a_run_that_no_line_holds_is_listed_shortened(self):
         self.replayed()
         self.daemon.stop()
-        with sqlite3.connect(self.daemon.database) as database:  # in the form of an older mdof
+        with sqlite3.connect(self.daemon.database) as database:  # the database as an older mdof wrote it
             database.execute("DROP TRIGGER run_no_update")
             database.execute("UPDATE run SET note = ?", ("n" * 100_000,))
         self.client = self.daemon.start()

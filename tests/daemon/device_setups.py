@@ -1,5 +1,5 @@
-"""Live setups, one for each driver: the simulated devices of mdof-simulate, the configuration of mdofd, and the
-accuracy of the result.
+"""Live setups, one for each driver. Each setup has simulated devices of mdof-simulate, a configuration of mdofd,
+and the required accuracy of the result.
 
 Each setup has five probes and an encoder at one simulated machine: EYX is a wave of 2 µm with a period of 10 mm, EBX
 is a wave of 30 µrad with a period of 8 mm. {NAME} is replaced by the address that mdof-simulate gives to port NAME
@@ -35,9 +35,10 @@ class Setup:
         self.rig = os.path.join(DATA, "devices", rig)
         self.plan, self.devices, self.measure = plan, devices, measure
         self.straightness_um, self.angle_urad = straightness_um, angle_urad
-        self.position_um = position_um  # largest distance of positions from the targets, if they are positions of the machine
-        self.usb = usb  # needs the kernel's vhci_hcd and root: in tests/vm
-        self.comedi = comedi  # needs comedi_by_rows.cpp instead of comedilib
+        # Largest distance between a position and its target; None if the positions are not machine positions.
+        self.position_um = position_um
+        self.usb = usb  # needs the kernel's vhci_hcd and root, so it runs in tests/vm
+        self.comedi = comedi  # needs the library comedi_by_rows.cpp instead of comedilib
         self.targets, self.dwell_s, self.speed_mm_s = list(targets), dwell_s, speed_mm_s
 
     def plan_text(self):
@@ -45,7 +46,8 @@ class Setup:
                               speed_mm_s=self.speed_mm_s) + self.plan
 
     def config_text(self, addresses):
-        """For a folder that contains the rig and is the working folder of mdof-simulate and mdofd."""
+        """The configuration. It is in a folder that contains the rig and is the working folder of mdof-simulate
+        and mdofd."""
         devices = self.devices
         for name, address in addresses.items():
             host, _, port = address.rpartition(":")
@@ -54,7 +56,7 @@ class Setup:
 
 
 def channels(**inputs):
-    """channels(A="AIN0", encoder=("DIO0", "um_per_count = 0.01"))"""
+    """Returns the text of the channels. Example: channels(A="AIN0", encoder=("DIO0", "um_per_count = 0.01"))"""
     rows = []
     for channel, row in inputs.items():
         row = row if isinstance(row, tuple) else (row,)
@@ -63,7 +65,7 @@ def channels(**inputs):
     return "channel = [" + ", ".join(rows) + "]\n"
 
 
-FAST = "most_counts_per_s = 1e9"  # simulated counters lose nothing, and this machine is fast
+FAST = "most_counts_per_s = 1e9"  # the simulated counters lose no counts, and the axis may move fast
 AINS = {channel: f"AIN{i}" for i, channel in enumerate("ABCDE")}
 T7_PLAN = """
 [[device]]
@@ -141,7 +143,7 @@ sample_time_us = 960
                       straightness_um=0.03, angle_urad=2),
     "labjack_t7": Setup("rig_volts_X.toml", T7_PLAN, T7 + channels(
         encoder=("DIO0", "um_per_count = 0.01", FAST), **AINS), straightness_um=0.03, angle_urad=2),
-    # The position as a voltage: half a code of the converter is 0.16 µm.
+    # The encoder is a voltage. Half a code of the converter is 0.16 µm.
     "position_in_volts": Setup("rig_position_volts_X.toml", """
 [[device]]
 name = "t7"
@@ -193,7 +195,7 @@ driver = "qsb"
 name = "scale"
 port = "{scale serial}"
 """ + channels(encoder=("count", "um_per_count = 0.1")), straightness_um=0.03, angle_urad=2, comedi=True),
-    # A scale of 0.1 mm per count; ten readings per second from each amplifier.
+    # The scale has 0.1 mm per count. Each amplifier has ten readings per second.
     "modbus": Setup("rig_volts_X.toml", """
 [[device]]
 name = "adam"
@@ -220,7 +222,7 @@ profile = "lika-smax"
 port = "{slide modbus}"
 """ + channels(encoder=("position", "um_per_count = 100")), straightness_um=0.05, angle_urad=3,
         measure="[measure]\nmax_gap_s = 0.5", targets=(10, 12, 14.1, 16.2), dwell_s=1.6, speed_mm_s=20),
-    # Capacitance converters at 30 scans per second, and a counter of the kernel at 200.
+    # Capacitance converters with 30 scans per second, and a counter of the kernel with 200 scans per second.
     "linux": Setup("rig_gaps_X.toml", """
 [[device]]
 name = "counter"
@@ -302,7 +304,7 @@ poll_ms = 10
 
 
 class Simulators:
-    """A running mdof-simulate with the plan of a setup."""
+    """A running mdof-simulate that uses the plan of a setup."""
 
     def __init__(self, program, setup, folder):
         plan = os.path.join(folder, "devices.toml")
@@ -322,8 +324,9 @@ class Simulators:
 
 
 def worst_errors(points, zero_mm=0.0):
-    """The largest difference from the truth for each error, at the fixture, each up to a constant. zero_mm: reading
-    of the encoder at 0, which shifts the positions but no error. The pitch acts on EZX through a lever."""
+    """The largest difference between each error at the fixture and its true value. A constant difference is
+    ignored. zero_mm: reading of the encoder at 0; it shifts the positions only. The pitch changes EZX, because
+    the fixture has a lever arm."""
     def pitch_urad(d):
         return 30 * math.sin(2 * math.pi * d / 8)
 

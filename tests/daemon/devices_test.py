@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Live devices on real sockets: two capaNCDT controllers and a T7, each with its own clock, measure one simulated
-machine. mdofd measures, records, and handles their faults.
+"""Live devices on real sockets measure one simulated machine: two capaNCDT controllers and a T7, each with its own
+clock. mdofd measures, records, and reacts to the faults of the devices.
 
 usage: devices_test.py MDOFD MDOF MDOF_SIMULATE"""
 import json
@@ -19,7 +19,7 @@ from mdofd import DATA, Client, Daemon, RpcError, notice_lines  # noqa: E402
 MDOFD, MDOF, SIMULATE = sys.argv[1:4]
 RIG = os.path.join(DATA, "devices", "rig_X.toml")
 TARGETS = [0, 2, 4.1, 6.2]
-# The device's own error of a reading: 24 bits of 2000 µm, 16 bits of 20 V times 10 µm/V, and noise.
+# Limits from the errors of the devices: 24 bits of 2000 µm, 16 bits of 20 V times 10 µm/V, and noise.
 STRAIGHTNESS_UM, ANGLE_URAD = 0.08, 6
 
 PLAN = """
@@ -101,12 +101,12 @@ input = "AIN1"
 """
 
 
-if os.environ.get("MDOF_SANITIZED"):  # with sanitizers the simulator needs more than a core at 4 kHz
+if os.environ.get("MDOF_SANITIZED"):  # with sanitizers, the simulator needs more than one core at 4 kHz
     CONFIG = CONFIG.replace("sample_time_us = 256", "sample_time_us = 960").replace("rate_hz = 4000", "rate_hz = 1000")
 
 
 class Simulators:
-    """mdof-simulate with a plan; it uses free ports the first time and the same ports after a restart."""
+    """mdof-simulate with a plan. At the first start it uses free ports; after a restart it uses the same ports."""
 
     def __init__(self, folder):
         self.plan = os.path.join(folder, "devices.toml")
@@ -194,7 +194,7 @@ class Devices(unittest.TestCase):
             self.assertLess(worst, STRAIGHTNESS_UM if key.endswith("_um") else ANGLE_URAD, key)
 
     def test_2_the_clocks_of_the_devices_are_reported(self):
-        # With 3 ms of jitter the drift is known to some ppm after half a minute.
+        # The jitter is 3 ms. After half a minute the drift is known to some ppm.
         def drift_ppm(name):
             clock = self.devices()[name]["clock"]
             return clock["drift_ppm"] if clock and clock["settled"] else math.inf
@@ -212,7 +212,8 @@ class Devices(unittest.TestCase):
         self.simulators.start()
         self.wait_until_all_flow()
         self.assertTrue(all(d["reopened"] > 0 for d in self.devices().values()))
-        # The T7 has lost its count after a power failure: no reading is good, because the position is unknown ...
+        # After the power failure, the count of the T7 begins at 0 again. Its position is unknown, so no reading is
+        # good ...
         self.wait_until(lambda: self.qualities() == {"suspect"}, "readings are not suspect")
         # ... until a user has restored the zero and restarts mdofd.
         self.daemon.stop()
@@ -242,12 +243,12 @@ class Devices(unittest.TestCase):
             self.assertIsNone(value["errors"])
         finally:
             self.simulators.start()
-            self.daemon.stop()  # the count of the T7 is not valid after its restart
+            self.daemon.stop()  # after the restart, the count of the T7 is not valid
             type(self).client = self.daemon.start()
 
     def say_where_it_stands(self):
-        """Sets the position that the axis already shows. The axis moves on by itself, so a late request is refused
-        or applies to another stop."""
+        """Sets the position that mdofd already shows. The axis moves all the time, so a late request is rejected,
+        or sets the position at another stop."""
         end = time.monotonic() + 120
         while time.monotonic() < end:
             watcher = Client(self.daemon.socket)
@@ -284,7 +285,8 @@ class Devices(unittest.TestCase):
         self.assertEqual(self.client.call("run.get", run=cut)["state"], "aborted")
         before = self.client.points(cut)
         self.wait_until_all_flow()
-        # It is unknown whether the device continued counting: two places could get one number.
+        # It is unknown whether the device has kept its count. If it has not, two positions would have the same target
+        # number.
         with self.assertRaisesRegex(RpcError, "has lost its datum since the run.*mdof encoder set"):
             self.client.call("run.resume", run=cut)
         self.say_where_it_stands()
@@ -302,15 +304,16 @@ class Devices(unittest.TestCase):
 
     def check_both_parts(self, header, cut, before):
         points = self.client.points(header["run"])
-        # Stored points are unchanged to the bit; only the last stop may have continued unseen. Its u contains the
-        # repeatability of the whole run, which now has more repeats.
+        # The stored points must not change in any bit. Only the last stop may change, because it may have continued
+        # during the fault. u of the points changes, because it includes the repeatability of the run, which now has
+        # more repeats.
         def stored(some):
             return [{k: v for k, v in p.items() if k not in ("u", "u_random", "U", "k", "nu_eff")} for p in some]
 
         self.assertEqual(stored(points[:len(before) - 1]), stored(before[:-1]))
         again, last = stored([points[len(before) - 1], before[-1]])
         self.assertTrue(again == last or "interrupted" in again["flags"], (again, last))
-        # A stop that was interrupted may lack a probe: then it has no errors and gives the reason.
+        # An interrupted stop may have no reading of a probe. Then the point has no errors and has a reason.
         solved = [p for p in points if p["EYX_um"] is not None]
         self.assertTrue(all(p["flags"] for p in points if p not in solved), points)
         self.assertGreaterEqual(len(solved), 16)

@@ -26,7 +26,7 @@ def wait_until_all_flow(client, timeout_s=60):
     end = time.monotonic() + timeout_s
     while True:
         devices = client.call("device.list")["devices"]
-        # Before this, mdofd warns that times may be wrong, and on a busy computer the packets are late.
+        # Before the clocks have settled, mdofd warns that times may be wrong. On a busy computer this takes longer.
         settled = all(not d["clock"] or d["clock"]["settled"] for d in devices)
         if settled and all(d["state"] == "open" and d["scans"] > 20 for d in devices):
             return
@@ -35,7 +35,8 @@ def wait_until_all_flow(client, timeout_s=60):
 
 
 def shown_at_zero_mm(daemon, setup):
-    """The reading of an incremental encoder at the first target; it counts from its position when it was opened."""
+    """The reading of an incremental encoder at the first target. Its zero is the position at which mdofd opened
+    the device."""
     watcher = Client(daemon.socket)
     watcher.call("live.subscribe", interval_ms=20, events=False)
     pass_s = 2 * len(setup.targets) * (setup.dwell_s + 1)
@@ -44,15 +45,15 @@ def shown_at_zero_mm(daemon, setup):
         value = watcher.next_note()["params"]["value"]
         if value["still"]:
             stops.append(round(value["encoder_mm"], 2))
-    # The axis reverses beyond the last targets without a stop.
+    # The axis also reverses beyond the last targets, but does not stop there.
     return min(s for s in set(stops) if stops.count(s) > 0.02 * len(stops)) - setup.targets[0]
 
 
 def measured(daemon, client, targets, axis="X", meanwhile=lambda run: None):
-    """Returns the id of a complete run: each target once, in both directions."""
+    """Measures a complete run, with each target once in both directions. Returns its id."""
     watcher = Client(daemon.socket, timeout_s=120)
     watcher.call("live.subscribe", interval_ms=20)
-    # A run that begins at the very end of a stop also contains this stop, with too few readings to be solved.
+    # If a run begins at the end of a stop, it includes this stop. The stop then has too few readings for a point.
     while not (value := watcher.next_note()["params"]["value"]).get("axis") == axis or value.get("still", True):
         pass
     run = client.call("run.start", axis=axis, targets_mm=targets, repeats=1)["run"]
@@ -100,7 +101,7 @@ def check(options, name):
             daemon.process.kill()
             daemon.process.wait()
         recording = header["recording"]["path"]
-        again = replayed(options.mdof, recording)  # no option: the requested options are in the recording
+        again = replayed(options.mdof, recording)  # no options are needed: the recording contains them
         assert again["points"] == points, f"{name}: a replay gives other points"
         for key in ("state", "options", "straightness", "angles", "note"):
             assert again[key] == header[key], f"{name}: a replay gives another {key}"

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""An incremental encoder starts at 0 at any position of the axis: runs and tables state this until a user sets the
-position (encoder.set, mdof encoder set) or the configuration gives it (offset_mm); and again after its device has
-lost power.
+"""An incremental encoder starts at 0 at any position of the axis. Runs and tables state this until the position is
+known: a user sets it (encoder.set, mdof encoder set), or the configuration contains it (offset_mm). If the
+device loses power, runs and tables state it again.
 
 usage: encoder_datum_test.py MDOFD MDOF MDOF_SIMULATE"""
 import json
@@ -35,7 +35,7 @@ class EncoderDatum(unittest.TestCase):
         self.setup_.targets, self.setup_.dwell_s = TARGETS, 0.5
         shutil.copy(self.setup_.rig, self.folder.name)
         self.simulators = Simulators(SIMULATE, self.setup_, self.folder.name)
-        self.addCleanup(lambda: self.simulators.kill())  # the simulators at that time
+        self.addCleanup(lambda: self.simulators.kill())  # ends the simulators that run at the end of the test
 
     def begin(self, change=lambda text: text):
         self.offset_mm, self.said_mm = 0, []
@@ -67,7 +67,7 @@ class EncoderDatum(unittest.TestCase):
         return started, self.client.call("run.get", run=run), self.client.points(run)
 
     def shown_still(self):
-        """A fresh reading of the axis at rest."""
+        """A new reading of the axis at rest."""
         watcher = Client(self.daemon.socket)
         watcher.call("live.subscribe", interval_ms=20, events=False)
         since = None
@@ -89,8 +89,8 @@ class EncoderDatum(unittest.TestCase):
         return float(re.search(r"offset ([\d.-]+) mm", out).group(1))
 
     def set_at_rest(self, wanted_mm, set_position):
-        """Sets the position so that the count becomes `wanted_mm` of the machine. The axis moves on by itself: a
-        late request is refused or applies to another stop, and is repeated."""
+        """Sets the machine position of the axis to `wanted_mm`. The axis moves all the time, so a late request is
+        rejected or sets the position at another stop. In this case the request is repeated."""
         for _ in range(100):
             position_mm = self.shown_still() + wanted_mm - self.offset_mm
             try:
@@ -114,8 +114,8 @@ class EncoderDatum(unittest.TestCase):
         self.assertEqual(code, 0, err)
         self.assertIn("has no datum", " ".join(out.split()))
         self.assertIn("mdof encoder set", " ".join(out.split()))
-        # This is information about the run, not a warning: the motion of the axis is correct, but a table would be
-        # shifted.
+        # The notice is information and not a warning. The errors of the axis are correct; only the positions of a
+        # table would be shifted.
         code, out, err = self.mdof("compensation", "build", header["run"], "--db", self.daemon.database,
                                    "--socket", self.daemon.socket, "--json")
         self.assertEqual(code, 0, err)
@@ -139,7 +139,7 @@ class EncoderDatum(unittest.TestCase):
             nearest = min(TARGETS, key=lambda t: abs(t + 112.5 - p["position_mm"]))
             self.assertLess(abs(nearest + 112.5 - p["position_mm"]), 0.01, p)
         self.check_replay(header)
-        # Setting the position twice does not add the offset twice.
+        # If a user sets the position twice, the second offset replaces the first.
         self.set_at_rest(0, self.set_by_rpc)
 
     def check_replay(self, header):
@@ -158,7 +158,7 @@ class EncoderDatum(unittest.TestCase):
             self.client.call("encoder.set", axis="X", position_mm=1)
         time.sleep(0.3)
         self.client.call("run.stop", run=run, abort=True)
-        refused = 0  # over a whole pass: the axis moves for a part of it
+        refused = 0  # for a whole pass, because the axis is moving only in a part of it
         end = time.monotonic() + 4
         while time.monotonic() < end:
             try:
@@ -269,7 +269,7 @@ class EncoderDatum(unittest.TestCase):
         self.assertIn("SQLITE_BUSY", told)
         self.assertEqual((self.encoder()["datum"], self.encoder()["offset_mm"]), ("none", 0))
         self.assertEqual(self.client.call("history.list")["total"], 0)
-        self.set_at_rest(5, self.set_by_rpc)  # the axis is free again
+        self.set_at_rest(5, self.set_by_rpc)  # encoder.set is possible again
 
     def test_the_configuration_may_say_it(self):
         self.begin(lambda text: text.replace('input = "DIO0"', 'input = "DIO0", offset_mm = -250.25'))
@@ -295,7 +295,8 @@ class EncoderDatum(unittest.TestCase):
 
 
 class Units(unittest.TestCase):
-    """A position in volts is refused for every device: by the line of the configuration, with a remedy."""
+    """For every device, mdofd rejects a position in volts without a scale. The message has the line of the
+    configuration and a remedy."""
 
     def test_an_encoder_in_volts_is_refused_before_anything_is_opened(self):
         with tempfile.TemporaryDirectory() as folder:

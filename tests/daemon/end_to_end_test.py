@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""mdofd as a client sees it: runs, live view, squareness, compensation, and the same bits from a replay.
+"""mdofd from a client's view: runs, live view, squareness, compensation, and a replay with bit-identical results.
 
 usage: end_to_end_test.py MDOFD MDOF"""
 import fcntl
@@ -22,9 +22,9 @@ from result_schemas import methods  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 TARGETS = [0, 2, 4.1, 6.2]
-# X and Y carry the work, Z the tool: the corrections of EYX and EZX have opposite signs.
+# X and Y move the workpiece, Z moves the tool. Therefore the corrections of EYX and EZX have opposite signs.
 MACHINE = '[machine]\nchain = "w-Y-X-b-Z-t"\n'
-# A run that begins in a stop warns that this stop was too short.
+# If a run begins during a stop, it warns that this stop is too short.
 MAYBE_BEGUN_IN_A_STOP = {"despite_warnings": True}
 SIMULATED = {"simulated": True, **MAYBE_BEGUN_IN_A_STOP}
 FACTOR = {"EYX_um": -1, "EZX_um": 1}
@@ -89,7 +89,7 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(again["recording"]["sha256"], header["recording"]["sha256"])
         code, out, err = mdof("replay", header["recording"]["path"], "--no-store", "--json", "--note", "other",
                               "--targets-mm", *TARGETS[1:])
-        self.assertEqual(code, 0, err)  # options on the command line take precedence
+        self.assertEqual(code, 0, err)  # options on the command line replace the options of the configuration
         self.assertEqual(json.loads(out)["options"]["targets_mm"], TARGETS[1:])
         self.assertEqual(json.loads(out)["note"], "other")
 
@@ -102,14 +102,14 @@ class EndToEnd(unittest.TestCase):
         self.assertFalse(self.client.call("run.get", run=run)["simulated"])
 
     def test_a_run_stopped_in_a_dwell_keeps_its_id_and_that_point(self):
-        # On a loaded computer the axis may have moved on before the request arrives: then the test tries again.
+        # On a busy computer, the axis may have started to move before the request arrives. Then the test tries again.
         for _ in range(5):
             run, stopped, still_mm = self.stopped_in_a_dwell()
             points = self.client.points(stopped)
             if abs(points[-1]["position_mm"] - still_mm) < 0.01:
                 break
         self.assertEqual(stopped, run)
-        # The run is complete only with each target: it names the missing ones.
+        # The run is complete only if it has all targets. Otherwise it names the missing targets.
         seen = {p["target"] for p in points}
         header = self.client.call("run.get", run=run)
         self.assertEqual(header["state"], "complete" if len(seen) == len(TARGETS) else "partial")
@@ -120,7 +120,8 @@ class EndToEnd(unittest.TestCase):
     def stopped_in_a_dwell(self):
         watcher = Client(self.daemon.socket)
         watcher.call("live.subscribe", interval_ms=20, events=True)
-        # Targets are given, because otherwise a run that begins in reverse renumbers them at each new target.
+        # The targets are given here. Without them, a run that begins in reverse numbers its targets again at each new
+        # target.
         run = self.client.call("run.start", axis="X", targets_mm=TARGETS)["run"]
         points = 0
         while points < 3:
@@ -150,7 +151,7 @@ class EndToEnd(unittest.TestCase):
                     self.assertAlmostEqual(at["error"][key], point[side][key], 9)
                     if key in FACTOR:
                         self.assertAlmostEqual(correction, FACTOR[key] * point[side][key], 9)
-                    else:  # no rotary axis
+                    else:  # the chain has no rotary axis
                         self.assertIsNone(correction)
                 self.assertIn("no axis A", at["correction_reason"])
         inside, beyond = (self.client.call("compensation.at", axis="X", position_mm=x, direction=1)
@@ -278,7 +279,7 @@ class EndToEnd(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             other = Daemon("/usr/bin/systemd-socket-activate", os.path.join(folder, "d"), simulator("X"))
             other.arguments = ["-l", other.socket, MDOFD]
-            client = other.start()  # connecting starts mdofd
+            client = other.start()  # this connection starts mdofd (socket activation)
             self.assertEqual(client.call("server.info")["server"], "mdofd")
             other.stop()
 
@@ -286,7 +287,7 @@ class EndToEnd(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             other = Daemon(MDOFD, folder, simulator("X"))
             with open(other.database, "w") as database:
-                fcntl.lockf(database, fcntl.LOCK_EX, 1, 1 << 62)  # another writer, for which mdofd waits
+                fcntl.lockf(database, fcntl.LOCK_EX, 1, 1 << 62)  # another writer; mdofd waits until it ends
                 process = subprocess.Popen([MDOFD, "--config", other.config], stderr=subprocess.PIPE, text=True)
                 end = time.monotonic() + 4
                 while not catches(process.pid, signal.SIGTERM) and time.monotonic() < end:

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""The pairs of rig and configuration in daemon/examples work unchanged: mdofd accepts them, a run with the named
-devices (simulated, on real sockets) is complete and correct, and its recording gives the same bits.
+"""The pairs of rig and configuration in daemon/examples can be used without changes. mdofd accepts them. A run
+with the named devices, simulated on real sockets, is complete and correct. A replay of its recording is
+bit-identical.
 
 usage: examples_test.py MDOFD MDOF MDOF_SIMULATE"""
 import math
@@ -22,7 +23,7 @@ MDOFD, MDOF, SIMULATE = sys.argv[1:4]
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "daemon" / "examples"
 TARGETS = [0, 2, 4.1, 6.2]
 
-# A ground wired to the odd input is 0 V there.
+# The odd input is connected to ground, so it is 0 V.
 T7 = """
 [[device]]
 name = "t7"
@@ -51,12 +52,13 @@ um_per_count = 0.5
 """
 
 
-# The fixture at Y, and the encoder of Y; the same errors in the frame of the axis.
+# The fixture measures Y, and the encoder is the encoder of Y. The errors are the same in the frame of the axis.
 T7_AT_Y = T7.replace('kind = ', 'counter = "DIO2"\nports = [{}, {}]\nkind = ')
 
 
 def slope(points, wave):
-    """Slope of the least-squares line through the motion of the axis at the places of these points, in µrad."""
+    """Slope of the least-squares line through the true errors of the axis at the positions of these points, in
+    µrad."""
     at = [p["position_mm"] for p in points]
     mean = sum(at) / len(at)
     return 1e3 * sum((x - mean) * wave(x) for x in at) / sum((x - mean) ** 2 for x in at)
@@ -68,7 +70,7 @@ class Examples(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
 
     def taken(self, name):
-        """mdofd accepts the pair unchanged; returns its text."""
+        """Checks that mdofd accepts the pair without changes. Returns the text of the pair."""
         at = shutil.copytree(EXAMPLES / name, os.path.join(self.folder.name, name))
         done = subprocess.run([MDOFD, "--config", os.path.join(at, "mdofd.toml"), "--check-config"],
                               capture_output=True, text=True,
@@ -117,7 +119,7 @@ class Examples(unittest.TestCase):
 
         def plan(axis, t7):
             setup = Setup(os.path.join(at, f"rig_{axis}.toml"), t7, "", 0, 0, targets=TARGETS, dwell_s=0.5, speed_mm_s=25)
-            if axis == "Y":  # EXY is -δy, EAY is -εy in the frame of the axis
+            if axis == "Y":  # in the frame of axis Y, EXY is -δy and EAY is -εy
                 setup.plan_text = lambda of=setup.plan_text(): of.replace('"EYX"', '"EXY"').replace('"EBX"', '"EAY"')
             return Simulators(SIMULATE, setup, at)
 
@@ -155,12 +157,12 @@ class Examples(unittest.TestCase):
 
         wait_until_all_flow(client)
         x = measured(daemon, client, TARGETS, "X", refused)
-        self.assertEqual((live("Y")["encoder_mm"], live("Y")["still"]), (0, True))  # each axis has its own count
+        self.assertEqual((live("Y")["encoder_mm"], live("Y")["still"]), (0, True))  # X and Y have separate counts
         points = {"X": client.points(x["run"])}
         for key, error in worst_errors(points["X"]).items():
             self.assertLess(error, 0.03 if key.endswith("_um") else 2, (key, notice_lines(x)))
 
-        t7.kill()  # the fixture is moved while the T7 is switched off
+        t7.kill()  # the T7 is off while a user moves the fixture to the other axis
         wait(lambda: all("lost" in text for text in trouble().values()))
         t7 = plan("Y", T7_AT_Y.format(command.rsplit(":", 1)[1], port))
         wait(lambda: all("datum is lost" in text and "lost:" not in text for text in trouble().values()))
@@ -178,7 +180,7 @@ class Examples(unittest.TestCase):
 
         wait(set_at_rest)
         wait(lambda: trouble()["Y"] == "")
-        self.assertIn("datum is lost", trouble()["X"])  # its position has not been set yet
+        self.assertIn("datum is lost", trouble()["X"])  # no user has set its position yet
         y = measured(daemon, client, TARGETS, "Y")
         points["Y"] = client.points(y["run"])
         as_x = [{"position_mm": p["position_mm"], "EYX_um": p["EXY_um"], "EZX_um": -p["EZY_um"], "EAX_urad": p["EBY_urad"],
@@ -189,7 +191,7 @@ class Examples(unittest.TestCase):
         fit = client.call("squareness.fit", run_x=x["run"], run_y=y["run"])
         wave = lambda d: 2 * math.sin(2 * math.pi * d / 10)  # noqa: E731
         expected = -slope(points["X"], wave) - slope(points["Y"], wave)
-        self.assertAlmostEqual(fit["EC0Y_urad"], expected, delta=5)  # 0.03 µm over 6 mm
+        self.assertAlmostEqual(fit["EC0Y_urad"], expected, delta=5)  # tolerance: 0.03 µm over 6 mm
         daemon.stop()
         for header, axis in ((x, "X"), (y, "Y")):
             self.assertEqual(len(points[axis]), 2 * len(TARGETS))
@@ -207,7 +209,8 @@ class Examples(unittest.TestCase):
         header, points = self.run_of(at, text)
         worst = [p["EYX_um"] - 2 * math.sin(2 * math.pi * p["position_mm"] / 10) for p in points]
         self.assertLess(max(worst) - min(worst), 0.02)
-        self.assertNotIn("datum_missing", [n["code"] for n in header["notices"]])  # a script delivers positions, not counts
+        # The script sends positions and not counts.
+        self.assertNotIn("datum_missing", [n["code"] for n in header["notices"]])
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The history records who acted, by uid, gid and pid of the requesting process, over the socket and from the command
-line; and who is permitted to act.
+"""The history contains who acted, with the uid, gid and pid of the requesting process. This applies to requests
+over the socket and on the command line. Also checks who may act.
 
 usage: history_test.py MDOFD MDOF"""
 import grp
@@ -29,7 +29,7 @@ def mdof(*words):
 class History(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)  # cleaned up last, after mdofd has ended
+        self.addCleanup(self.folder.cleanup)  # must be the last cleanup, after mdofd has ended
         self.log = os.path.join(self.folder.name, "log.csv")
         write_log(self.log)
 
@@ -78,7 +78,7 @@ class History(unittest.TestCase):
         daemon.stop()
         listed = json.loads(mdof("compensation", "list", "--json", "--db", daemon.database)[1])
         self.assertEqual(listed["generation"], changed)
-        with self.assertRaisesRegex(AssertionError, f"table {first}"):  # in the file itself
+        with self.assertRaisesRegex(AssertionError, f"table {first}"):  # without mdofd, mdof writes the database itself
             mdof("compensation", "activate", second, "--despite-warnings", "--expected-generation", shown, "--db", daemon.database)
         mdof("compensation", "activate", second, "--despite-warnings", "--expected-generation", changed, "--db", daemon.database)
 
@@ -100,7 +100,7 @@ class History(unittest.TestCase):
         if other is None:
             self.skipTest("this user is in all groups of the machine")
         daemon, client = self.serve(f'approve_group = "{other}"\n')
-        table = self.table(client)  # any user may build
+        table = self.table(client)  # any user may build a table
         for method, params in (("compensation.activate", {"table": table}), ("compensation.deactivate", {"axis": "X"})):
             with self.assertRaises(RpcError) as refusal:
                 client.call(method, **params)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The kept recordings of live runs, one for each driver, give their original results.
+"""A replay of each kept recording gives the original result. There is one recording of a live run for each driver.
 
 usage: kept_recordings_test.py MDOF. each_device_test.py --keep has made the recordings, some of them in format 1,
 which did not contain the request for the run. The request was added to their headers later, except for format-1/,
@@ -23,7 +23,8 @@ def check(file, *options):
     assert len(expected["points"]) >= 8, file
     assert len(result["points"]) == len(expected["points"]), f"{file}: there are other points"
     for point, then in zip(result["points"], expected["points"]):
-        # u_random, U, k and nu_eff were added later; these rigs declare nothing, so u has not changed.
+        # u_random, U, k and nu_eff were added in a later version. These rigs declare no uncertainties, so u has not
+        # changed.
         assert {key: point[key] for key in then} == then, f"{file}: the points are others"
     print(f"{os.path.basename(file)}: {len(result['points'])} points to the bit")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A long run at 1 kHz: the daemon's cost of a point does not grow, and no scan is lost.
+"""A long run at 1 kHz. The processor time for a point must not increase, and no scan may be lost.
 
 usage: long_run.py MDOFD [--points N]
 
@@ -21,7 +21,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from mdofd import Daemon, simulator  # noqa: E402
 
 WARM_UP = 100
-LAST_TENTH = 3  # index of the mark at which the last tenth begins
+LAST_TENTH = 3  # index in the list of marks
 MEASURE = "\n[measure]\nsettle_s = 0.01\nmin_length_s = 0.02\n"
 
 
@@ -36,8 +36,8 @@ def memory_MiB(pid):
 
 
 class Marks:
-    """Records time, processor time and memory when the run has these numbers of points. `at_mark` gets the number of
-    passed marks."""
+    """Records time, processor time and memory when the run has reached each number of points. `at_mark` is called
+    with the number of marks reached."""
 
     def __init__(self, pid, at, at_mark):
         self.pid, self.at, self.at_mark, self.seen = pid, list(at), at_mark, []
@@ -56,8 +56,8 @@ def stretch(begin, end):
 
 
 def measure(daemon, at, at_mark=lambda passed: None):
-    """Measures one run until it has `at[-1]` points. Returns the records at the marks, the run's header, and the
-    stored points."""
+    """Measures one run until it has `at[-1]` points. Returns the records at the marks, the header of the run, and
+    the stored points."""
     client = daemon.start()
     client.call("live.subscribe", interval_ms=1000)
     run = client.call("run.start", axis="X")["run"]

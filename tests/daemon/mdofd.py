@@ -1,4 +1,4 @@
-"""A daemon under test: starts mdofd with a configuration in a separate folder and talks to it.
+"""Starts mdofd in a separate folder with a configuration, and sends requests to it.
 
 Messages of JSON-RPC are lines; notifications are kept apart from replies. In a unittest each result is checked
 against its schema from rpc.discover; otherwise (benchmarks, a virtual machine) only the standard library is needed."""
@@ -30,8 +30,8 @@ repeats = {repeats}
 
 
 def notice_lines(document):
-    """The notices of a run, a table or another document in the format of mdof: one line each, marked unless
-    doubtful."""
+    """The notices of a run, a table or another document, one line each, in the format of mdof. The severity begins
+    the line, except for doubtful notices."""
     return [("" if n["severity"] == "doubtful" else n["severity"] + ": ") + n["text"] for n in document["notices"]]
 
 
@@ -42,7 +42,7 @@ def simulator(axis="X", rate_hz=2000, dwell_s=0.3, targets_mm=(0, 2, 4.1, 6.2), 
 
 
 def write_log(path):
-    """A log for a replay with half a second at each of 0 ... 3 mm."""
+    """Writes a log for a replay. The axis stops for half a second at 0, 1, 2 and 3 mm."""
     with open(path, "w") as log:
         log.write("time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n")
         for i in range(2400):
@@ -52,7 +52,8 @@ def write_log(path):
 
 
 def recorded_again(log, folder):
-    """The same readings a day later, because readings of one recording must not count twice."""
+    """A log with the same readings one day later. mdof counts readings of one recording only once, so a second
+    recording is needed."""
     path, column = os.path.join(folder, "again.csv"), None
     with gzip.open(log, "rt") as first, open(path, "w") as second:
         for line in first:
@@ -79,7 +80,7 @@ class RpcError(Exception):
 
 
 class Client:
-    schemas = None  # schemas of the results of the mdofd under test
+    schemas = None  # JSON Schemas of the results, from the tested mdofd
 
     def __init__(self, path, timeout_s=30):
         self.socket = socket.socket(socket.AF_UNIX)
@@ -125,7 +126,7 @@ class Client:
 
 
 class Daemon:
-    # relative: mdofd works in the folder, and nothing that it writes contains the name of the folder.
+    # `relative`: mdofd works in the folder and uses relative paths, so that it never writes the name of the folder.
     def __init__(self, program, folder, config, durability="full", relative=False):
         self.program, self.folder, self.relative = program, folder, relative
         os.makedirs(folder, exist_ok=True)
@@ -140,7 +141,8 @@ class Daemon:
         self.arguments, self.environment = [], {}
 
     def start(self, timeout_s=60):
-        """Waits until mdofd has answered: TSan (LLVM 14) may lose a signal during the first wait of the main thread."""
+        """Waits until mdofd has answered. Reason: TSan (LLVM 14) may lose a signal during the first wait of the
+        main thread."""
         self.log = open(os.path.join(self.folder, "stderr"), "ab")
         self.process = subprocess.Popen([self.program, *self.arguments, "--config", self.config],
                                         stderr=self.log, stdout=self.log,

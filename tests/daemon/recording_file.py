@@ -1,5 +1,5 @@
-"""Reads the header and the chain of hashes of a recording as schema/recording/recording.h defines them, without code
-of mdof."""
+"""Reads the header and the chain of hashes of a recording. It follows schema/recording/recording.h and uses no
+code of mdof."""
 import hashlib
 import sqlite3
 
@@ -25,7 +25,7 @@ def header_hash(header):
 
 
 def checked_hash(path):
-    """The hash of the recording, after every hash in the file has been checked."""
+    """Checks every hash in the file. Returns the hash of the recording."""
     header = header_of(path)
     before = header_hash(header)
     assert before == header["sha256"], f"{path}: the header"

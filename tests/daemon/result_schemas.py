@@ -1,10 +1,11 @@
 """Checks results of mdofd strictly against the schemas of rpc.discover, with python3-jsonschema. A schema states
-only names and types of members, so only one of several results with the same names and types is checked."""
+only names and types of members. Therefore, if several results have the same names and types, only one of them
+is checked."""
 import jsonschema
 
 
 def methods(client):
-    """All pages of rpc.discover."""
+    """The methods of all pages of rpc.discover."""
     offset, found = 0, []
     while offset is not None:
         page = client.call("rpc.discover", offset=offset)
@@ -14,7 +15,7 @@ def methods(client):
 
 
 def form(value):
-    """Members and types of a value, without the values."""
+    """The names and types of the members of a value."""
     if isinstance(value, dict):
         return tuple(sorted((key, form(x)) for key, x in value.items()))
     if isinstance(value, list):
@@ -29,7 +30,7 @@ class Schemas:
         self.right = set()
 
     def wrong(self, method, result):
-        """The errors in a result, one text each."""
+        """The errors of the result; each is a text."""
         if method not in self.checks or (key := (method, form(result))) in self.right:
             return []
         found = [f"{method}: /{'/'.join(map(str, e.absolute_path))}: {e.message[:300]}"

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A live run is complete only with all targets of all repeats. A run that ended early is partial, names what is
-missing, is used for tables only on request, and can be continued.
+"""A live run is complete only if it has all targets of all repeats. A run that ended early is partial. It names
+the missing targets, is used for tables only on request, and can be continued.
 
 usage: run_state_test.py MDOFD MDOF"""
 import json
@@ -44,7 +44,7 @@ class RunState(unittest.TestCase):
 
     @classmethod
     def stopped_early(cls):
-        """The header of a run with two repeats that was stopped after six of sixteen points."""
+        """Stops a run with two repeats after six of sixteen points. Returns its header."""
         return cls.stopped_early_by(cls.client, cls.watcher())
 
     @staticmethod
@@ -67,7 +67,7 @@ class RunState(unittest.TestCase):
                 return self.client.call("run.get", run=value["run"])
 
     def missing_of(self, header):
-        """Calculated independently: (target, direction) -> number of missing points."""
+        """The number of missing points for each (target, direction), calculated here from the points."""
         missing = {(t + 1, d): 2 for t in range(len(TARGETS)) for d in (1, -1)}
         for p in self.client.points(header["run"]):
             if p["EYX_um"] is not None and missing[p["target"], p["direction"]] > 0:
@@ -115,7 +115,7 @@ class RunState(unittest.TestCase):
         self.assertEqual(notice_lines(json.loads(out)), notice_lines(built))
 
     def test_it_can_be_gone_on_with(self):
-        """The recording of the continued run also contains the request."""
+        """The recording of the continued run contains the request too."""
         partial = self.stopped_early()
         watcher = self.watcher()
         resumed = self.client.call("run.resume", run=partial["run"])["run"]
@@ -123,7 +123,7 @@ class RunState(unittest.TestCase):
         self.assertEqual(header["state"], "complete", notice_lines(header))
         self.assertIn(header["supersedes"], (partial["run"], resumed))
         self.assertTrue(all(n == 0 for n in self.missing_of(header).values()))
-        for run in (partial, header):  # both runs have the same targets
+        for run in (partial, header):  # both runs must have the same targets
             self.assertEqual([n["code"] for n in run["notices"]].count("scale_period_hidden"), 1, notice_lines(run))
         code, out, err = mdof("replay", header["recording"]["path"], "--no-store", "--json")
         self.assertEqual(code, 0, err)
@@ -163,7 +163,7 @@ class RunState(unittest.TestCase):
         watcher = self.watcher()
         run = self.client.call("run.start", axis="X")["run"]
         points = 0
-        while points < 2:  # a run that only moves and stops at one position is doubtful
+        while points < 2:  # a run with only one position would be doubtful
             points += watcher.next_note()["params"]["value"].get("type") == "points"
         self.client.call("run.stop", run=run)
         header = self.ended(watcher)

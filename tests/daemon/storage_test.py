@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A full disk, or a database locked by another program: mdofd starts, serves the active table, reports the fault,
-and continues when it can write again. A signal from a closed terminal ends a run in good order.
+"""The disk is full, or another program has locked the database. mdofd starts, serves the active table, reports the
+fault, and continues when it can write again. If a terminal closes, its signal ends a run normally.
 
 usage: storage_test.py MDOFD MDOF"""
 import contextlib
@@ -52,7 +52,7 @@ class Served(unittest.TestCase):
         return client.call("server.info")["axes"][0]
 
     def cut_off(self, client):
-        """An active table, and a run that is cut off by a kill."""
+        """Makes an active table, and a run that a kill interrupts."""
         log = os.path.join(self.folder.name, "log.csv")
         write_log(log)
         with open(RIG["X"]) as rig:
@@ -75,7 +75,7 @@ class SmallDisk(Served):
         if mounted.returncode != 0:
             self.skipTest("a small disk cannot be mounted here: " + mounted.stderr.strip())
         self.addCleanup(lambda: subprocess.run(["umount", "-l", self.disk], check=False))
-        self.addCleanup(self.end)  # before the unmount
+        self.addCleanup(self.end)  # must run before the unmount
         with open(self.daemon.config) as f:
             config = f.read()
         self.daemon.database = os.path.join(self.disk, "mdof.db")
@@ -192,7 +192,7 @@ class SmallDisk(Served):
         self.wait_for_storage(client, "ok")
 
 
-# Another program that holds the database until its input ends.
+# Another program that locks the database until its standard input ends.
 HOLDER = """
 import sqlite3, sys
 database = sqlite3.connect(sys.argv[1], isolation_level=None)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Faults of a T7 on real sockets: no other program opens it while mdofd holds it, a silent T7 is stale for the first
-client that looks, and a restarted T7 is reported at once with the cause.
+"""Faults of a T7 on real sockets. While mdofd uses the T7, no other program can open it. If the T7 is silent, the
+first client that asks is told that its data are stale. If the T7 restarts, mdofd reports this at once with the
+cause.
 
 usage: trouble_test.py MDOFD MDOF MDOF_SIMULATE"""
 import fcntl
@@ -125,7 +126,7 @@ class Trouble(unittest.TestCase):
             time.sleep(0.02)
 
     def mdof(self, *words, elsewhere=True):
-        # The default socket is not the socket of the daemon.
+        # The default socket is not the socket of this mdofd.
         environment = {**os.environ, "XDG_RUNTIME_DIR": os.path.join(self.folder.name, "elsewhere")}
         environment.pop("RUNTIME_DIRECTORY", None)
         done = subprocess.run([MDOF, *map(str, words)], capture_output=True, text=True, env=environment, timeout=60)
@@ -177,7 +178,7 @@ class Trouble(unittest.TestCase):
 
     def test_the_first_value_of_a_silent_device_is_stale(self):
         self.simulator.process.send_signal(signal.SIGSTOP)
-        time.sleep(1.5)  # no client reads meanwhile
+        time.sleep(1.5)  # no client reads in this time
         for count in (1, 2, 5):
             code, out, err = self.mdof("live", "--count", count, "--json", "--socket", self.daemon.socket)
             self.assertEqual(code, 0, err)
@@ -208,7 +209,7 @@ class Trouble(unittest.TestCase):
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         lines = []
 
-        # Messages are broken into lines of 80 characters.
+        # Messages have line breaks, because a terminal has 80 columns.
         def read_until(pattern):
             begin = len(lines)
             while not re.search(pattern, " ".join(" ".join(lines[begin:]).split())):
@@ -250,7 +251,8 @@ class Trouble(unittest.TestCase):
         live.stdout.close()
         self.assertEqual(kinds, ["lost", "suspect", "back"])
 
-    # An old error is no state. A lost datum is a state and is reported before the next run.
+    # An old error is not part of the state. A lost datum is part of the state, and mdofd reports it before the next
+    # run.
     def check_afterwards(self):
         device = self.device()
         self.assertIsNone(device["error"])
@@ -264,7 +266,7 @@ class Trouble(unittest.TestCase):
         for kind in ("lost", "suspect", "back"):
             self.assertEqual(len(re.findall(f'axis X: device "t7": {kind}: ', journal)), 1, journal)
 
-    # live, device list and status, in a pipe and on terminals with 80 and more columns.
+    # Checks live, device list and status, in a pipe and on terminals with 80 and more columns.
     def test_no_line_is_wider_than_the_terminal(self):
         self.client.call("run.stop", run=self.client.call("run.start", axis="X", note="a note " * 30)["run"])
         for words in (("live", "--count", "3"), ("device", "list"), ("status",)):
@@ -274,7 +276,7 @@ class Trouble(unittest.TestCase):
             code, out, err = self.mdof(*words)
             self.assertEqual(code, 0, err)
             self.check_width(out, 80, words)
-        self.simulator.process.send_signal(signal.SIGSTOP)  # causes long messages
+        self.simulator.process.send_signal(signal.SIGSTOP)  # the stopped simulator causes long messages
         self.wait_until(lambda: self.device()["state"] != "open")
         for words in (("live", "--count", "1"), ("device", "list"), ("status",)):
             words = (*words, "--socket", self.daemon.socket)
@@ -285,10 +287,10 @@ class Trouble(unittest.TestCase):
     def check_width(self, out, columns, words):
         self.assertTrue(out.strip(), words)
         for line in out.splitlines():
-            if os.path.join(self.folder.name, "mdof.db") not in line:  # a path is not broken
+            if os.path.join(self.folder.name, "mdof.db") not in line:  # a path is not broken into lines
                 self.assertLessEqual(len(line), columns, (words, line))
 
-    # The drawn text without the movements of the cursor.
+    # The text on the terminal, without movements of the cursor.
     def on_terminal(self, columns, *words):
         ours, its = pty.openpty()
         fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
@@ -299,7 +301,7 @@ class Trouble(unittest.TestCase):
         while True:
             try:
                 drawn += os.read(ours, 65536)
-            except OSError:  # the other side is closed
+            except OSError:  # the other side of the terminal has closed
                 break
         os.close(ours)
         self.assertEqual(process.wait(60), 0, process.stderr.read())

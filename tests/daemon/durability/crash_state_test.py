@@ -33,7 +33,8 @@ RUN_S = 4
 
 
 class Told:
-    """Messages of the daemon with their times: (time_ns, total points) and (time_ns, total chunks)."""
+    """Messages of mdofd with the times of their arrival: (time_ns, number of points) and (time_ns, number of
+    chunks)."""
 
     def __init__(self):
         self.points, self.chunks = [], []
@@ -55,7 +56,7 @@ class Told:
 
 
 def recorded_run(options, folder):
-    """A run that is killed after a while: its messages, its calls, its run number."""
+    """A run that is killed after some time. Returns its messages, the recorded calls and the number of the run."""
     config = simulator("X", rate_hz=4000, dwell_s=0.3, targets_mm=(0, 0.5, 1.1, 1.6))
     data, record = os.path.join(folder, "data"), os.path.join(folder, "calls")
     open(record, "wb").close()
@@ -85,7 +86,7 @@ def read_calls(record, data):
         while line := f.readline():
             time_ns, op, offset, length, path = line.decode().rstrip("\n").split(" ", 4)
             content = f.read(int(length)) if op == "W" else b""
-            if not path.endswith("-shm"):  # created anew whenever a database is opened
+            if not path.endswith("-shm"):  # every opening of a database makes a new -shm
                 calls.append(Call(int(time_ns), op, int(offset), int(length),
                                   os.path.relpath(path, data), content))
     return calls
@@ -106,7 +107,7 @@ def apply(files, call, length=None):
 
 
 def state_after(calls, flushes, chance):
-    """The files as a power cut after `calls` may leave them."""
+    """One possible state of the files if the power fails after `calls`."""
     flushed_until = {}
     for i, call in enumerate(calls):
         if call.op == "S" and flushes:
@@ -134,7 +135,8 @@ def write_out(files, folder):
 
 
 def ask(database, sql):
-    connection = sqlite3.connect(database)  # opened for writing, so that an incomplete transaction is rolled back
+    # Opened for writing, because SQLite must roll back an incomplete transaction.
+    connection = sqlite3.connect(database)
     try:
         return connection.execute(sql).fetchone()[0]
     finally:

@@ -20,13 +20,14 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from kill_test import Acknowledged, check  # noqa: E402
 from mdofd import Daemon, RpcError, simulator  # noqa: E402
 
-LAST_CALL = 400  # a run makes this many calls in a second or two
+LAST_CALL = 400  # number of calls that a run makes in one or two seconds
 MOST_S = 60
-ANSWER_S = 5  # a disk that refuses all writes may leave the run without an end
+ANSWER_S = 5  # if a disk rejects all writes, the end of the run may never arrive
 
 
 def wait_for_fault(daemon, told, acknowledged, run):
-    """Waits until the call has failed and the run, if any, has ended because of it or has continued."""
+    """Waits until the call has failed. If there is a run, waits also until it has ended because of the fault, or
+    has continued."""
     end = time.monotonic() + MOST_S
     while not os.path.exists(told):
         assert time.monotonic() < end, "the call that is to fail does not come"
@@ -35,18 +36,19 @@ def wait_for_fault(daemon, told, acknowledged, run):
     before, end = (len(acknowledged.points), acknowledged.chunk + 1), time.monotonic() + ANSWER_S
     while run and not acknowledged.ended and time.monotonic() < end and daemon.process.poll() is None:
         if len(acknowledged.points) > before[0] and acknowledged.chunk > before[1]:
-            break  # one chunk may have been in transit
+            break  # one chunk may not have arrived
         time.sleep(0.01)
 
 
 def faulty_life(daemon, fault):
-    """Returns the run that it began, if any, and the acknowledged data."""
+    """Runs mdofd with one failing call. Returns the number of the run (None if no run began) and the acknowledged
+    data."""
     daemon.environment = fault
     acknowledged = Acknowledged()
     try:
         client = daemon.start()
     except RuntimeError:
-        return None, acknowledged  # it reported the reason and ended
+        return None, acknowledged  # mdofd reported the fault and ended
     run = None
     try:
         client.call("live.subscribe", interval_ms=1000)
@@ -76,7 +78,7 @@ def main():
         config = simulator("X", rate_hz=4000, dwell_s=0.3, targets_mm=(0, 0.5, 1.1, 1.6))
         daemon = Daemon(options.mdofd, folder, config)
         atexit.register(lambda: daemon.process and daemon.process.kill())
-        # Continues until a fault has hit a run that had points.
+        # Continues until a fault has occurred in a run that already had points.
         while life < options.lives or not (points and failed or life >= 10 * options.lives):
             life += 1
             fault = {"LD_PRELOAD": os.path.abspath(options.library),

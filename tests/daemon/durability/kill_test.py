@@ -32,7 +32,7 @@ from storekeeper.others import Others  # noqa: E402
 
 
 class Acknowledged:
-    """The acknowledged data of one life of the daemon."""
+    """The data that mdofd has acknowledged between a start and the next kill."""
 
     def __init__(self):
         self.points, self.chunk, self.ended = [], 0, False
@@ -59,8 +59,8 @@ def count(database, sql):
 
 
 def measured(point):
-    """The point without its uncertainty: from the second visit of a place on, u contains the scatter of the visits,
-    which is unknown when the first visit is reported."""
+    """The point without its uncertainties. If a target is measured again, u of its first point changes, because it
+    then includes the scatter of the visits."""
     return {key: value for key, value in point.items() if key not in ("u", "u_random", "U", "k", "nu_eff")}
 
 
@@ -142,7 +142,7 @@ def main():
                 if not options.naive or not re.search("acknowledged|malformed", str(loss)):
                     raise
                 losses.append(f"kill {kill}: {loss}")
-                break  # the database may be unusable from now on
+                break  # the database may be damaged after this
         daemon.kill() if losses else daemon.stop()
     assert totals["chunks"] > 0
     print(f"{kill + 1} kills, durability {options.durability}: {totals['points']} points, {totals['chunks']} chunks and "

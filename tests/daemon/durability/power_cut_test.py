@@ -37,7 +37,7 @@ SKIPPED = 77
 
 
 class Disk:
-    """An ext4 file system in a file, whose power can be cut."""
+    """An ext4 file system in a file. The test can cut its power."""
 
     def __init__(self, folder):
         self.image, self.path = os.path.join(folder, "disk.img"), os.path.join(folder, "disk")
@@ -64,7 +64,7 @@ class Disk:
 
 
 def one_life(client, daemon, disk, others, chance):
-    """Measures until the power fails. Returns the run and the data that the daemon had acknowledged by then."""
+    """Measures until the power fails. Returns the run, and the data that mdofd had acknowledged before."""
     client.call("live.subscribe", interval_ms=1000)
     run = client.call("run.start", axis="X")["run"]
     acknowledged = Acknowledged()
@@ -79,7 +79,7 @@ def one_life(client, daemon, disk, others, chance):
     others.stop()
     del acknowledged.points[points:]
     acknowledged.chunk, acknowledged.until_ns = chunk, cut_ns
-    daemon.log.close()  # the log is on the disk
+    daemon.log.close()  # the log file is on the disk that is unmounted next
     disk.unmount()
     mounted = disk.mount()
     assert mounted.returncode == 0, mounted.stderr
@@ -96,7 +96,7 @@ def campaign(options, disk):
     client = daemon.start()
     others = Others(daemon, options.mdof)
     others.prepare()
-    os.sync()  # the configuration and the foreign files must survive the first cut
+    os.sync()  # the configuration and the foreign files must still exist after the first cut
     for cut in range(options.cuts):
         run, acknowledged = one_life(client, daemon, disk, others, chance)
         points, chunks = points + len(acknowledged.points), chunks + acknowledged.chunk
@@ -104,9 +104,9 @@ def campaign(options, disk):
         try:
             assert not (gone := others.lost(daemon.database, acknowledged.until_ns)), gone
             check(daemon.database, run, acknowledged, client, options.mdof)
-        except Exception as loss:  # any result except a correct one
+        except Exception as loss:  # every result except a correct one is a loss
             losses.append(f"cut {cut}: {type(loss).__name__}: {loss}")
-        others.forget()  # a lost number is assigned again
+        others.forget()  # the number of a lost table is used again
     daemon.stop()
     daemon.log.close()
     return points, chunks, others, losses

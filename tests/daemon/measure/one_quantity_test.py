@@ -1,8 +1,7 @@
 #!/usr/bin/python3
-"""One quantity has one name, one value, one u and one U in every output: text, JSON, CSV and RPC. The test uses two
-runs along X and one along Y, with rigs that declare uncertainties. It calls every command and method that states an
-uncertainty and compares their values of each quantity. A command or method that the test does not know makes it
-fail.
+"""Each quantity has the same name, value, u and U in every output: text, JSON, CSV and RPC. The test uses two runs
+along X and one run along Y, whose rigs declare uncertainties. It calls every command and method that states an
+uncertainty, and compares the values of each quantity. If the test does not know a command or method, it fails.
 
 usage: one_quantity_test.py MDOFD MDOF"""
 import copy
@@ -25,15 +24,16 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), 
 OF_PROBES = "u_calibration_um = 0.02\nu_sensitivity_ppm = 500\nu_position_mm = 0.05\nu_direction_mrad = 2\n"
 OF_RIG = "\n[installation]\nu_angle_mrad = 2\n[drift]\nu_um_per_h = 0.1\n"
 NOT_DECLARED = ["u_flatness_um", "[encoder] u_um", "u_offset_mm"]
-EXACT = 1e-12  # relative
+EXACT = 1e-12  # relative difference
 
-# Commands and methods whose uncertainty of a run, of two runs, or of a table is compared here ...
+# The uncertainties of these commands and methods are compared here. They belong to a run, to two runs, or to a table
+# ...
 COMPARED = {"budget", "compare", "compensation build", "compensation show", "parallelism", "replay", "show",
             "squareness", "trend"}
 COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid", "compensation.status", "compensation.table",
                     "parallelism.fit", "run.budget", "run.compare", "run.get", "run.points", "run.trend", "squareness.budget", "squareness.fit"}
-# ... and those that state none, or the uncertainty of other things: files, studies, calibrations, descriptions of
-# machines.
+# ... and these commands and methods state no uncertainty, or state uncertainties of files, studies, calibrations or
+# descriptions of machines.
 OTHERS = {"clearance", "completion", "demo", "help", "machine kinematics", "machine budget", "milling",
           "form scan", "form compare", "form clamp", "form cut", "form path", "part", "plot", "report",
           "calibrate certificate", "calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
@@ -55,15 +55,16 @@ def mdof(*words):
 
 
 def half_digit(text):
-    """Half a digit of a number in a text, with rounding. A number with two significant digits may end in zeros:
-    "1200"."""
+    """Half of the last digit of a number in a text, as its uncertainty of rounding. A number with two significant
+    digits may end in zeros, for example "1200"."""
     whole = text.lstrip("-")
     step = 10.0 ** -len(whole.split(".")[1]) if "." in whole else 10.0 ** max(0, len(whole) - 2)
     return 0.6 * step
 
 
 class Notes:
-    """The statements about each quantity: (name, place, {"value", "u", "U"}, None or half a digit of each as shown)."""
+    """The values of each quantity that the outputs state: (name, place, {"value", "u", "U"}, half a digit of each
+    value, or None)."""
 
     def __init__(self):
         self.said = []
@@ -149,7 +150,7 @@ class OneQuantity(unittest.TestCase):
     @classmethod
     def run_commands(cls):
         cls.documents["replay"], cls.texts["replay"] = json.loads(cls.replayed[0]), cls.replayed[1]
-        # Runs 1 and 2 measure X and come from one log; run 3 measures Y.
+        # Runs 1 and 2 measure X and have the same log. Run 3 measures Y.
         for name, words, forms, *key in (("squareness", (2, 3), "tj"), ("budget", (1,), "tjc"), ("parallelism", (1, 2), "tj"),
                                    ("show", (1,), "tjc"), ("show", (1, "--figures"), "tjc", "show --figures"),
                                    ("compensation build", (1,), "tj")):
@@ -299,7 +300,7 @@ class OneQuantity(unittest.TestCase):
         self.assertEqual(len(self.notes.places("EYX_slope_urad")), 23)
         self.assertEqual(len(self.notes.places("EC0Y_urad")), 12)
 
-    # A comparison that does not detect different numbers would prove nothing.
+    # Control: the comparison must detect a changed number.
     def test_a_changed_number_is_found(self):
         changed = 0
         for i, (name, where, numbers, shown) in enumerate(self.notes.said):
@@ -319,7 +320,7 @@ class OneQuantity(unittest.TestCase):
                 changed += 1
         self.assertGreater(changed, 300)
 
-    # Form and noise are no uncertainty of the slope: all three are present and differ.
+    # Form and noise are not uncertainties of the slope. The output contains all three, and they differ.
     def test_form_is_not_u(self):
         f = self.documents["show --figures"]["straightness"]["EYX_um"]["mean"]
         budget = self.documents["budget"]["figures"]["EYX_slope_urad"]
@@ -361,7 +362,7 @@ class OneQuantity(unittest.TestCase):
         self.assertEqual(COMPARED - {name.split(" of ")[0] for name in self.documents}, set())
 
 
-# A rig that declares nothing: the first line of every text says so.
+# If the rigs declare no uncertainties, the first line of every text says so.
 class NothingDeclared(unittest.TestCase):
     def test_the_first_line_says_so(self):
         with tempfile.TemporaryDirectory() as folder:

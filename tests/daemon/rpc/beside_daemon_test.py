@@ -22,8 +22,8 @@ ROOT = os.path.join(DATA, "..", "..")
 LOG = {axis: os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz") for axis in "XY"}
 BAD_INPUT, IN_USE = 3, 4
 SCAN = '[scan]\nprobe = "F"\nposition_mm = [0, 0, 0]\nmeasures = "+Z"\ncentre_mm = 0\n'
-# In this order, in one database: WRITES makes what READS shows. "@" is the folder. Runs: 1, 4 X; 2 Y; 3 laser; 5 a
-# scan.
+# The commands run in this order in one database. WRITES makes the data that READS shows. "@" is the folder. Runs: 1
+# and 4 measure X; 2 measures Y; 3 is from a laser; 5 is a scan.
 WRITES = [("replay", LOG["X"], "--rig", RIG["X"]), ("replay", LOG["Y"], "--rig", RIG["Y"]),
           ("import", "@/laser.csv", "--axis", "X", "--u-um", "0.3", "--sense", "body", "--travel", "-", "--note", "laser"),
           ("replay", "@/again.csv", "--rig", RIG["X"], "--settle-s", "0.12", "--note", "again"),
@@ -44,7 +44,8 @@ FILES = [("plot", "1", "--out", "@/plots"), ("report", "1", "--out", "@/report.h
          ("form", "cut", "5", "5", "--out", "@/next.csv"),
          ("form", "path", "5", "--speed-rpm", "300", "--feed-mm-min", "300", "--out", "@/spiral.csv"),
          ("compensation", "export", "1", "--format", "json", "--out", "@/table.json")]
-# sensitivity writes checkpoints for hours, studies shows them; shift and square accept runs like separate reversal.
+# sensitivity would write checkpoints for hours, and `studies` shows studies. shift and square accept the same runs as
+# separate reversal.
 NOT_TRIED = {"sensitivity", "separate shift", "separate square"}
 MACHINE = """name = "m"
 machine = {chain = "w-Y-X-b-t"}
@@ -65,7 +66,7 @@ path = "path.csv"
 [layers]
 axes = true
 """
-# Members that differ with the time, the folder or the writing program.
+# These members differ if the time, the folder or the writing program differs.
 BY_OCCASION = {"started_utc", "ended_utc", "utc", "created_utc", "activated_utc", "generation", "pid", "uid", "gid", "user", "database", "recording",
                "path", "file", "bytes", "hash", "link", "head", "chain", "sha256", "table_sha256", "rig_source"}
 
@@ -139,7 +140,8 @@ class BesideDaemon(unittest.TestCase):
             self.assertIn(reason, done.stderr)
             self.assertIn(name, done.stderr)
 
-    # For a missing file the messages differ, because mdofd opens it with an absolute path and says so.
+    # If a file is missing, the messages differ: mdofd opens the file by its absolute path, and the message contains
+    # this path.
     def test_a_mistake_has_the_code_and_the_words_that_it_has_without_mdofd(self):
         for words in (("squareness", "2", "1"), ("squareness", "1", "1"), ("squareness", "1", "3"), ("squareness", "1", "99"),
                       ("squareness", "1", "4"), ("compare", "1", "1"), ("parallelism", "1", "1"),
@@ -159,7 +161,7 @@ class BesideDaemon(unittest.TestCase):
         return done.returncode, done.stderr.replace(database, "DATABASE")
 
     def test_a_socket_of_another_database_is_refused(self):
-        """Otherwise the user would activate a table in a database that no daemon serves."""
+        """If mdof accepted this socket, it would activate a table in a database that mdofd does not serve."""
         for words in (("compensation", "activate", "1"), ("compensation", "deactivate", "--axis", "X"),
                       ("compensation", "build", "1"), ("runs",)):
             done = subprocess.run([MDOF, *words, "--db", self.free, "--socket", self.daemon.socket],
@@ -184,7 +186,7 @@ class BesideDaemon(unittest.TestCase):
 
 
 def name_of(words):
-    """Name of the command: one word or two."""
+    """The name of a command, which has one or two words."""
     return " ".join(words[:2] if words[0] in ("compensation", "machine", "form", "separate") else words[:1])
 
 
@@ -202,7 +204,8 @@ def without_occasion(document):
     if not isinstance(document, dict):
         return document
     if document.get("deed") in ("compensation.activate", "compensation.deactivate"):
-        document = {key: value for key, value in document.items() if key != "id"}  # a generation, from the clock
+        # The id is a generation, which is a time.
+        document = {key: value for key, value in document.items() if key != "id"}
     return {key: without_occasion(value) for key, value in document.items() if key not in BY_OCCASION}
 
 

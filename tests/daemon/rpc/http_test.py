@@ -1,7 +1,12 @@
 #!/usr/bin/python3
-"""The web page's transport with independent clients: http.client and urllib of Python, curl if installed. Tests the
-files of the page, the same replies as on the Unix socket, writing only with the token, events by the rules of
-EventSource and resumed after an end, `mdof token`, and the accepted values of the configuration and --http.
+"""The HTTP server of the web page, tested with other clients: http.client and urllib of Python, and curl if it is
+installed. Tests:
+- the files of the page
+- the same replies as on the Unix socket
+- writing only with the token
+- events by the rules of EventSource, also after the stream has ended
+- `mdof token`
+- the accepted values of the configuration and of --http
 
 usage: http_test.py MDOFD MDOF"""
 import gzip
@@ -27,7 +32,7 @@ PAGE = ROOT / "daemon" / "web"
 
 
 class Events:
-    """A stream, read by the rules of EventSource (HTML, 9.2.6)."""
+    """A stream of events, read by the rules of EventSource (HTML, 9.2.6)."""
 
     def __init__(self, port, query, last_id=None):
         self.connection = http.client.HTTPConnection("127.0.0.1", port, timeout=30)
@@ -116,7 +121,7 @@ class Http(unittest.TestCase):
             self.assertEqual(same.exception.code, 304)
             same.exception.close()
         self.assertEqual(self.get("")[2], files["index.html"].read_bytes())
-        self.assertLess(sent, 200_000)  # the complete page
+        self.assertLess(sent, 200_000)  # size of the complete page
 
     def test_answers_are_those_of_the_socket(self):
         for method, params in (("run.list", {}), ("device.list", {}), ("compensation.status", {}),
@@ -127,7 +132,7 @@ class Http(unittest.TestCase):
                     expected = {"result": self.socket.call(method, **params)}
                 except Exception as error:
                     expected = {"error": {"code": error.code}}
-                if method == "device.list":  # its counters change
+                if method == "device.list":  # the counters of the devices change
                     self.assertEqual(answer["result"].keys(), expected["result"].keys())
                 elif "error" in expected:
                     self.assertEqual(answer["error"]["code"], expected["error"]["code"])
@@ -176,7 +181,7 @@ class Http(unittest.TestCase):
         self.assertEqual(after.next(), ("lost", {"count": None}))
         self.assertGreater(int(after.last_id), int(seen))
         after.close()
-        self.assertEqual(self.token(), token)  # the same file
+        self.assertEqual(self.token(), token)  # the token in the file is the same
 
     def test_pages_of_others_are_refused(self):
         for headers, code in (({"Host": "evil.example"}, 421), ({"Origin": "http://evil.example"}, 403),
@@ -218,7 +223,7 @@ class Http(unittest.TestCase):
 
 class Configuration(unittest.TestCase):
     def started(self, http, *arguments):
-        """The member http of server.info, or the error of mdofd."""
+        """Starts mdofd. Returns the member http of server.info, or the error of mdofd."""
         with tempfile.TemporaryDirectory() as folder:
             daemon = Daemon(MDOFD, folder, http.replace("FOLDER", folder) + simulator())
             daemon.arguments = list(arguments)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""The result schemas in rpc.discover are JSON Schema, closed, and describe each member. A result with a missing
-member, an additional member or a wrong type is refused by name. Every client of tests/daemon/mdofd.py checks its
-results.
+"""The result schemas in rpc.discover are valid JSON Schema, permit no other members, and describe each member. If
+a result has a missing member, an additional member or a wrong type, the check rejects it and names the member.
+Every client of tests/daemon/mdofd.py checks its results.
 
 usage: result_schema_test.py MDOFD MDOF"""
 import copy
@@ -17,7 +17,8 @@ import jsonschema  # noqa: E402
 from mdofd import DATA, RIG, Client, Daemon, recorded_again, simulator  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
-OPEN = {"options", "methods", "notices", "components", "probes"}  # devices, clients and codes add members
+# Devices, clients and codes may add members to these objects.
+OPEN = {"options", "methods", "notices", "components", "probes"}
 MACHINE = """name = "m"
 machine = {chain = "w-b-X-Y-t"}
 [[axis]]
@@ -33,7 +34,7 @@ holds_at_mm = [0, 0, 0]
 point = "moving"
 range_mm = [0, 10]
 """
-# Runs 1 and 3 measure X, 2 Y; 4 is imported; table 1 is of X, 2 of the volume.
+# Runs 1 and 3 measure X, run 2 measures Y, run 4 is imported. Table 1 belongs to X, table 2 is the volume.
 CALLS = [
     ("server.info", {}), ("server.health", {}), ("device.list", {}), ("rig.get", {"axis": "X"}), ("history.list", {}),
     ("run.list", {}), ("run.get", {"run": 1}), ("run.get", {"run": 4}), ("run.points", {"run": 1}), ("run.points", {"run": 4}),
@@ -52,12 +53,12 @@ CALLS = [
 ]
 VOLUME = [("compensation.status", {}), ("compensation.grid", {"axis": "volume"}), ("compensation.grid", {"axis": "volume", "u_parts": True}),
           ("compensation.at", {"axis": "volume", "X_mm": 3, "Y_mm": 4}), ("compensation.deactivate", {"axis": "volume"})]
-# Their results are checked in tests with a moving machine or a file.
+# Other tests check the results of these methods, because they need a moving machine or a file.
 ELSEWHERE = {"run.start", "run.resume", "run.stop", "run.replay", "run.import", "encoder.set"}
 
 
 def parts(schema, path=""):
-    """Each schema inside a schema, with its path."""
+    """Each schema that is inside a schema, with its path."""
     yield path, schema
     for key in ("properties", "patternProperties"):
         for name, below in schema.get(key, {}).items():
@@ -113,7 +114,7 @@ class ResultSchema(unittest.TestCase):
                     if "object" in part.get("type", []) and name not in OPEN:
                         self.assertIs(part.get("additionalProperties"), False, path)
                     if path and ("anyOf" in part or part["type"] not in ("object", "array")) and "description" not in part:
-                        # The elements of an array have the meaning of the array.
+                        # The description of an array is also the description of its elements.
                         self.assertTrue(any(p == path and "description" in other for p, other in parts(schema)), path)
 
     def test_a_member_less_or_more_or_of_another_type_is_seen(self):

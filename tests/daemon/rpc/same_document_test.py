@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""`mdof COMMAND --json` and the reply of the RPC are the same document: each method with a command is called, and
-all members are compared. A method that this test does not know makes it fail.
+"""`mdof COMMAND --json` and the reply of the RPC method are the same document. The test calls each method that has
+a command and compares all members. If the test does not know a method, it fails.
 
 usage: same_document_test.py MDOFD MDOF"""
 import json
@@ -20,8 +20,8 @@ NEXT = "the second of two alike"
 VOLUME = 1
 MACHINE = 'name = "m"\nmachine = {chain = "w-Y-X-b-t"}\n' + "".join(
     f'[[axis]]\nid = "{axis}"\nholds_at_mm = [0, 0, 0]\npoint = "standing"\nrange_mm = [0, 20]\nE{axis}{axis}_um = 2\n' for axis in "XY")
-# (method, its parameters, the command, members that may differ with the reason). Runs 1 and 3 measure X, 2 Y; 4 is
-# imported.
+# Elements: method, its parameters, the command, and members that may differ, with the reason. Runs 1 and 3 measure X,
+# run 2 measures Y, run 4 is imported.
 SAME = [
     ("run.get", {"run": 1}, "show 1", {"points": PAGED}),
     ("run.get", {"run": 4}, "show 4", {"points": PAGED}),
@@ -49,7 +49,7 @@ SAME = [
     ("server.info", {}, "status server", {"uptime_s": "it goes on"}),
     ("compensation.status", {}, "status compensation", {}),
 ]
-# Methods without a command that gives the same document.
+# No command gives the same document as these methods.
 OTHERS = {
     "compensation.at": "a question of the machine's control", "compensation.grid": "as compensation.table",
     "compensation.build_volume": "tests/daemon/rpc/beside_daemon_test.py", "encoder.set": "tests/daemon/encoder_datum_test.py",
@@ -133,7 +133,7 @@ class SameDocument(unittest.TestCase):
                 self.assertEqual([d for d in found if d[0] not in allowed], [])
                 self.assertIn("notices", reply)
 
-    # A comparison that does not detect a difference would prove nothing.
+    # Control: the comparison must detect a missing member and a changed value.
     def test_a_member_less_or_another_value_is_seen(self):
         self.assertEqual(differences({"a": [1, {"b": None}]}, {"a": [1, {"b": None}]}), [])
         for other in ({}, {"a": [1]}, {"a": [1, {"b": 0}]}, {"a": [True, {"b": None}]}, {"a": [1, {}]}, {"a": [1, {"b": None}], "c": 0}):
@@ -143,7 +143,7 @@ class SameDocument(unittest.TestCase):
         self.assertEqual({m["name"] for m in methods(self.client)}, {method for method, *_ in SAME} | OTHERS.keys())
 
     def test_the_sense_stays_with_a_long_text(self):
-        text = os.path.join(self.folder, "long.rtl")  # its statement about itself is longer than a reply
+        text = os.path.join(self.folder, "long.rtl")  # this statement about the file is longer than a reply may be
         with open(text, "w", encoding="latin-1") as file:
             file.write("HEADER::\nFile type  : rtl\n\nTARGET DATA::\nFiletype : ISO\nTarget-count: 2\nTargets :\n0.0000 10.0000\n\nUSER-TEXT::\n" +
                        "".join(f"Remark {i}: {'x' * 40}\n" for i in range(3000)) +

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Requests with values of each type, in and out of what rpc.discover says, to every method of mdofd: each is answered
-once, by a result or by an error of a known code, within a line; mdofd goes on, and ends in good order.
+"""Sends requests to every method of mdofd. The values have all types; they are within and beyond the limits of
+rpc.discover. mdofd must answer each request once, with a result or with an error of a known code, in one line.
+mdofd must continue to serve and end with exit code 0.
 
 usage: typed_requests_test.py MDOFD MDOF [--requests 100000] [--seed 1]"""
 import argparse
@@ -17,7 +18,7 @@ from mdofd import RIG, Client, Daemon, simulator, write_log  # noqa: E402
 from result_schemas import methods  # noqa: E402
 
 INTERNAL = -32603
-TOGETHER = 32  # requests sent before the first reply is read
+TOGETHER = 32  # number of requests that are sent before the first reply is read
 MOST_BYTES = 48 * 1024
 MOST_GROWTH_KIB = 200 * 1024
 SLOWEST_S = 10
@@ -62,7 +63,7 @@ def any_value(rng, depth=0):
 
 
 def value_for(rng, parameter, world):
-    """A value that rpc.discover describes, in four of five cases."""
+    """A value for this parameter. In four of five cases, rpc.discover permits the value."""
     if rng.random() < 0.2:
         return any_value(rng)
     schema, name = parameter["schema"], parameter["name"]
@@ -81,7 +82,8 @@ def value_for(rng, parameter, world):
 
 
 def is_beyond_64_bits(value):
-    """An integer that mdofd refuses as unreadable JSON; the reply then has no id."""
+    """True if a number is an integer beyond 64 bits. mdofd rejects it as invalid JSON, and the reply then has no
+    id."""
     if isinstance(value, dict):
         return any(map(is_beyond_64_bits, value.values()))
     if isinstance(value, list):
@@ -94,9 +96,9 @@ NEEDED = {"despite_warnings", "incomplete", "position_mm", "rig", "run_x", "run_
 
 def request(rng, number, method, world):
     parameters = method["params"]
-    if parameters and rng.random() < 0.15:  # by position
+    if parameters and rng.random() < 0.15:  # parameters by position
         given = [value_for(rng, p, world) for p in parameters[:rng.randrange(len(parameters) + 2)]]
-    elif rng.random() < 0.3:  # existing values, and as few as possible
+    elif rng.random() < 0.3:  # only existing values, and few parameters
         given = {p["name"]: rng.choice(world[p["name"]]) for p in parameters
                  if p["name"] in world and (p["required"] or p["name"] in NEEDED)}
     else:
@@ -105,7 +107,7 @@ def request(rng, number, method, world):
         if rng.random() < 0.03:
             given[rng.choice(TEXTS)] = any_value(rng)
     made = {"jsonrpc": "2.0", "id": number, "method": method["name"], "params": given}
-    # A line longer than the limit of mdofd ends the connection (tests/daemon/rpc/line/hostile_test.cpp).
+    # If a line is longer than the limit, mdofd ends the connection (tests/daemon/rpc/line/hostile_test.cpp).
     return made if len(json.dumps(made)) < 60_000 else request(rng, number, method, world)
 
 
@@ -116,7 +118,7 @@ class Bench:
             write_log(log)
             with open(log) as f:
                 text = f.read()
-            with open(log, "w") as f:  # no two logs have a common reading
+            with open(log, "w") as f:  # each log must have other readings
                 f.write(text.replace(",0.1,0.2,0.3,0.4,", f",0.1{i},0.2{i},0.3{i},0.4{i},"))
         series = os.path.join(folder, "series.csv")
         with open(series, "w") as f:
@@ -132,13 +134,14 @@ class Bench:
         client.call("compensation.activate", table=table, despite_warnings=True)
         volume = client.call("compensation.build_volume", machine=MACHINE, axes="XY", step_mm=5, incomplete=True)["table"]
         self.methods = methods(client)
-        # Existing values, so that the methods have something to do.
+        # Values that exist, so that the methods succeed in some requests.
         self.world = {"run": runs + [99], "runs": [[r] for r in runs] + [runs], "run_x": runs, "run_y": runs, "run_z": [99], "run_a": runs,
                       "before": runs, "after": runs,
                       "run_b": runs, "table": [table, 2, volume, 99], "axis": ["X", "Y", "Z", "volume"], "path": logs + [series], "position_mm": [0, 1.5, 3],
                       "rig": list(texts.values()), "figure": ["EYX_um", "EAX_urad", "EYX_straightness_um", "ECX_range_urad"], "at_mm": [0, 1, 2, 3],
                       "reference": ["fixture", "carriage", "tool"], "despite_warnings": [True], "offset": [0, 1],
-                      # A replay with many targets, or a run over kilometres, takes long but is valid.
+                      # A replay with many targets, or a run over kilometres, is valid but takes long. Therefore the
+                      # values here are small.
                       "machine": [MACHINE], "X_mm": [0, 1], "axes": ["XY"], "step_mm": [1], "incomplete": [True], "approach": ["mean"],
                       "limit_um": [1000], "limit_um_per_mm": [50], "u_parts": [True], "reason": ["after scraping"], "baseline": [4],
                       "targets_mm": [[], [0, 1, 2, 3]], "interval_mm": [1], "from_mm": [0], "to_mm": [3]}
@@ -168,8 +171,8 @@ def main():
             for _ in range(min(TOGETHER, o.requests - number)):
                 number += 1
                 method = rng.choice(bench.methods)
-                # A replay takes as long as many other requests; without an active table compensation.at has nothing to
-                # do.
+                # A replay takes as long as many other requests, and compensation.at needs an active table. Therefore
+                # these methods are called less often.
                 if method["name"] in ("run.replay", "compensation.deactivate") and rng.random() < 0.9:
                     method = rng.choice(bench.methods)
                 sent[number] = request(rng, number, method, bench.world)
@@ -189,7 +192,7 @@ def main():
                     return 1
                 reply = json.loads(line)
                 if "id" not in reply:
-                    continue  # a notification
+                    continue  # a notification has no reply
                 unread = [n for n in sent if reply["id"] is None and is_beyond_64_bits(sent[n])]
                 asked = sent.pop(unread[0] if unread else reply["id"], None)
                 took = time.monotonic() - at
@@ -216,8 +219,8 @@ def main():
     print("\n".join(bad[:20]))
     without = {name for name in known if not next(m for m in bench.methods if m["name"] == name)["params"]}
     checks = {"wrong answers": not bad, "a method was never asked": known == set(answers),
-              # The axis of the simulator is seldom at rest for encoder.set; with few requests some methods
-              # never succeed.
+              # encoder.set succeeds only if the axis is at rest, which is seldom. If there are few requests, some
+              # methods never succeed.
               f"never with success: {sorted(known - served)}":
                   known - served <= ({"encoder.set"} if o.requests >= 50_000 else {"encoder.set", "run.import", "run.replay", "run.resume", "run.start", "run.stop"}),
               f"never refused: {sorted(known - refused - without)}": known - refused <= without | {"rpc.discover"},

@@ -23,7 +23,7 @@ OWN = ("mdof.db", "mdof.db-wal", "mdof.db-shm")
 
 
 def half_written():
-    """The bytes of a database with an incomplete transaction, and of its journal."""
+    """The bytes of a database with an incomplete transaction, and the bytes of its journal."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "made")
         with closing(sqlite3.connect(path, isolation_level=None)) as connection:
@@ -39,17 +39,17 @@ def read_bytes(path):
 
 
 def super_journal(name):
-    """The end of a journal, which names the journal of a transaction over several databases."""
+    """The last part of a journal. It names the journal of a transaction over several databases."""
     return struct.pack(">I", 1) + name + struct.pack(">II", len(name), sum(name)) + MAGIC
 
 
 class Others:
-    """The programs beside one mdofd: prepare() once, start() and stop() in each life."""
+    """The programs that run beside one mdofd. Call prepare() once, and start() and stop() for each start of mdofd."""
 
     def __init__(self, daemon, mdof, naive=False):
         self.daemon, self.mdof, self.naive = daemon, mdof, naive
         self.folder = os.path.join(daemon.folder, "beside")
-        self.tables, self.replays = [], []  # (time_ns, number) of acknowledged data
+        self.tables, self.replays = [], []  # acknowledged data: (time_ns, number)
         self.victim, self.half = False, half_written()
         self.forgotten = [0, 0]
         self.counts = {"refused": 0, "verified": 0, "opened": 0}
@@ -94,7 +94,7 @@ class Others:
             try:
                 work()
             except (OSError, ValueError, RpcError, sqlite3.Error):
-                pass  # killed, or a disk without power
+                pass  # the program was killed, or its disk has no power
             self.over.wait(0.02)
 
     def write(self):
@@ -104,7 +104,7 @@ class Others:
         self.command("squareness", *self.runs, *self.at())
 
     def own_files(self):
-        """Files of mdofd, including the newest recording."""
+        """The files of mdofd, with the newest recording."""
         recordings = os.path.join(self.daemon.folder, "recordings")
         all_of_them = [entry for entry in os.scandir(recordings) if entry.name.endswith(".mdofrec")]
         newest = sorted(all_of_them, key=lambda entry: entry.stat().st_mtime)[-1:]
@@ -137,18 +137,18 @@ class Others:
         self.command("verify", "--db", self.daemon.database)
 
     def open(self):
-        """Opens the database for writing without mdof, like any other program."""
+        """Opens the database for writing without mdof, as any other program could do."""
         with closing(sqlite3.connect(self.daemon.database)) as connection:
             connection.execute("SELECT count(*) FROM run").fetchone()
         self.counts["opened"] += 1
 
     def forget(self):
-        """Counts a loss only once."""
+        """Forgets the lost data, so that each loss counts once."""
         self.forgotten = [self.forgotten[0] + len(self.tables), self.forgotten[1] + len(self.replays)]
         self.tables, self.replays = [], []
 
     def lost(self, database, until_ns=None):
-        """Sentences about data that were acknowledged until then and are missing."""
+        """Descriptions of data that were acknowledged before and are missing now."""
         losses = []
         with closing(sqlite3.connect(f"file:{database}?mode=ro", uri=True)) as connection:
             for kind, told in (("compensation_table", self.tables), ("run", self.replays)):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""mdofd ends on request with exit code 0, even while it reads its configuration or replays a file that does not
-answer.
+"""mdofd ends on request with exit code 0, also while it reads its configuration or replays a file that cannot be
+read on.
 
 usage: stop_test.py MDOFD"""
 import ctypes
@@ -18,11 +18,12 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from mdofd import RIG, Client, Daemon, RpcError, simulator, write_log  # noqa: E402
 
 FAN_CLASS_CONTENT, FAN_MARK_ADD, FAN_OPEN_PERM, AT_FDCWD = 0x4, 0x1, 0x10000, -100
-SOON_S = 20  # TimeoutStopSec of mdofd.service, after which systemd kills it
+SOON_S = 20  # TimeoutStopSec of mdofd.service; systemd kills mdofd after this time
 
 
 def held_file(path):
-    """Makes every open() of the file wait until the returned descriptor is closed; None: not possible."""
+    """Makes every open() of the file wait until the returned descriptor is closed. Returns None if this is not
+    possible."""
     libc = ctypes.CDLL(None, use_errno=True)
     group = libc.fanotify_init(FAN_CLASS_CONTENT, os.O_RDONLY)
     mask = ctypes.c_uint64(FAN_OPEN_PERM)
@@ -37,7 +38,7 @@ def bytes_read(pid):
 
 
 def blocked_signals(pid):
-    """For each thread, one bit for each blocked signal."""
+    """The mask of blocked signals of each thread."""
     masks = {}
     for thread in os.listdir(f"/proc/{pid}/task"):
         with open(f"/proc/{pid}/task/{thread}/status") as status:
@@ -62,7 +63,7 @@ class Stop(unittest.TestCase):
         self.assertEqual(code, 0)
 
     def test_a_signal_while_the_configuration_is_read_is_a_success(self):
-        """The configuration is so long that mdofd reads it long before it has parsed it."""
+        """The configuration is so long that the signal arrives before mdofd has parsed it."""
         with open(self.daemon.config, "a") as config:
             config.write("# a comment that means nothing but time\n" * 90_000)
         size = os.path.getsize(self.daemon.config)
@@ -75,14 +76,15 @@ class Stop(unittest.TestCase):
             self.assertFalse(os.path.exists(self.daemon.database), "it was later than this test means")
 
     def test_the_signals_go_to_the_main_thread(self):
-        """A signal to a device's thread would interrupt its driver."""
+        """If a thread of a device received a signal, the signal would interrupt the driver."""
         self.daemon.start()
         pid, end = self.daemon.process.pid, time.monotonic() + SOON_S
         ending = sum(1 << number - 1 for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP))
         while True:
             blocked = blocked_signals(pid)
             self.assertEqual(blocked.pop(pid) & ending, 0)
-            if len(blocked) >= 4 and all(mask & ending == ending for mask in blocked.values()):  # store, query, acq, measure
+            # Threads: store, query, acq, measure.
+            if len(blocked) >= 4 and all(mask & ending == ending for mask in blocked.values()):
                 break
             self.assertLess(time.monotonic(), end, blocked)
         self.assert_ends(self.daemon.process)
@@ -118,7 +120,7 @@ class Stop(unittest.TestCase):
         client = self.daemon.start()
         asked = threading.Thread(target=self.ask_in_vain, args=(Client(self.daemon.socket), log))
         asked.start()
-        while os.read(held, 4096) == b"":  # mdofd is opening it
+        while os.read(held, 4096) == b"":  # mdofd has now called open() for the file
             time.sleep(0.01)
         with self.assertRaisesRegex(RpcError, "is replaying or importing another file"):
             client.call("run.replay", path=log)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Replaces LinuxCNC's screen: does what a test requests over the socket COMMANDS, one line of JSON in each
-direction."""
+"""Replaces LinuxCNC's screen. A test sends requests over the socket COMMANDS; requests and answers are lines of
+JSON."""
 import json
 import os
 import socket
@@ -89,7 +89,7 @@ def idle():
 
 
 def stands():
-    """joint-pos, pos-in and pos-out of X, Y, Z after all motion has ended."""
+    """Returns joint-pos, pos-in and pos-out of X, Y and Z after all motion has ended."""
     last = None
     while True:
         now = [[hal.get_value(f"mdof-compensation.{pin}-{k}") for k in range(3)] for pin in ("joint-pos", "pos-in", "pos-out")]
@@ -100,7 +100,7 @@ def stands():
 
 
 def go(places):
-    """Moves to each place and returns the pins there."""
+    """Moves to each place and returns the values of the pins there."""
     found = []
     do(command.mode, linuxcnc.MODE_MDI)
     for place in places:

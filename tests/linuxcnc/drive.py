@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Replaces LinuxCNC's screen: switches on, homes, moves to places, and records the commands of each joint and motor.
-WAY: JSON with places of all three axes in mm; the result is written to SEEN as a JSON list."""
+"""Replaces LinuxCNC's screen. It switches LinuxCNC on, homes, moves to each place and records the commands of all
+joints and motors. Environment variables: WAY contains the places as JSON, in mm, the same for the three axes.
+SEEN is the file for the result, a JSON list."""
 import json
 import os
 import time
@@ -52,7 +53,7 @@ do(command.mdi, "G21 G90 G64")
 for place in json.loads(os.environ["WAY"]):
     do(command.mdi, f"G0 X{place:.6f} Y{place:.6f} Z{place:.6f}")
     wait_until(lambda: state.inpos and state.interp_state == linuxcnc.INTERP_IDLE)
-    time.sleep(0.25)  # the trim follows with a limited velocity
+    time.sleep(0.25)  # the velocity of the correction is limited, so it follows later
     seen.append({"place_mm": place, "joints": joints(), "said": said()})
 do(command.state, linuxcnc.STATE_OFF)
 with open(os.environ["SEEN"], "w") as file:

@@ -30,20 +30,21 @@ net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in
 net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
 net change iocontrol.0.tool-change => iocontrol.0.tool-changed
 """
-# Drives that follow their commands exactly; the feedback shows the position one period later. Home switches at -3 mm of
-# the drive.
+# The drives follow their commands exactly. Their feedback is one period late. The home switches are at -3 mm of the
+# drives.
 DRIVES = "".join(f"net drive-{k} => sampler.0.pin.{6 + k}\n"
                  f"net mdof-{axis}-position => sampler.0.pin.{k}\nnet mdof-{axis}-command => sampler.0.pin.{3 + k}\n"
                  for k, axis in enumerate("xyz"))
 SWITCH = ("net drive-{0} => comp.{0}.in0\nsetp comp.{0}.in1 {1}\nnet switch-{0} comp.{0}.out => joint.{0}.home-sw-in\n"
           "addf comp.{0} servo-thread\n")
-# Two joints of Y, whose switches are RACKED_MM apart, so that the positions of the drives differ by this length.
+# Axis Y has two joints. Their home switches are RACKED_MM apart, so the positions of the two drives differ by this
+# length.
 GANTRY, RACKED_MM = "XYZY", 0.25
 SECOND = "net drive-3 => sampler.0.pin.10\nnet mdof-y2-command => sampler.0.pin.9\n"
 
 
 def missing():
-    """Why the tests cannot run here; None if they can."""
+    """Returns the reason why the tests cannot run here, or None if they can."""
     for program in ("linuxcnc", "halcompile"):
         if not shutil.which(program):
             return f"no {program} here (Debian: apt-get install --no-install-recommends linuxcnc-uspace linuxcnc-uspace-dev)"
@@ -61,14 +62,15 @@ def skip_where_missing():
 
 
 def ini(limits, velocity, acceleration, min_ferror=0.02, inch=False, joints="XYZ"):
-    """All values in mm. joints: the axis of each; a second joint of an axis has the same settings as the first."""
+    """Returns the ini file. All values are in mm. joints: the axis of each joint; a second joint of an axis has
+    the settings of the first."""
     if inch:
         limits, (velocity, acceleration, min_ferror) = [(low / 25.4, high / 25.4) for low, high in limits], [
             x / 25.4 for x in (velocity, acceleration, min_ferror)]
     mm = 1 / 25.4 if inch else 1
     axes = "".join(f"[AXIS_{axis}]\nMIN_LIMIT = {low}\nMAX_LIMIT = {high}\nMAX_VELOCITY = {velocity}\n"
                    f"MAX_ACCELERATION = {acceleration}\n" for axis, (low, high) in zip("XYZ", limits))
-    sequence = lambda axis: -1 if joints.count(axis) > 1 else 0  # joints that home together
+    sequence = lambda axis: -1 if joints.count(axis) > 1 else 0  # the joints of an axis with two joints home together
     sections = "".join(f"[JOINT_{k}]\nTYPE = LINEAR\nHOME = 0\nHOME_SEQUENCE = {sequence(axis)}\nHOME_OFFSET = {-3 * mm}\n"
                      f"HOME_SEARCH_VEL = {-20 * mm}\nHOME_LATCH_VEL = {-0.2 * mm}\nFERROR = {0.5 * mm}\nMIN_FERROR = {min_ferror}\n"
                      f"MIN_LIMIT = {low}\nMAX_LIMIT = {high}\nMAX_VELOCITY = {velocity}\nMAX_ACCELERATION = {acceleration}\n"
@@ -110,7 +112,7 @@ KINEMATICS = trivkins coordinates={joints}{" kinstype=BOTH" if len(joints) > 3 e
 
 class LinuxCnc:
     def __init__(self, folder, text, mdofd, plant=("", ""), words=()):
-        """plant: an error in the component that the test must detect; (text, replacement). words: options of mdof
+        """plant: (text, replacement), an error in the component that the test must detect. words: options of mdof
         compensation linuxcnc."""
         self.folder = folder
         folder.mkdir()
@@ -186,13 +188,13 @@ class LinuxCnc:
             time.sleep(0.02)
 
     def sample(self):
-        """Starts to keep the samples of each servo period."""
+        """Starts to record the pins in each servo period."""
         time.sleep(0.3)
         self.from_byte = (self.folder / "samples").stat().st_size
 
     def sampled(self):
-        """Rows [number, at x y z, in x y z, out x y z] since sample(); with a gantry also in and out of the second
-        joint."""
+        """Returns the rows since sample(): [number, at x y z, in x y z, out x y z]. With a gantry, `in` and `out`
+        of the second joint follow."""
         time.sleep(0.3)
         with open(self.folder / "samples") as samples:
             samples.seek(self.from_byte)
@@ -214,7 +216,7 @@ class LinuxCnc:
 
 
 class Grid:
-    """A table from `mdof compensation show --csv`, linear between nodes; mm."""
+    """A table from `mdof compensation show --csv`. Between its nodes it is linear. Unit: mm."""
 
     def __init__(self, text):
         rows = list(csv.DictReader(line for line in io.StringIO(text) if not line.startswith("#")))
@@ -234,7 +236,7 @@ class Grid:
 
 
 class Mdofd:
-    """An mdofd whose socket is accessible to LinuxCNC's user, and the tables of its database."""
+    """An mdofd whose socket LinuxCNC's user may use. It has the tables of its own database."""
 
     def __init__(self, folder):
         from mdofd import Daemon, simulator
@@ -271,7 +273,7 @@ class Mdofd:
         return json.loads(self.mdof("compensation", "activate", table, *words, "--json"))["generation"]
 
     def take(self, database, table):
-        """Replaces its database by another one and serves a table of it; returns the generation."""
+        """Replaces the database of mdofd and activates a table of the new database. Returns the generation."""
         self.daemon.stop()
         shutil.copy(database, self.daemon.database)
         for more in ("-wal", "-shm"):
@@ -284,7 +286,7 @@ class Mdofd:
 
 
 def write_machine(folder, errors, simulated=False, length=320, step=10, chain="w-b-X-Y-Z-t"):
-    """MACHINE.toml whose positioning errors are errors(axis, position_mm), um; all others are 0."""
+    """Writes MACHINE.toml. The positioning errors are errors(axis, position_mm) in um; all other errors are 0."""
     folder.mkdir()
     text = 'name = "mill"\n' + ("simulated = true\n" if simulated else "") + f'machine = {{chain = "{chain}"}}\n'
     for axis, more in (("X", ""), ("Y", "EC0Y_urad = 0\n"), ("Z", "EA0Z_urad = 0\nEB0Z_urad = 0\n")):

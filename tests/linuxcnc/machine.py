@@ -46,7 +46,7 @@ JOINT = "TYPE = LINEAR\nHOME = 0\nHOME_SEQUENCE = 0\nFERROR = 1\nMIN_FERROR = 1\
 
 
 def ini(compensation):
-    """With the lines of an exported compensation.ini in the section of each joint."""
+    """Returns the ini file. The section of each joint has the lines of an exported compensation.ini."""
     text = GENERAL + "".join(f"[AXIS_{axis}]\n{LIMITS}" for axis in "XYZ")
     sections, joint = {}, None
     for line in compensation.splitlines():

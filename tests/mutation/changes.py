@@ -1,4 +1,4 @@
-"""Finds the places of a C++ source where tests/mutate can plant a small change, and plants them.
+"""Finds the places of a C++ source where tests/mutate can make a small change, and makes these changes.
 
 A change has a plain form (the text that replaces a span) and, if possible, a switched form: edits that do not change
 the program until MDOF_CHANGE names the change's number (switch.h).
@@ -17,7 +17,7 @@ TOKEN = re.compile(r'''
   | (?P<sign><=>|<<=|>>=|->\*|\.\.\.|::|->|\+\+|--|\+=|-=|\*=|/=|%=|&=|\|=|\^=|==|!=|<=|>=|&&|\|\||<<|[^\w\s])
 ''', re.X | re.S)
 OPENS, CLOSES = {'(': ')', '[': ']', '{': '}'}, {')', ']', '}'}
-# The arguments of these are for people or for the compiler.
+# The arguments of these names are texts for people or values for the compiler, so they are not changed.
 TALKS = {'assert', 'static_assert', 'bad_input', 'fail', 'not_of_this_kind', 'to_string', 'plain_number',
          'reserve', 'alignas', 'sizeof', 'noexcept', 'decltype', 'in_mm', 'in_um'}
 KEYWORDS = {'return', 'if', 'else', 'for', 'while', 'do', 'switch', 'case', 'default', 'const', 'constexpr',
@@ -37,8 +37,8 @@ class Token:
     text: str
     start: int
     depth: int = 0
-    partner: int = -1    # partner of a bracket
-    silent: bool = False  # inside code that must not be changed
+    partner: int = -1  # index of the matching bracket
+    silent: bool = False  # true in code that must not be changed
 
     @property
     def end(self):
@@ -50,13 +50,13 @@ class Change:
     file: str
     start: int
     end: int
-    text: str      # the plain form: replaces start..end
-    edits: list    # the switched form: (start, end, text with {n}); empty: none
+    text: str  # plain form: text that replaces start..end
+    edits: list  # switched form: list of (start, end, text with {n}); empty if there is none
     line: int = 0
     source: str = ''
     shown: str = ''
     number: int = 0
-    const_at: int = -1  # position of a constexpr that the switched form makes const
+    const_at: int = -1  # position of a constexpr that becomes const in the switched form
 
     @property
     def key(self):
@@ -92,7 +92,8 @@ def spaced(text, token):
 
 
 def rest_of_operand(tokens, i, ends):
-    """The index after the operand that begins at i: the first of `ends` at its depth, or a closing bracket."""
+    """Returns the index after the operand that begins at i. This is the first of `ends` at the same depth, or a
+    closing bracket."""
     depth = tokens[i].depth
     while i < len(tokens):
         token = tokens[i]
@@ -108,7 +109,8 @@ class Finder:
         self.starts = {i for i in range(1, len(self.tokens)) if self.begins_statement(i)}
 
     def add(self, first, last, shown, plain, edits):
-        """first..last: tokens that the plain form replaces; shown: their description."""
+        """Adds a change. first..last: the tokens that the plain form replaces. shown: the description of these
+        tokens."""
         t = self.tokens
         change = Change(self.file, t[first].start, t[last].end, plain, edits)
         change.line = self.text.count('\n', 0, change.start) + 1
@@ -253,7 +255,7 @@ class Finder:
             head = level[:assigns[0]] if assigns else level
             if any(a.kind == 'word' and b.kind == 'word' or a.text in ('>', '&', '*') and b.kind == 'word' and not spaced(self.text, a)
                    for a, b in zip(head, head[1:])):
-                return  # a declaration
+                return  # this is a declaration
             if not assigns and words[-1].text != ')' and t[i].text not in ('++', '--') and words[-1].text not in ('++', '--'):
                 return
         what = self.text[t[i].start:t[end].end]
@@ -273,13 +275,14 @@ def changes_of(file, text):
 
 
 def planted(text, changes, header='mutate_switch.h'):
-    """The text with the switched forms of all `changes` (in one file; each at most once at a place)."""
+    """Returns the text with the switched forms of all `changes`. All changes are in one file, and each is at one
+    place at most once."""
     edits = []
     for change in changes:
         size = change.edits[-1][1] - change.edits[0][0] if change.edits else 0
         for k, (start, end, new) in enumerate(change.edits):
-            # Order at one place: closing texts first, the inner before the outer; then opening texts, the outer before
-            # the inner; then replacements.
+            # Order of the edits at one place: first closing texts, the inner text before the outer; then opening
+            # texts, the outer text before the inner; then replacements.
             if end > start:
                 order = (start, 2, 0, 0)
             elif k == 1:

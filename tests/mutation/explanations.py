@@ -23,7 +23,7 @@ class Explanations:
                     self.exact[key] = reason
 
     def reason(self, change):
-        """None: not explained."""
+        """Returns the reason, or None if the change is not explained."""
         if change.key in self.exact:
             return self.exact[change.key]
         value = re.match(r'(\w+) = (?:- )?\[(\S+) -> (\S+)\]', change.shown)
@@ -34,5 +34,5 @@ class Explanations:
 def is_twice(before, after):
     try:
         return not before.isdigit() and float(after) == 2 * float(before)
-    except ValueError:  # hexadecimal, or with a suffix: only a next value exists
+    except ValueError:  # the number is hexadecimal or has a suffix, so only its next value is tried
         return False

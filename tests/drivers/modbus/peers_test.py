@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Tests our Modbus client with the server of pymodbus, and our simulated slave with mbpoll, over TCP
-and RTU. Returns 77 (skipped) if these programs are not installed.
+"""Tests our Modbus client with the server of pymodbus, and our simulated slave with mbpoll. Both tests use TCP and
+RTU. Returns 77 (skipped) if these programs are not installed.
 
 usage: peers_test.py MODBUS_PEER
 """
@@ -42,7 +42,7 @@ def free_port():
 
 
 def serve_pymodbus(framer):
-    """Starts a server in a thread that ends with the program; returns its address."""
+    """Starts a server in a thread, which ends when the program ends. Returns the address of the server."""
     slave = ModbusSlaveContext(
         hr=ModbusSequentialDataBlock(0, [1000 + i for i in range(200)]),
         ir=ModbusSequentialDataBlock(0, [2000 + i for i in range(200)]), zero_mode=True)
@@ -84,7 +84,7 @@ def mbpoll(*arguments):
 
 
 class Served:
-    """The simulated slave of a profile; `at` is its port or line."""
+    """The simulated slave of a profile. `at` is the port or the line of the slave."""
 
     def __init__(self, profile):
         self.process = subprocess.Popen([PEER, "serve", profile], stdin=subprocess.PIPE,

@@ -3,14 +3,14 @@ import math
 
 
 def grid(width_mm, height_mm, pixel_mm):
-    """Places of pixels around (0, 0)."""
+    """Positions of pixels, symmetric about (0, 0)."""
     nx, ny = round(width_mm / pixel_mm) + 1, round(height_mm / pixel_mm) + 1
     return ([round((i - (nx - 1) / 2) * pixel_mm, 9) for i in range(nx)],
             [round((j - (ny - 1) / 2) * pixel_mm, 9) for j in range(ny)])
 
 
 def write_map(path, xs, ys, z_um, head="x_mm,y_mm,z_um"):
-    """z_um(x, y): a height, or None for a hole."""
+    """Writes a height map. z_um(x, y) returns the height, or None for a hole."""
     with open(path, "w") as file:
         file.write(head + "\n")
         for y in ys:
@@ -22,7 +22,7 @@ def write_map(path, xs, ys, z_um, head="x_mm,y_mm,z_um"):
 
 
 def read_map(path):
-    """{(x, y): z} of the measured pixels."""
+    """Returns {(x, y): z} of the measured pixels."""
     with open(path) as file:
         assert file.readline() == "x_mm,y_mm,z_um\n"
         rows = [line.rstrip("\n").split(",") for line in file]

@@ -1,16 +1,18 @@
-"""A machine with a five-probe fixture, in numbers: bodies as 4x4 matrices, probes as lines that meet planes.
+"""A numeric model of a machine with a five-probe fixture: bodies are 4x4 matrices, probes are lines that meet
+planes.
 
 Shares no code and no formula with mdof, because tests compare with it. Metres and radians; machine axes."""
 import math
 import random
 
-# The default fixture (five-probe/rig_X.toml, rig_Y.toml): point of the line, direction, plane normal, offset.
+# The default fixture (five-probe/rig_X.toml, rig_Y.toml). For each probe: a point of its line, its direction, the
+# normal of its plane, and the offset of the plane.
 PROBES = {
     "X": {"A": ((.01, 0, 0), "z"), "B": ((0, .01, 0), "z"), "C": ((0, -.01, 0), "z"),
           "D": ((0, .015, .02), "y"), "E": ((.01, .015, .02), "y")},
     "Y": {"A": ((0, .01, 0), "z"), "B": ((-.01, 0, 0), "z"), "C": ((.01, 0, 0), "z"),
           "D": ((-.015, 0, .02), "-x"), "E": ((-.015, .01, .02), "-x")},
-    "Z": {"A": ((0, 0, .01), "y"), "B": ((.01, 0, 0), "y"), "C": ((-.01, 0, 0), "y"),  # like X, axes permuted cyclically
+    "Z": {"A": ((0, 0, .01), "y"), "B": ((.01, 0, 0), "y"), "C": ((-.01, 0, 0), "y"),  # as X, axes permuted cyclically
           "D": ((.015, .02, 0), "x"), "E": ((.015, .02, .01), "x")},
 }
 DIRECTION = {"z": (0, 0, 1), "x": (1, 0, 0), "y": (0, 1, 0), "-x": (-1, 0, 0)}
@@ -26,7 +28,7 @@ def moved(x=0.0, y=0.0, z=0.0):
 
 
 def turned(a, b, c):
-    """Turn about the axes of the machine, A first."""
+    """Rotation matrix about the axes of the machine; A acts first."""
     sa, ca, sb, cb, sc, cc = (f(t) for t in (a, b, c) for f in (math.sin, math.cos))
     rx = [[1, 0, 0, 0], [0, ca, -sa, 0], [0, sa, ca, 0], [0, 0, 0, 1]]
     ry = [[cb, 0, sb, 0], [0, 1, 0, 0], [-sb, 0, cb, 0], [0, 0, 0, 1]]
@@ -49,8 +51,9 @@ def dot(a, b):
 
 
 def reading(in_C, point, direction):
-    """Distance along the probe's direction, from `point`, at which its line meets the target's plane. The plane is
-    fixed in C at the place where the probe finds it for C = M, across its direction. in_C: from M into C."""
+    """Distance from `point` along the probe's direction to the plane of the target. The plane is fixed in C. Its
+    place is where the probe meets it if C = M, and it is perpendicular to the probe's direction. in_C
+    transforms from M into C."""
     offset = dot(direction, point)
     p = applied(in_C, point)
     u = [sum(in_C[i][k] * direction[k] for k in range(3)) for i in range(3)]
@@ -58,27 +61,28 @@ def reading(in_C, point, direction):
 
 
 def readings(axis, pose_MC):
-    """In the order of the columns, m."""
+    """Readings of all probes in the order of the columns, in m."""
     in_C = inverse(pose_MC)
     return [reading(in_C, point, DIRECTION[way]) for point, way in PROBES[axis].values()]
 
 
 def pose(axis, travel, errors):
-    """Pose of C in M: `errors` are two straightness errors (of C's origin) and A, B, C of the target."""
+    """Pose of C in M. `errors`: two straightness errors of the origin of C, and the angles A, B, C of the target;
+    m, rad."""
     first, second, a, b, c = errors
     shift = {"X": (travel, first, second), "Y": (first, travel, second), "Z": (first, second, travel)}[axis]
     return product(moved(*shift), turned(a, b, c))
 
 
 def error_at(axis, travel, pose_MC, point):
-    """Error of the point of the target that is nominally at `point` of M, m."""
+    """Error of a point of the target in m. Its nominal position in M is `point`."""
     along = {"X": (1, 0, 0), "Y": (0, 1, 0), "Z": (0, 0, 1)}[axis]
     nominal = tuple(p - travel * u for p, u in zip(point, along))
     return tuple(x - p for x, p in zip(applied(pose_MC, nominal), point))
 
 
 class Waves:
-    """Smooth random errors over a travel: two straightness and three angles."""
+    """Smooth random errors over a travel: two straightness errors and three angles."""
 
     def __init__(self, source, straightness_m=3e-6, angle_rad=100e-6, length_m=0.06):
         self.parts = [[((straightness_m if k < 2 else angle_rad) * source.uniform(.2, 1) / (i + 1),
@@ -90,7 +94,8 @@ class Waves:
 
 
 def stops(targets_m, repeats, overrun_m=1e-3):
-    """Positions of a standard cycle: forward and back, overrun at both ends (None: only passed)."""
+    """Positions of a standard cycle, forward and back, with overruns at both ends. The axis passes the positions
+    with None without a stop."""
     for _ in range(repeats):
         yield targets_m[0] - overrun_m, False
         for t in targets_m:
@@ -103,8 +108,8 @@ def stops(targets_m, repeats, overrun_m=1e-3):
 
 def write_log(path, axis, way, readings_at, rate_hz=500, dwell_s=0.3, speed_m_s=0.03, noise_m=5e-9,
               encoder_noise_m=1e-8, seed=1):
-    """A probe log along `way`, which consists of pairs (encoder position, whether to dwell). readings_at(encoder_m):
-    m."""
+    """Writes a probe log along `way`, a list of (encoder position, whether the axis stops there).
+    readings_at(encoder_m) returns the readings in m."""
     source = random.Random(seed)
     gauss, lines, at, time = source.gauss, [], None, 0.0
     step = speed_m_s / rate_hz
@@ -133,7 +138,7 @@ def write_log(path, axis, way, readings_at, rate_hz=500, dwell_s=0.3, speed_m_s=
 
 
 def write_rig(path, axis, extra="", range_um=400):
-    """The default fixture; `extra` is inserted before the probes."""
+    """Writes the default fixture as a rig. `extra` is inserted before the probes."""
     named = {"z": "+Z", "y": "+Y", "x": "+X", "-x": "-X"}
     text = f'name = "model"\naxis = "{axis}"\n{extra}\n'
     for probe, (point, way) in PROBES[axis].items():
@@ -144,7 +149,7 @@ def write_rig(path, axis, extra="", range_um=400):
 
 
 def slope(x, y):
-    """Slope of the least-squares line."""
+    """Slope of the least-squares line through the points."""
     mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
     return (sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y))
             / sum((a - mean_x) ** 2 for a in x))

@@ -1,4 +1,4 @@
-"""Runs the mdof under test. The tests get it and the test data from ctest's environment."""
+"""Runs the tested mdof. ctest's environment contains the paths of mdof and of the test data."""
 import gzip
 import json
 import os
@@ -17,13 +17,14 @@ DATA = pathlib.Path(os.environ["MDOF_TEST_DATA"])
 
 
 def notice_lines(document):
-    """The notices of a run, a table or another document in the format of mdof: one line each, marked unless
-    doubtful."""
+    """The notices of a run, a table or another document, one line each, in the format of mdof. The severity begins
+    the line, except for doubtful notices."""
     return [("" if n["severity"] == "doubtful" else n["severity"] + ": ") + n["text"] for n in document["notices"]]
 
 
 def run(*arguments, stdin=None, env=None):
-    """(exit code, standard output, standard error). mdof must explain each column of a CSV and each member of JSON."""
+    """Runs mdof and returns (exit code, standard output, standard error). Fails if mdof help fields does not
+    explain each column of a CSV and each member of a JSON document."""
     done = subprocess.run([MDOF, *map(str, arguments)], input=stdin, capture_output=True,
                           timeout=600, env={**os.environ, **(env or {})})
     out = done.stdout.decode()
@@ -38,7 +39,7 @@ def run(*arguments, stdin=None, env=None):
 
 
 def run_on_full_disk(*arguments, free_bytes):
-    """Like run(), but no file can grow beyond this size; SQLite needs 32 KiB beside a database."""
+    """Like run(), but no file can become larger than this size. SQLite needs 32 KiB in addition to a database."""
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (free_bytes, free_bytes))
@@ -48,7 +49,7 @@ def run_on_full_disk(*arguments, free_bytes):
 
 
 def run_json(*arguments):
-    """The single JSON document of a successful command."""
+    """Runs a command that must succeed. Returns its only JSON document."""
     code, out, err = run(*arguments, "--json")
     assert code == 0, f"mdof {arguments}: exit {code}: {err}"
     return json.loads(out)
@@ -61,7 +62,7 @@ def read_text(path):
 
 
 def read_csv(text):
-    """Columns of numbers by name."""
+    """The columns of numbers in a CSV, by name."""
     lines = [line for line in text.splitlines() if not line.startswith("#")]
     rows = [[float(field) for field in line.split(",")] for line in lines[1:]]
     return {name: [row[i] for row in rows] for i, name in enumerate(lines[0].split(","))}

@@ -1,5 +1,5 @@
-"""A machine of matrices with X and Y (machine_model.py, which shares no code with mdof), measured by five probes and
-a laser."""
+"""A simulated machine with the axes X and Y, made of matrices (machine_model.py, which uses no code of mdof). Five
+probes and a laser measure it."""
 import csv
 import math
 import pathlib
@@ -13,7 +13,7 @@ import machine_model as model
 from mdof_runner import run, run_json
 
 TARGETS = [2e-3 * i for i in range(21)]
-TOOL = (.006, -.004, -.030)  # 30 mm below the fixture, so that angles act through a lever
+TOOL = (.006, -.004, -.030)  # m; 30 mm below the fixture, so that angles have a lever arm
 TOML = """name = "mill"
 squareness = "latest"
 machine = {chain = "w-X-b-Y-t"}
@@ -32,8 +32,8 @@ runs = "latest"
 
 
 class Mill:
-    """X carries the work, Y the tool; the line of Y is off by EC0Y. `against`: axes whose body moves to - as the
-    command increases."""
+    """X moves the workpiece, Y moves the tool. The line of Y has the error EC0Y. `against`: axes whose body moves
+    to - as the command increases."""
 
     def __init__(self, seed, against="", EC0Y=120e-6):
         source = random.Random(seed)
@@ -56,14 +56,13 @@ class Mill:
         return at[0] - (tool[0] - self.way["X"] * x), at[1] - (tool[1] + self.way["Y"] * y)
 
     def readings(self, axis, encoder):
-        # The target moves in X. In Y the fixture moves, so that the target moves in the opposite direction relative to
-        # it.
+        # In X the target moves. In Y the fixture moves, so the target moves in the opposite direction relative to it.
         pose = self.pose(axis, encoder)
         return model.readings(axis, pose if axis == "X" else model.inverse(pose))
 
     def deviation(self, axis, at):
-        """The reading of a laser at the point of the body at which the errors are stated, in the scale of the
-        controller, m."""
+        """The reading of a laser in m, in the scale of the controller. The laser measures at the point of the body
+        for which the errors are stated."""
         way = self.way[axis]
         if axis == "X":
             return way * model.error_at("X", way * at, self.pose("X", at), (0, 0, 0))[0]
@@ -71,7 +70,8 @@ class Mill:
 
 
 def worst(errors):
-    """The largest error after the work is aligned (without a shift and a turn). (x, y, error) in the work."""
+    """Returns the largest error after the workpiece is aligned: a shift and a rotation are removed. errors: (x, y,
+    error) in the workpiece."""
     n = len(errors)
     mean = [sum(v) / n for v in zip(*((x, y, *e) for x, y, e in errors))]
     centred = [(x - mean[0], y - mean[1], e[0] - mean[2], e[1] - mean[3]) for x, y, e in errors]
@@ -80,7 +80,7 @@ def worst(errors):
 
 
 class Grid:
-    """The table from its CSV, bilinear."""
+    """The table of corrections from its CSV, with bilinear interpolation."""
 
     def __init__(self, text):
         rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))

@@ -1,6 +1,6 @@
-"""An independent simulation of the machine of Hwang, Song and Park: 400 x 400 mm, X carries the tool, Y the work. It
-shares no code with mdof: bodies are 4x4 matrices of lists, and the instruments read what a laser interferometer
-would read."""
+"""An independent simulation of the machine of Hwang, Song and Park: 400 x 400 mm, X moves the tool, Y moves the
+workpiece. It uses no code of mdof. Bodies are 4x4 matrices (lists), and the instruments read what a laser
+interferometer would read."""
 import math
 
 WIDTH = 400.0      # mm
@@ -33,7 +33,8 @@ def rigid_inverse(m):
 
 
 class Machine:
-    """Errors in mm and rad for commands in mm; `size` 1: about the figures of the paper before compensation."""
+    """The errors in mm and rad for commands in mm. If `size` is 1, the errors are about as large as in the paper
+    before compensation."""
 
     def __init__(self, angles=1.0, square=25e-6):
         self.angles, self.square = angles, square
@@ -45,9 +46,9 @@ class Machine:
                 "up": 1e-3 * 0.3 * wave(300, 0.3), "turns": [self.angles * 1e-6 * s * wave(350, q) for s, q in ((1.5, 0), (2, .3), (2, .6))]}
 
     def tool_in_work(self, x, y):
-        """X carries the tool; Y carries the work, and its table moves back as the command increases."""
+        """X moves the tool. Y moves the workpiece; its table moves to - as the command increases."""
         ex, ey = self.of_axis(x, 0.0, 4.5, 0.8), self.of_axis(y, 0.37, -3.5, 0.7)
-        c = (CENTRE, CENTRE, 0.0)    # the errors hold there, at the middle of the table
+        c = (CENTRE, CENTRE, 0.0)  # the errors are stated for this point, the middle of the table
         carriage = product(shift(c[0] + x + ex["along"], c[1] + ex["across"], ex["up"]), turn(*ex["turns"]),
                            shift(-c[0] , -c[1], 0))
         went = -y
@@ -58,6 +59,6 @@ class Machine:
         return [there[i][3] for i in range(3)]
 
     def error(self, x, y):
-        """Error in µm of the tool in the work, relative to (x, y)."""
+        """Error of the tool at (x, y) in the workpiece, in µm."""
         at = self.tool_in_work(x, y)
         return [(at[0] - x) * 1e3, (at[1] - y) * 1e3]

@@ -1,4 +1,4 @@
-"""Reads a report back with Python's parser, and numbers as the report shows them."""
+"""Reads a report with Python's parser, and reads numbers in the form in which the report shows them."""
 import html.parser
 import unittest
 
@@ -8,8 +8,8 @@ VOID = {"meta", "br", "img", "input", "link", "hr", "base"}
 
 
 class Page(html.parser.HTMLParser):
-    """Tags with their attributes, tables as lists of rows, texts of pre, facts; every tag must be closed in the
-    right place."""
+    """The content of a page: tags with their attributes, tables as lists of rows, the texts of pre, and facts.
+    Every tag must be closed at the correct place."""
 
     def __init__(self, text):
         super().__init__(convert_charrefs=True)
@@ -55,7 +55,7 @@ class Page(html.parser.HTMLParser):
 
 
 def places(text):
-    """Half a unit of the last digit shown."""
+    """Half of the last digit of a number in the report."""
     digits = text.replace("−", "-").split(".")
     return .5 * 10.0 ** -(len(digits[1]) if len(digits) > 1 else 0)
 
@@ -65,7 +65,7 @@ def number(text):
 
 
 class ReportCase(unittest.TestCase):
-    """`path`: a folder; `db`: a database in it."""
+    """Has `path` (a folder) and `db` (a database in this folder)."""
 
     def report(self, *words, db=None):
         out = self.path / "report.html"

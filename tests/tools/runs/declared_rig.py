@@ -1,4 +1,5 @@
-"""The X rig of the five-probe logs with every uncertainty that a rig can declare, so that tolerances are decided."""
+"""The X rig of the five-probe logs. It declares every uncertainty that a rig can declare, so that tolerances are
+decided."""
 from mdof_runner import DATA
 
 OF_PROBES = "u_calibration_um = 0.02\nu_sensitivity_ppm = 500\nu_position_mm = 0.05\nu_direction_mrad = 2\n"

@@ -1,5 +1,5 @@
-"""Reads a chart like a person: scales from the labels of its ticks, places of its marks from the drawing. Shares no
-code with the program that draws it."""
+"""Reads a chart as a person does: scales from the labels of the ticks, and places of the marks from the drawing.
+Uses no code of the program that draws the chart."""
 import re
 import xml.etree.ElementTree as ET
 
@@ -12,19 +12,19 @@ def number(label):
 
 
 def power(title):
-    """The 10^n in the title of an axis."""
+    """The power of ten (10^n) in the title of an axis."""
     found = re.search(r"10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", title)
     return 10.0 ** int("".join(POWERS[c] for c in found[1])) if found else 1.0
 
 
 def scale(places):
-    """The straight line through (px, value) of the outermost ticks."""
+    """The straight line through (px, value) of the first and the last tick."""
     (p0, v0), (p1, v1) = min(places), max(places)
     return lambda px: v0 + (px - p0) * (v1 - v0) / (p1 - p0)
 
 
 def centre(shape):
-    """Centre of a disc, a square or a diamond, px."""
+    """Centre of a disc, a square or a diamond, in px."""
     at = lambda name: float(shape.get(name))
     if shape.tag == SVG + "circle":
         return at("cx"), at("cy")
@@ -55,7 +55,8 @@ class Panel:
         self.y = scale([(px, v * power(self.titles[-1])) for px, v in y]) if len(set(y)) > 1 else None
 
     def marks(self):
-        """For each mark its data and its place in the units of the axes (None, None: a cross at the edge)."""
+        """For each mark: its data, and its place in the units of the axes. A cross at the edge has the place
+        (None, None)."""
         for g in self.group:
             if g.tag != SVG + "g" or g.get("data-row") is None:
                 continue

@@ -1,4 +1,4 @@
-"""The names of members and columns that mdof explains: the rows of mdof help fields."""
+"""The names of members and columns that mdof explains. They are the rows of mdof help fields."""
 import functools
 import os
 import re
@@ -33,13 +33,14 @@ def is_known(mdof, name):
 
 
 def unknown_columns(mdof, csv):
-    """Names in the header of a CSV that no row explains."""
+    """Names in the header of a CSV that have no row."""
     head = next((line for line in csv.splitlines() if line and not line.startswith("#")), "")
     return [name for name in head.split(",") if name and not is_known(mdof, name)]
 
 
-FREE = {"notices", "taken", "not_taken", "options"}  # numbers of a notice, and options of an evaluation, have no rows
-DATA = {"series", "inputs", "rotation_resolution_deg"}  # in an object, the names are probes, errors, inputs or angles
+FREE = {"notices", "taken", "not_taken", "options"}  # numbers of a notice and options of an evaluation have no rows
+# In these objects, the names are names of probes, errors, inputs or angles.
+DATA = {"series", "inputs", "rotation_resolution_deg"}
 
 
 def names_of(document):
@@ -54,5 +55,5 @@ def names_of(document):
 
 
 def unknown_members(mdof, document):
-    """Names of members of a JSON document that no row explains."""
+    """Names of members of a JSON document that have no row."""
     return sorted(name for name in names_of(document) if not is_known(mdof, name))

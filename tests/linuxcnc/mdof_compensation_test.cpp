@@ -145,7 +145,7 @@ TEST(FollowTest, AChangeDuringMotionFadesToTheNewTable) {
   const auto table = [](double x) { return 0.05 * std::sin(x / 100); };
   mdof_offset offset{table(0), 0.05 / 100 * 100};
   double step = 0, beyond = 0, last_off = 2 * offset.value;
-  for (int i = 0; i < 5000; ++i) {  // at first the offset is from another table
+  for (int i = 0; i < 5000; ++i) {  // after 1000 periods the table changes by 0.08 mm
     const double x = 0.1 * i;
     if (i == 1000) last_off = offset.value - -table(x);
     const double sign = i < 1000 ? 1 : -1;

@@ -138,8 +138,9 @@ TEST_F(LabjackT7Driver, InvalidStreamIsAnErrorAndIsRestarted) {
   }
 }
 
-// C is the difference of 0.9 V and 0.25 V. Its range has a code of a tenth of the other inputs.
-// The settings of the other inputs must be correct, even if another program has changed them.
+// C is the difference of 0.9 V and 0.25 V. One code of its range is a tenth of one code of the
+// other ranges. The settings of the other inputs must be correct, even if another program has
+// changed them.
 TEST_F(LabjackT7Driver, DifferentialInputHasItsOwnRange) {
   serve({});
   settings.inputs[2] = {{"C", Unit::volt}, 4, 0, 0, 5, 1};

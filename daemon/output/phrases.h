@@ -1,5 +1,4 @@
-// Labels of charts and reports in each supported language: one row of phrases.inc for each label.
-// Pure.
+// Labels of charts and reports in English and German. phrases.inc has one row for each label. Pure.
 #pragma once
 
 #include <initializer_list>

@@ -8,7 +8,7 @@
 
 namespace mdof::charts {
 
-// A power of ten, rounded once; 0 or infinite outside the range of a double.
+// 10^exponent as the nearest double. The result is 0 or infinite if a double cannot represent it.
 double power_of_ten(int exponent);
 // The e in |x| = m · 10^e with 1 <= m < 10; 0 for 0 and non-finite numbers.
 int decimal_exponent(double x);
@@ -18,18 +18,18 @@ std::string number_text(double x, int digits = 4);  // "−0.5", "1.235×10⁶";
 std::string power_text(int exponent);               // "10⁻⁶"
 std::string count_text(std::uint64_t n);            // "1 000 000", without line breaks
 
-// A key, divided into name and unit: "EAX_urad" is EAX in µrad. A key without a known unit is all
-// name.
+// The name and the unit in a key: "EAX_urad" has the name "EAX" and the unit "µrad". If a key has
+// no known unit, `name` is the whole key.
 struct Key {
   std::string name, unit;
 };
 Key split_key(std::string_view key);
-// "EAX / µrad", or "EAX / (10⁻⁶ µrad)" if the labels are multiples of 10^exponent.
+// The title of an axis: "EAX / µrad". With exponent -6 it is "EAX / (10⁻⁶ µrad)".
 std::string key_label(std::string_view key, int exponent = 0);
 
-// Approximate width in px of a sans-serif text, rather too large than too small.
+// Estimated width in px of a text in a sans-serif font. The estimate is usually too large.
 double text_width(std::string_view text, double font_px);
-// At most this number of characters; a longer text ends in "…".
+// Shortens a text to at most this number of characters. A shortened text ends in "…".
 std::string shortened(std::string_view text, std::size_t characters);
 
 }  // namespace mdof::charts

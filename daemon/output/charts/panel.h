@@ -1,4 +1,4 @@
-// Common parts of plots: a head, a legend, panels with axes side by side, stepped bands.
+// Elements that several plots use: title, legend, panels with axes, and stepped bands.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,12 @@ namespace mdof::charts {
 
 inline constexpr double kMarginPx = 24;  // around the plot
 
-// A title and a less prominent line below it; both end above kHeadPx.
+// Height of the title area, px. draw_head() draws the title and, below it, the subtitle in a less
+// prominent colour.
 inline constexpr double kHeadPx = 60;
 void draw_head(Svg& svg, std::string_view title, std::string_view subtitle);
 
-// "simulation-1: what"; only "what" if the study has no name.
+// "simulation-1: " followed by `what`, or only `what` if the study has no name.
 std::string titled(const StudyResult& result, const std::string& what);
 
 // "Monte Carlo, 1 000 000 trials, seed 7", and a remark if the study was interrupted.
@@ -31,10 +32,10 @@ struct LegendItem {
   const char* mark;
   std::string text;
 };
-// Draws rows of the plot's width from `top` downwards; returns the bottom of the last row.
+// Draws the legend in rows from `top` downwards. Returns the lower edge of the last row, px.
 double draw_legend(Svg& svg, double top, std::span<const LegendItem> items);
 
-// A rectangle with one quantity along each side.
+// A rectangular plot area with an x axis and a y axis.
 struct Panel {
   Place corner;  // upper left
   double width = 0, height = 0;
@@ -43,17 +44,18 @@ struct Panel {
   double px_y(double value) const { return corner.y + (1 - y.fraction(value)) * height; }
   Place at(double vx, double vy) const { return {px_x(vx), px_y(vy)}; }
 };
-// A panel with the same scale along x and y; the longer side has `longest_px`.
+// A panel with the same scale along x and y; the longer side is `longest_px` long.
 Panel panel_in_proportion(Place corner, const Range& x, const Range& y, double longest_px);
-// Grid lines, tick labels, and the title of x below.
+// Draws the grid lines, the tick labels, and the title of the x axis below the panel.
 void draw_axes(Svg& svg, const Panel& panel, std::string_view x_key);
-// The title of y, horizontal, above the upper left corner.
+// Draws the title of the y axis horizontally above the upper left corner of the panel.
 void draw_y_title(Svg& svg, const Panel& panel, std::string_view y_key);
 
-inline constexpr double kOutputPx = 170;  // height of a panel if every output has one
+inline constexpr double kOutputPx =
+    170;  // height of a panel in a plot with one panel for each output
 
-// Panels of equal size, two side by side if there are several. Their left margin fits the widest
-// label of all panels.
+// Panels of equal size, two side by side if there are several. All panels have the same left
+// margin, which is wide enough for the widest y label.
 class Sheet {
  public:
   Sheet(double top_px, std::span<const Range> y_ranges, double panel_height_px);
@@ -66,7 +68,8 @@ class Sheet {
   std::vector<Axis> y_;
 };
 
-// A value over an interval of x, from low to high (equal for a line). NaN leaves a gap.
+// The interval `from` to `to` of x, with the band `low` to `high` of y. For a line, `low` equals
+// `high`. A NaN value makes a gap.
 struct Step {
   double from = 0, to = 0, low = 0, high = 0;
 };

@@ -1,4 +1,4 @@
-// Writing of plots, and their file names.
+// Writes plots to files, and makes their file names.
 #pragma once
 
 #include <filesystem>
@@ -15,16 +15,16 @@ struct NamedChart {
   std::string svg;
 };
 
-// Writes all files or none into the folder, which is created if missing. Returns the paths. Error:
-// io.
+// Creates the folder if it is missing, and writes all files into it. Returns their paths. Error
+// (io): a file cannot be written; then no file is written.
 Result<std::vector<std::string>> write_charts(const std::vector<NamedChart>& charts,
                                               const std::filesystem::path& folder);
 
-// Error: io, with the remedy.
+// Creates the folder if it is missing. Error (io): the message states the remedy.
 Status make_plot_folder(const std::filesystem::path& folder);
 
-// Keys are words already; every other character becomes its bytes in hexadecimal, so that different
-// keys give different file names.
+// Replaces each character that is not allowed in a file name by its bytes in hexadecimal. Different
+// keys therefore make different file names.
 std::string file_name(std::string_view key);
 
 }  // namespace mdof::charts

@@ -1,5 +1,5 @@
-// Writes an SVG 1.1 document: no external resources, text as text, coordinates to 0.01 px, valid
-// XML for all texts. Positions are in px, y downwards.
+// Writes an SVG 1.1 document: it needs no other files, its texts can be searched, and coordinates
+// have a resolution of 0.01 px. Any text makes valid XML. Positions are in px, with y downwards.
 #pragma once
 
 #include <span>
@@ -19,10 +19,11 @@ enum class Anchor { start, middle, end };
 // becomes U+FFFD.
 std::string xml_escaped(std::string_view text);
 
-// Decimal text that is read back bit-identical; "" for non-finite numbers.
+// A decimal text that programs read as exactly this double; "" for a non-finite number.
 std::string exact_text(double x);
 
-// light: light colours on dark screens, too, as in the print.
+// adaptive: light or dark colours, as the screen requests. light: always light colours, as in a
+// print.
 enum class Theme { adaptive, light };
 
 class Svg {
@@ -32,7 +33,7 @@ class Svg {
   Svg(double width, double height, std::string_view title, std::string_view description,
       Theme theme = Theme::adaptive);
 
-  // `mark`: classes of style.h, separated by spaces.
+  // `mark`: CSS classes from style.h, separated by spaces.
   void rect(std::string_view mark, Place corner, double width, double height);
   void line(std::string_view mark, Place from, Place to);
   void polyline(std::string_view mark, std::span<const Place> places);
@@ -40,11 +41,11 @@ class Svg {
   void dot(std::string_view mark, Place centre, double radius);
   // Writes no element for an empty text.
   void text(std::string_view mark, Place base, Anchor anchor, std::string_view text);
-  // Gives the next element the attribute data-NAME, for programs. A number is written as by
-  // exact_text(), or left out if that is empty.
+  // Adds the attribute data-NAME to the next element, for programs that read the document. A number
+  // is written by exact_text(); a non-finite number adds no attribute.
   Svg& data(std::string_view name, double value);
   Svg& data(std::string_view name, std::string_view value);
-  // Elements up to end_group have this tooltip.
+  // All elements until end_group() show this tooltip.
   void begin_group(std::string_view tooltip);
   void begin_group();  // without a tooltip
   void end_group();

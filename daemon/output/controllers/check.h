@@ -1,5 +1,6 @@
-// Self-test of an export: reads the files back by the rules of the controller, applies them to a
-// simulated axis with the errors of the table, and checks that the errors vanish.
+// Self-test of an export. The test reads the files in the same way as the controller, applies the
+// corrections to a simulated axis with the errors of the table, and checks that the remaining
+// errors are below a limit.
 #pragma once
 
 #include <string>
@@ -9,55 +10,64 @@
 
 namespace mdof::controllers {
 
-// The same test with a deliberate mistake, which it must detect.
+// The result of the same test with a deliberate mistake in the correction. The test must detect it.
 struct Control {
   std::string name;        // "wrong sign", "forward and reverse swapped"
   double residual = 0;     // m or rad
   bool detected = false;   // the residual exceeds the bound
-  bool too_small = false;  // the mistake changes less than the bound, so it cannot be detected
+  bool too_small = false;  // the mistake has almost no effect, so the test cannot detect it
 };
 
 struct CheckedError {
-  std::string error;  // "EXX"; the command, "X", for a volumetric table
+  std::string error;  // "EXX"; for a volumetric table the corrected command, "X"
   bool angle = false;
-  bool one_way = false;  // the mean of both approaches is judged: ExportOptions::one_approach
-  double before = 0;     // largest error without the correction, m or rad
-  double residual = 0;   // largest error with the correction, both approaches, at and between the
-                         // points
-  // Parts of the residual that the file cannot correct. by_reversal: the error in each
-  // approach if one value corrects errors that differ by approach (not part of the residual if the
-  // mean is judged). between_nodes: the error between the nodes of a volumetric table.
+  bool one_way =
+      false;  // the test uses the mean of both approaches, because of ExportOptions::one_approach
+  double before = 0;  // largest error without the correction, m or rad
+  double residual =
+      0;  // largest error with the correction, over both approaches, at the points and between them
+  // Errors that the file cannot correct, m or rad. They are part of `residual`. - by_reversal: the
+  // error that remains in each approach if the file has one value for both approaches. It is not
+  // part of `residual` if one_way is true. - between_nodes: the error between the nodes of a
+  // volumetric table.
   double by_reversal = 0, between_nodes = 0;
-  // Also part of the residual: the error after a reversal, because the ramp of the controller does
-  // not start (LinuxCNC; ExportOptions::ramps).
+  // The error after a reversal whose correction LinuxCNC does not apply, because its ramp does not
+  // start (ExportOptions::ramps), m or rad. It is also part of `residual`.
   double by_ramp = 0;
-  // Limit of the residual: thinning, the step of the numbers, second order, by_ramp and (unless the
-  // mean is judged) by_reversal; at most the limit of ExportOptions. For volumetric tables and the
-  // squareness only the limit of ExportOptions.
+  // Limit of `residual`. For tables of axes it is the sum of the following terms, but at most the
+  // limit in ExportOptions:
+  // - the deviation by thinning
+  // - the step of the numbers in the file
+  // - the second-order effect: a correction changes the position at which the error acts
+  // - by_ramp
+  // - by_reversal, unless one_way is true
+  // For volumetric tables and the squareness it is the limit in ExportOptions.
   double bound = 0;
   bool cancels = false;
-  bool nothing = false;  // no error exceeds a step of the numbers
+  bool nothing =
+      false;  // the error without correction is below the step of the numbers in the file
   std::vector<Control> controls;
 };
 
 struct Check {
   std::vector<CheckedError> errors;
-  std::vector<std::string> not_judged;    // written, but the sign of the correction is unknown
-  double most_residual_m = 0, share = 0;  // limits from ExportOptions, including the tolerance
-  bool passed() const;                    // whether all errors that could be judged pass
-  bool nothing_to_correct() const;        // no error exceeds a step of the numbers
+  std::vector<std::string> not_judged;  // written errors whose correction sign is unknown
+  double most_residual_m = 0,
+         share = 0;                 // limits from ExportOptions; the first includes the tolerance
+  bool passed() const;              // whether all errors with a known sign pass
+  bool nothing_to_correct() const;  // no error exceeds a step of the numbers
 };
 
-// Checks the files that `format` wrote for these tables. Each error is that of the table, linear
-// between its points. Errors: files that the controller would misread; a correction of an error
-// that no table has.
+// Checks the files that `format` wrote for these tables. The simulated axis has the errors of the
+// tables, interpolated linearly. Errors: the controller would misread a file; a file corrects an
+// error that no table contains.
 Result<Check> check_export(const Format& format, const std::vector<CompensationTable>& tables,
                            const Export& exported, const ExportOptions& options);
-// The same for a volumetric table: at its nodes and in the middle of their cells. `error` is the
-// corrected command.
+// The same for a volumetric table: checks the nodes and the centres of the cells.
+// CheckedError::error is the corrected command.
 Result<Check> check_export(const Format& format, const VolumetricTable& table,
                            const Export& exported, const ExportOptions& options);
-// The same for the squareness: by how much the tool deviates from the perpendicular to X while Y
+// The same for the squareness: checks the deviation of the tool from the perpendicular to X while Y
 // moves.
 Result<Check> check_export(const Format& format, const SquareAxes& axes, const Export& exported,
                            const ExportOptions& options);

@@ -1,31 +1,34 @@
-// Controllers whose files contain the error itself, one axis each: Weihong's axeserr.dat (both
-// approaches), Beckhoff's lead screw tables (both approaches, whole 0.1 µm) and Siemens' encoder
-// error table (one value, equidistant points).
+// File formats that contain the error itself instead of the correction. Each file is for one axis:
+// - Weihong's axeserr.dat: one value for each approach
+// - Beckhoff's lead screw tables: one value for each approach, rounded to 0.1 µm
+// - Siemens' encoder error table: one value for both approaches, points at equal steps
 #pragma once
 
 #include "daemon/output/controllers/export.h"
 
 namespace mdof::controllers {
 
-// [X], rows of nominal position, forward error and backward error in mm. The sign + E is inferred
-// from the example in the manual.
+// axeserr.dat: a line "[X]", then rows of nominal position, forward error and backward error in mm.
+// The manual does not state the sign; its example shows that the value is + E.
 Result<Export> write_weihong(const std::vector<CompensationTable>& tables,
                              const ExportOptions& options);
 Result<std::vector<AppliedCorrection>> read_weihong(const std::vector<ControllerFile>& files);
 
-// kw.ssfk: actual - set position in 0.1 µm, positive and negative travel; at most 1500 rows.
+// kw.ssfk: actual position - set position in 0.1 µm, one value for travel in the positive direction
+// and one for the negative direction. At most 1500 rows.
 Result<Export> write_ssfk(const std::vector<CompensationTable>& tables,
                           const ExportOptions& options);
 Result<std::vector<AppliedCorrection>> read_ssfk(const std::vector<ControllerFile>& files);
 
-// $AA_ENC_COMP: a positive value moves the axis in the negative direction, so the value is + E.
-// Both approaches have the same value, their mean. At most 200 points at equal steps.
+// $AA_ENC_COMP: the value is + E, because the control moves the axis in the negative direction if
+// the value is positive. A file has one value for both approaches: the mean of their errors. At
+// most 200 points at equal steps.
 Result<Export> write_lec(const std::vector<CompensationTable>& tables,
                          const ExportOptions& options);
 Result<std::vector<AppliedCorrection>> read_lec(const std::vector<ControllerFile>& files);
 
-// Common to the three formats: the fitted positioning of a table. The other errors are listed as
-// left out.
+// The three formats use this function. Returns the positioning error of a table, fitted to `most`
+// points (fitted() in series.h). Adds the names of the other errors to out.left_out.
 Result<Series> positioning_of(const CompensationTable& table, std::size_t most,
                               const ExportOptions& options, const std::string& controller,
                               Export& out);

@@ -1,13 +1,13 @@
-// Converts compensation tables to files of machine controllers and back, by pure functions from
-// values to texts.
+// Converts compensation tables to files of machine controllers, and reads these files. All
+// functions are pure: they use texts instead of files.
 //
 // Input: tables of axes, a volumetric table, or the squareness of X and Y.
 //
 // Sign: a table contains errors E = actual - nominal of the moving body. The correction of an axis
-// command is factor * E. For positioning the factor is -1 whichever body moves; for other errors it
-// follows from the machine's chain (schema/rig/correction.h). The file of a controller contains
-// either the correction or the error: its row in formats.cpp states which, and the source of this
-// information.
+// command is factor * E. For the positioning error the factor is always -1. For other errors the
+// factor follows from the chain of the machine (schema/rig/correction.h). A file contains either
+// the correction or the error. formats.cpp states for each controller which of them it is, and the
+// source of this information.
 #pragma once
 
 #include <cstddef>
@@ -25,24 +25,28 @@
 
 namespace mdof::controllers {
 
-// One error of one axis against the position of this axis.
+// One error of one axis as a function of the position of this axis.
 struct Series {
   std::string error;   // "EXX"
   char along = 'X';    // axis whose position is x of the series
   char command = 'X';  // axis whose command gets the correction
   bool angle = false;
   int factor = 0;                                    // correction = factor * E; 0: unknown
-  std::string gap;                                   // why the factor is unknown
-  std::vector<double> position_m, forward, reverse;  // E; m or rad
+  std::string gap;                                   // why `factor` is unknown
+  std::vector<double> position_m, forward, reverse;  // forward, reverse: E in m or rad
 };
 
 struct ExportOptions {
-  double tolerance_m = 0;     // largest error by left-out points; 0: keep all points. For angles in
-                              // rad
-  bool one_approach = false;  // one value for both approaches, although a reversal remains
-  bool cut_range = false;     // use the longest range without missing values, instead of an error
-  // Position at which the correction of an axis (mean of both approaches) is 0. axis 0: the
-  // position for the only axis, not named. An axis without an entry is not shifted.
+  double tolerance_m =
+      0;  // Largest interpolation error by omitting points, m or rad; 0: keep all points.
+  bool one_approach =
+      false;  // write one value for both approaches, although the reversal error remains
+  bool cut_range = false;  // if values are missing, export the longest range without missing values
+                           // instead of returning an error
+  // The position at which the correction of an axis (mean of both approaches) becomes 0, because a
+  // constant is subtracted. `axis` is 0 if the user stated a position without an axis; the position
+  // then belongs to the only exported axis. Nothing is subtracted for an axis without an element in
+  // `homes`.
   struct Home {
     char axis = 0;
     double at_m = 0;
@@ -53,38 +57,41 @@ struct ExportOptions {
       if (home.axis == axis) return home.at_m;
     return {};
   }
-  // Limits of the residual: at most residual_m (for angles in rad) plus the tolerance, and at most
-  // this share of the error. The share never demands less than a step of the controller's numbers.
+  // Limits of the residual in the self-test.
+  // - residual_m: the residual may be at most residual_m + tolerance_m (rad for angles).
+  // - residual_share: the residual may be at most this share of the error without correction. If
+  // this is less than the step of the numbers in the file, the step is the limit.
   double residual_m = algo::ResidualLimits{}.most_m;
   double residual_share = algo::ResidualLimits{}.share;
-  // LinuxCNC only: joints that get the table of an axis (two for a gantry); empty: X Y Z are 0 1 2.
-  // inch: rows in inches instead of mm.
+  // LinuxCNC only. `joints`: the joints that get the table of an axis; a gantry axis has two.
+  // Empty: joints 0, 1, 2 are X, Y, Z. `inch`: the file is in inches instead of mm.
   struct Joint {
     char axis = 'X';
     int number = 0;
   };
   std::vector<Joint> joints;
   bool inch = false;
-  // LinuxCNC only: MAX_ACCELERATION and SERVO_PERIOD of a joint with the table of this axis.
+  // LinuxCNC only: MAX_ACCELERATION and SERVO_PERIOD of a joint that gets the table of `axis`.
   struct Ramp {
     char axis = 'X';
     double max_acceleration_m_s2 = 0, period_s = 1e-3;
   };
-  std::vector<Ramp> ramps;  // an axis without an entry: unknown
-  // Siemens only: limits of the control; 0: 200 points, any number of tables.
+  std::vector<Ramp> ramps;  // an axis without an element: its ramp is unknown
+  // Siemens only: largest number of points in a table, and of tables, in this control. 0: the
+  // default, 200 points, or no limit for the number of tables.
   std::size_t siemens_points = 0, siemens_tables = 0;
-  std::vector<std::string> marks;  // warnings for readers of the files
+  std::vector<std::string> marks;  // warnings that are written into the files as comments
 };
 
 struct ControllerFile {
   std::string name, text;
 };
 
-// Number of points and thinning of a written series.
+// The number of points in the file for one error, and the effect of omitting points.
 struct Written {
   std::string error;
   std::size_t points = 0, points_before = 0;
-  double largest_deviation = 0;  // largest change by thinning, m or rad
+  double largest_deviation = 0;  // largest change of the error by omitted points, m or rad
 };
 
 struct Export {
@@ -92,11 +99,13 @@ struct Export {
   std::vector<Written> written;
   std::vector<std::string> left_out;  // errors that the controller cannot store
   std::vector<std::string> notes;
-  double left_m = 0;  // volumetric table: largest part that the file format cannot represent
+  double left_m =
+      0;  // volumetric table: largest part of a correction that the file format cannot represent
 };
 
-// The value that a controller adds to a command according to its rules: linear between the
-// positions, constant beyond the ends, selected by the sign of the velocity.
+// The correction that the controller adds to a command. The controller interpolates linearly
+// between the positions, uses the end values beyond the ends, and selects `forward` or `reverse` by
+// the sign of the velocity.
 struct AppliedCorrection {
   std::string error;
   char along = 'X', command = 'X';
@@ -112,8 +121,9 @@ struct SquareAxes {
   StatedAt at = kAtFixture;  // point at which the angle holds
 };
 
-// `write` makes the files; `read` gives the behaviour of the controller, by its own strict grammar,
-// and its errors name file and line. Both are nullptr if the controller does not support the input.
+// `write` makes the files. `read` returns the corrections that the controller applies with these
+// files; it accepts only the exact syntax of the files, and its errors name file and line. Both are
+// nullptr if the controller does not support tables of axes.
 struct AxisFiles {
   Result<Export> (*write)(const std::vector<CompensationTable>& tables,
                           const ExportOptions& options) = nullptr;
@@ -122,12 +132,13 @@ struct AxisFiles {
 };
 struct VolumeFiles {
   Result<Export> (*write)(const VolumetricTable& table, const ExportOptions& options) = nullptr;
-  // The grid and corrections, linear between the nodes; the files contain nothing else of a table.
+  // Returns only the grid and the corrections at its nodes, because the files contain no other data
+  // of a table. The controller interpolates linearly between the nodes.
   Result<VolumetricTable> (*read)(const std::vector<ControllerFile>& files) = nullptr;
 };
 struct SquareFiles {
   Result<Export> (*write)(const SquareAxes& axes, const ExportOptions& options) = nullptr;
-  // k: the controller moves X to x + k y, with the commands x and y.
+  // Returns k: for the commands x and y the controller moves X to x + k y.
   Result<double> (*read)(const std::vector<ControllerFile>& files) = nullptr;
 };
 
@@ -136,27 +147,28 @@ struct Format {
   const char* of;     // name of the controller
   const char* holds;  // the content of a table that the format can store
   const char* limits;
-  const char* sense;    // meaning of the values
+  const char* sense;    // what the values in the file are, and their sign
   const char* source;   // source of this meaning
-  bool sign_confirmed;  // otherwise the user must allow the export explicitly
-  double quantum_m;     // step of its numbers; rad for a squareness
+  bool sign_confirmed;  // false: the user must allow the export explicitly
+  double quantum_m;     // step of the numbers in the file, m; rad for a squareness
   bool takes_home;      // subtracts the correction at ExportOptions::home_m
-  AxisFiles axes;       // one of axes, volume, square, or both axes and volume
+  AxisFiles axes;       // A format supports axes, volume, square, or axes and volume.
   VolumeFiles volume;
   SquareFiles square;
   bool takes_joints = false;     // supports ExportOptions::joints, inch and ramps
-  bool both_approaches = false;  // one value for each approach, so that it also corrects the
-                                 // reversal
+  bool both_approaches = false;  // the file has one value for each approach, and therefore also
+                                 // corrects the reversal error
 };
 
 // In the order of the help.
 const std::vector<Format>& formats();
-// Controllers without a format: the reason, and the alternative.
+// Controllers for which mdof writes no files: the reason, and what the user can do instead.
 struct UnsupportedController {
   const char *name, *of, *reason, *instead;
 };
 const std::vector<UnsupportedController>& not_written();
-// Error (usage): lists the formats; for a controller of not_written() it gives the reason.
+// Error (usage): lists the formats; for a controller in not_written() the message states the
+// reason.
 Result<const Format*> format_named(const std::string& name);
 
 }  // namespace mdof::controllers

@@ -1,4 +1,5 @@
-// Selects the errors of a table that can be written, and converts them to points of a controller.
+// Selects the errors of a table that can be written, and converts them to the points of a
+// controller file.
 #pragma once
 
 #include <cstddef>
@@ -10,37 +11,43 @@
 
 namespace mdof::controllers {
 
-// All errors that have any value, in the order of the table; positioning comes last.
+// All errors that have at least one finite value, in the order of the table. The positioning error
+// is the last one.
 std::vector<Series> series_of(const CompensationTable& table);
 // The series with this name, or nullptr.
 const Series* find_series(const std::vector<Series>& series, const std::string& error);
 
-// `series` without missing values, thinned by options.tolerance_m to at most `most` points. `out`
-// gets the counts. Errors (bad_input) state table, error, position and remedy: a missing value,
-// unless the range may be cut; too many points, with the required tolerance.
+// Returns `series` without missing values, with points omitted within options.tolerance_m, and with
+// at most `most` points. Adds the numbers of points to out.written. Errors (bad_input; the message
+// names the table and the error):
+// - a value is missing and options.cut_range is false; the message states the position
+// - no two neighbouring positions have both values
+// - more than `most` points; the message states the tolerance that is required
 Result<Series> fitted(const Series& series, std::int64_t table, std::size_t most,
                       const ExportOptions& options, Export& out);
 
-// Error: two tables of one axis, because only one can be meant.
+// Error (usage): two tables are for the same axis.
 Status check_one_table_an_axis(const std::vector<CompensationTable>& tables);
 
-// The lines for the comments of all files: table, hash, sense, marks. Without comment signs.
+// The lines of the comment at the beginning of a file: number and hash of the table, meaning of the
+// values, warnings. The lines contain no comment signs.
 std::vector<std::string> head_lines(const CompensationTable& table, const ExportOptions& options,
                                     const std::string& sense);
 // "tool, 6, -4, -30 mm from the origin of the fixture"
 std::string reference_point_text(const StatedAt& at);
-// For a comment: converts to ASCII without line ends.
+// Converts a text to one line of printable ASCII characters, for a comment in a file.
 std::string plain_ascii_line(std::string_view text);
-// Puts `sign` and a space before each line, and a line end after it.
+// Joins the lines to a text. Each line begins with `sign` and a space.
 std::string commented(const std::vector<std::string>& lines, const std::string& sign);
 
-// Mean of both approaches at a position: linear between the points, constant beyond the ends.
+// The mean of both approaches at a position, interpolated linearly. Beyond the ends of the series
+// it is the value at the end.
 double mean_error_at(const Series& series, double position_m);
 
-// Note of a file from whose numbers (`each`: "trim") `taken_m` was subtracted, so that they are 0
-// at home.
+// The note that `taken_m` was subtracted from all numbers in a file, and that they are therefore 0
+// at home. `each`: name of one number, "trim".
 std::string zeroed_at_home_note(const Series& series, const std::string& each, double taken_m,
                                 double home_m);
-std::string fixed(double x, int decimals);  // never "-0"
+std::string fixed(double x, int decimals);  // "0" instead of "-0"
 
 }  // namespace mdof::controllers

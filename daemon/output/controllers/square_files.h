@@ -1,9 +1,10 @@
-// The squareness of X and Y as one line for controllers that shear their commands.
+// The squareness of X and Y as one line, for controllers that add a share of the command y to the
+// command x.
 //
 // The angle from +X to +Y is 90 deg + EC0Y: if the tool moves by y along Y, its error along X is -y
-// tan EC0Y. The correction moves X to x + k y with k = tan EC0Y, or k = -tan EC0Y if one of the two
-// commands moves the tool towards - (schema/rig/correction.h gives the sign s of each axis: k = s_X
-// s_Y tan EC0Y).
+// tan EC0Y. The correction moves X to x + k y with k = tan EC0Y, or k = -tan EC0Y if a positive
+// command of exactly one of the two axes moves the tool in the negative direction. In general k =
+// s_X s_Y tan EC0Y, with the sign s of each axis from schema/rig/correction.h.
 #pragma once
 
 #include "daemon/output/controllers/export.h"
@@ -13,8 +14,8 @@ namespace mdof::controllers {
 // Error (bad_input): the machine's chain is unknown, or lacks X or Y.
 Result<double> shear_of(const SquareAxes& axes);
 
-// SET_SKEW XY=AC,BD,AD: the diagonals and one side of a square of 100 mm as the machine would draw
-// it.
+// SET_SKEW XY=AC,BD,AD: the lengths of both diagonals and of one side. The machine without
+// correction would draw this figure for a square of 100 mm.
 Result<Export> write_klipper(const SquareAxes& axes, const ExportOptions& options);
 Result<double> read_klipper(const std::vector<ControllerFile>& files);
 

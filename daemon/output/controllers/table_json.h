@@ -1,15 +1,16 @@
-// mdof's own JSON with the complete table. All other formats contain a part of it.
+// mdof's own JSON format. It contains the complete table; all other formats contain a part of the
+// table.
 #pragma once
 
 #include "daemon/output/controllers/export.h"
 
 namespace mdof::controllers {
 
-// {"format", "version", "marks", "table": {...}}: `table` is the text of which the table's hash is
-// made.
+// Writes {"format", "version", "marks", "table": {...}}. The hash of the table is the hash of the
+// text of the member "table".
 Result<Export> write_table_json(const std::vector<CompensationTable>& tables,
                                 const ExportOptions& options);
-// The errors that have a factor, each multiplied by it.
+// Returns a correction for each error whose factor is known: the error times this factor.
 Result<std::vector<AppliedCorrection>> read_table_json(const std::vector<ControllerFile>& files);
 
 }  // namespace mdof::controllers

@@ -1,4 +1,4 @@
-// Common functions of the readers of controller files.
+// Functions that several readers of controller files use.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace mdof::controllers {
 
-// Splits at LF; a last line without LF also counts.
+// The lines of a text, divided at LF. A last line without LF is included.
 std::vector<std::string_view> lines_of(std::string_view text);
-// [-+]digits[.digits]; the whole word must match.
+// Reads a number of the form [-+]digits[.digits]. nullopt: the word has another form.
 std::optional<double> decimal_from(std::string_view word);
 // "X.comp:7: what"
 tl::unexpected<Error> wrong_at(const std::string& file, std::size_t line, const std::string& what);

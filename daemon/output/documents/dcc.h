@@ -2,9 +2,10 @@
 // 2.2.1. It states that it is no calibration certificate of an accredited laboratory. Pure: the
 // same results give the same bytes.
 //
-// Values are in SI units (metre, radian), with the expanded uncertainty U, its k and 95 % if U is
-// known; NaN means unknown. Points are lists by row; the figures of a run are single quantities.
-// Missing information reads "not stated" if the schema allows it.
+// Values are in SI units (metre, radian). If the expanded uncertainty U is known, the document
+// states U, k and the coverage probability 95 %. NaN means unknown. The points of a run are lists
+// of values; each figure of a run is one quantity. If information is missing, the document contains
+// the text "not stated" where the schema allows it.
 #pragma once
 
 #include <string>

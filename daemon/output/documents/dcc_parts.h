@@ -13,11 +13,11 @@ namespace mdof::documents {
 void write_text(Xml& xml, std::string_view element, std::string_view text,
                 Xml::Attributes attributes = {});
 
-// A named declaration, "dcc:statement" or "dcc:metaData".
+// Writes a declaration with a name. `element`: "dcc:statement" or "dcc:metaData".
 void write_declaration(Xml& xml, std::string_view element, const std::string& name,
                        const std::string& text);
 
-// dcc:measurementResults.
+// Writes the element dcc:measurementResults.
 void write_measurements(Xml& xml, const report::Report& report);
 
 }  // namespace mdof::documents

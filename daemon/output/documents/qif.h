@@ -2,9 +2,10 @@
 // results give the same bytes.
 //
 // Each figure of a run, and each error at each target and approach, is a user-defined
-// characteristic in µm or µrad; a point is a measurement of five of them. combinedUncertainty is
-// the standard uncertainty u, with a mean error of 0, because known systematic errors are
-// corrected. The attributes U, k and coverage_probability give the expanded uncertainty. A point
+// characteristic in µm or µrad; a measured point has five of them, one for each error.
+// combinedUncertainty is the standard uncertainty u. Its mean error is 0, because known systematic
+// errors have been corrected. The attributes U, k and coverage_probability state the expanded
+// uncertainty. A point
 // without errors has no value; its description gives the reason.
 #pragma once
 

@@ -18,7 +18,7 @@ class Xml {
   void close();
   void leaf(std::string_view element, std::string_view text, Attributes attributes = {});
 
-  // The document with its declaration; all elements must be closed.
+  // Returns the document with the XML declaration. All elements must be closed.
   std::string take();
 
  private:
@@ -27,8 +27,8 @@ class Xml {
   std::vector<std::string> open_;
 };
 
-// A user's text without white space at its ends and with single spaces inside; "not stated" if it
-// is empty, because neither DCC nor QIF allows an empty text.
+// A user's text with white space removed at both ends and reduced to single spaces inside. An empty
+// text becomes "not stated", because DCC and QIF do not allow empty texts.
 std::string stated(std::string_view text);
 
 }  // namespace mdof::documents

@@ -1,4 +1,4 @@
-// Writes HTML for print: escaped texts, tables, lists of facts.
+// Writes an HTML page for printing. All texts are escaped.
 #pragma once
 
 #include <string>
@@ -10,22 +10,25 @@ namespace mdof::report {
 
 class Html {
  public:
-  // The text is escaped, so that a user's text never becomes markup.
+  // Writes <tag>text</tag>. The text is escaped; a user's text therefore cannot contain markup.
   void element(std::string_view tag, std::string_view text, std::string_view css_class = "");
   // Appends markup that this program generated.
   void raw(std::string_view markup) { text_ += markup; }
-  // Names and values; entries with an empty value are left out.
+  // Writes a list of names and values. Pairs with an empty value are omitted.
   void facts(const std::vector<std::pair<std::string, std::string>>& facts);
-  // `css_class` "long": the table may extend over several pages, with its head on each page.
+  // `head`: titles of the columns. `css_class` "long": the table may extend over several pages;
+  // each page repeats the titles.
   void table(const std::vector<std::string>& head,
              const std::vector<std::vector<std::string>>& rows, std::string_view css_class = "");
-  // A link that saves `bytes`, which the page contains, as `file_name`.
+  // Writes a link with which a reader saves `bytes` as the file `file_name`. The page contains the
+  // bytes.
   void attachment(std::string_view text, std::string_view file_name, std::string_view media_type,
                   std::string_view bytes);
-  // Inserts an SVG document into the page, without the text before its element "svg".
+  // Inserts the element "svg" of an SVG document into the page.
   void figure(std::string_view svg);
 
-  // `pictures`: show images from data: URLs, for example in the company's head.
+  // Returns the complete page. `pictures`: the page may show images from data: URLs, for example
+  // the logo of a company.
   std::string take(std::string_view language, std::string_view title, bool pictures = false);
 
  private:

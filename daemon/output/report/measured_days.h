@@ -16,10 +16,10 @@ struct Days {
 // The days on which a run was recorded. nullopt if they are unknown (a CSV log has no date).
 std::optional<Days> recorded_days(const ReportRun& run);
 
-// Uses the stated date of the report for runs without a date: calibrations must have been valid on
-// that day, not on the day of the evaluation. `now` is a UTC time. Errors: usage, if the date is in
-// the future, or more than a day outside the recorded days of a run (local dates differ from UTC by
-// up to a day).
+// Applies the date that the user stated for the report to runs without a date: notices on expired
+// calibrations then refer to this date, not to the date of the evaluation. `now` is a UTC time.
+// Errors (usage): the date is in the future, or it differs by more than a day from the recorded
+// days of a run. One day is allowed because local dates differ from UTC by up to a day.
 Status use_stated_date(Report& report, std::chrono::sys_seconds now);
 
 }  // namespace mdof::report

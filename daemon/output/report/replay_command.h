@@ -1,4 +1,4 @@
-// The command that evaluates a run again from its recording, or imports it again.
+// The command with which a reader evaluates a run again from its recording, or imports it again.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@ namespace mdof::report {
 // The file in which the command expects the rig of a run; empty: the run has no rig.
 std::string rig_file(const RunHeader& run);
 
-// A shell command with the rig and the options of the run; they override those of the recording.
+// A shell command with the rig and the options of the run. They override the rig and the options in
+// the recording.
 std::string replay_command(const Run& run);
 
 }  // namespace mdof::report

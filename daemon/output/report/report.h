@@ -1,5 +1,6 @@
 // A report of stored runs for a customer: one self-contained HTML file without scripts, for
-// printing on A4. Pure: the same results give the same bytes, without the time of creation.
+// printing on A4. Pure: equal results make equal bytes, because the file does not contain the time
+// when it was made.
 #pragma once
 
 #include <optional>
@@ -28,8 +29,8 @@ struct ReportRun {
   std::vector<Decided> decided;  // decisions on the figures that have a tolerance
   std::string result_sha256;
   std::optional<std::int64_t> superseded_by;
-  std::string undecidable_reason;  // why no conformity is decided for this run; empty: it can be
-                                   // decided
+  std::string undecidable_reason;  // why conformity cannot be decided for this run; empty: it can
+                                   // be decided
 };
 
 // A file inside the report that a reader can save.
@@ -39,13 +40,15 @@ struct Attachment {
 
 struct Report {
   ReportFacts facts;
-  std::string head;  // HTML above everything else, the company's head; empty: none
+  std::string head;  // HTML of the company at the top of the report; empty: none
   std::vector<ReportRun> runs;
-  std::vector<daemon::Comparison> comparisons;       // before and after, one for each axis
-  std::vector<charts::SquarenessOfPair> squareness;  // XY, XZ, YZ, if both axes have one run
-  std::vector<Decided> decided;                      // decisions on squareness that has a tolerance
+  std::vector<daemon::Comparison>
+      comparisons;  // one for each axis: the runs before and after a change
+  std::vector<charts::SquarenessOfPair>
+      squareness;                // for each of XY, XZ, YZ whose axes both have one run
+  std::vector<Decided> decided;  // decisions on squareness that has a tolerance
   std::vector<Attachment> attachments;
-  std::string software_version;  // version that made the report
+  std::string software_version;  // version of mdof that made the report
   Language language = Language::english;
 };
 

@@ -10,7 +10,7 @@ void write_conditions(Html& html, const ReportRun& run, Language language);
 void write_fixture(Html& html, const ReportRun& run, Language language);
 void write_results(Html& html, const ReportRun& run, Language language);
 void write_decisions(Html& html, const ReportRun& run, Language language);
-// Only the table of the decisions.
+// Writes only the table of the decisions on tolerances.
 void write_decided(Html& html, const std::vector<Decided>& decided,
                    const std::vector<Budget>& budgets, Language language);
 void write_notices(Html& html, const ReportRun& run, Language language);

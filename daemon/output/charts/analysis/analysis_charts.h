@@ -1,6 +1,6 @@
-// Charts of analyses, one function each: it takes results and returns an SVG document. Pure: the
-// same results give the same bytes. Drawn elements have their numbers as data-… attributes, in the
-// units of the result documents.
+// Charts of analyses, one function each: it takes results and returns an SVG document. Pure: equal
+// results make equal bytes. Each drawn element has its numbers in data-… attributes, in the units
+// of the result documents.
 #pragma once
 
 #include <string>
@@ -16,12 +16,14 @@
 
 namespace mdof::charts {
 
-// after - before for each error, target and approach, in µm or µrad over mm, with U of the
-// difference of two independent runs. has_comparison() is false if the runs have no common target.
+// The change "after - before" of each error at each target and approach, in µm or µrad, against the
+// position in mm. Bands show U of the difference; the two runs count as independent.
+// has_comparison() is false if the runs have no common target.
 bool has_comparison(const daemon::Comparison& comparison);
 std::string comparison_svg(const daemon::Comparison& comparison, output::Language language);
 
-// Readings of a test to ISO 230-2 with the mean of each approach, ± 2 s, and the mean of both.
+// Readings of a test to ISO 230-2, the mean of each approach with ± 2 s (s: standard deviation of
+// the readings), and the mean of both approaches.
 struct PositioningSeries {
   std::string key;  // "EYX_um"
   Positioning figures;
@@ -34,11 +36,12 @@ struct PositioningPicture {
 };
 std::string positioning_svg(const PositioningPicture& picture, output::Language language);
 
-// The readings of an imported run, with the means of ISO 230-2 if the readings give them.
+// The readings of an imported run, with the means of ISO 230-2 if there are enough readings to
+// calculate them.
 RunCharts imported_run_charts(const Run& run, output::Language language);
 
-// Deviations in m over positions in m, with each reference line and the residuals about the
-// least-squares line.
+// Deviations from a straight line against the position, both in m. The chart shows each reference
+// line and the residuals from the least-squares line.
 struct StraightnessPicture {
   std::string about;
   std::vector<std::string> warnings;
@@ -47,7 +50,8 @@ struct StraightnessPicture {
 };
 std::string reference_lines_svg(const StraightnessPicture& picture, output::Language language);
 
-// Drift rates of a parked axis in each window, nm/h or µrad/h over min, with u and the limits.
+// Drift rates of a parked axis, one for each time window, in nm/h or µrad/h, against the time in
+// min. The chart shows u of each rate, and the limits.
 std::string warm_up_svg(const daemon::ParkedLog& log, const algo::WarmUp& found,
                         output::Language language);
 

@@ -1,4 +1,5 @@
-// A chart with one panel for each quantity over a common x, with marks, bands of U and lines. Pure.
+// A chart with one panel for each quantity; all panels have the same x axis. A panel shows plotted
+// points (Mark), bands of U and lines. Pure.
 #pragma once
 
 #include <cmath>
@@ -12,9 +13,10 @@
 
 namespace mdof::charts {
 
-// A line through these points, in the units of the panel; non-finite points are left out.
+// A line through these points, in the units of the panel. Points with a non-finite coordinate are
+// left out.
 struct NamedLine {
-  const char* mark;  // class of style.h
+  const char* mark;  // CSS class from style.h
   std::string name;  // attribute data-line
   std::vector<Place> values;
 };
@@ -24,17 +26,17 @@ struct MarkedPanel {
   std::string title;  // title of y; empty: the key
   std::string note;   // above the upper right corner
   std::vector<Mark> marks;
-  std::vector<NamedLine> lines;      // y must be inside the panel
-  double vertical_x = std::nan("");  // x of a line from edge to edge, data-line "vertical"
+  std::vector<NamedLine> lines;      // each y must be inside the panel
+  double vertical_x = std::nan("");  // x of a vertical line over the whole height of the panel
 };
 
 struct MarkedChart {
   std::string title, about;
-  std::vector<std::string> warnings;  // texts in the alarm colour
-  std::string x_key, x_label;         // key of the data; label of the axis, with its unit
-  std::vector<MarkedPanel> panels;    // at least one
-  std::optional<Legend> legend;       // nullopt: derived from the marks
-  std::vector<LegendItem> lines;      // lines of the legend
+  std::vector<std::string> warnings;  // drawn in the alarm colour
+  std::string x_key, x_label;  // name of the data-… attribute; label of the axis with its unit
+  std::vector<MarkedPanel> panels;  // at least one
+  std::optional<Legend> legend;     // nullopt: made from the plotted points
+  std::vector<LegendItem> lines;    // legend entries for `MarkedPanel::lines`
   std::vector<std::string> notes;
 };
 

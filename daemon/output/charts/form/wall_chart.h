@@ -1,5 +1,6 @@
-// The wall that an end mill leaves, as an SVG document: one turn along the feed, at the tip and at
-// the top of the cut, and the mean over the depth. Pure.
+// The wall that an end mill has cut, as an SVG document. One panel shows the wall along the feed
+// during one turn of the mill, at the tip of the mill and at the top of the cut. Another panel
+// shows the mean over one turn against the depth. Pure.
 #pragma once
 
 #include <string>
@@ -10,8 +11,9 @@
 
 namespace mdof::charts {
 
-// `lines`: as from algo::wall_lines(), at least two; `turn_m`: feed of one turn. Each mean has its
-// height, mean, minimum and maximum in µm as data-… attributes.
+// `lines`: the result of algo::wall_lines(), with at least two elements. `turn_m`: feed of one
+// turn. The data-… attributes of each mean are its height above the tip, mean, minimum and maximum
+// in µm.
 std::string wall_svg(const std::vector<algo::WallLine>& lines, double turn_m,
                      const std::string& title, output::Language language);
 

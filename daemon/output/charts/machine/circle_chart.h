@@ -10,7 +10,7 @@
 namespace mdof::charts {
 
 struct CirclePicture {
-  bool measured = false;  // otherwise predicted
+  bool measured = false;  // false: the path was predicted
   algo::CircularPath path;
   algo::CircularFigures figures;
 };
@@ -21,7 +21,8 @@ struct CirclesToDraw {
   std::vector<CirclePicture> pictures;  // one or two
 };
 
-// Each group has its scale as data-base-px (radius of zero deviation) and data-px-per-um.
+// Each diagram states its scale in two attributes. data-base-px: radius of the circle with
+// deviation 0, px. data-px-per-um: px for a deviation of 1 µm.
 std::string circles_svg(const CirclesToDraw& circles, output::Language language);
 
 }  // namespace mdof::charts

@@ -1,4 +1,5 @@
-// Errors of the tool over a plane as arrows, true to scale, as an SVG document. Pure.
+// The position errors of the tool at points of a plane, drawn as arrows in an SVG document. The
+// plane has the same scale along both axes. Pure.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +18,14 @@ struct MapPicture {
   std::string machine, approach;  // name of the machine; "mean", "forward", "reverse"
   bool simulated = false;
   NoiseOnly noise_only = NoiseOnly::none;
-  std::int64_t table = 0;  // corrections of this table; 0: errors of the machine
-  std::string place{};     // position of the other axes, "Z = 5 mm"; empty: not stated
+  std::int64_t table =
+      0;  // number of the table whose corrections are drawn; 0: errors of the machine are drawn
+  std::string place{};  // position of the other axes, "Z = 5 mm"; empty: not stated
 };
 
-// At most kMostArrows points. An arrow shows the two errors in the plane, enlarged, and has its
-// position in mm, the three errors and their u in µm as data-… attributes. For a table, the arrows
-// show the corrections of the commands.
+// At most kMostArrows points. An arrow shows the two error components in the plane, enlarged. Its
+// data-… attributes are the position in mm, and the three error components and their u in µm. If
+// picture.table is not 0, the arrows show the corrections of the commands instead of errors.
 std::string plane_map_svg(const algo::PlaneMap& map, const MapPicture& picture,
                           output::Language language);
 

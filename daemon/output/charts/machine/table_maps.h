@@ -1,4 +1,4 @@
-// The corrections of a table over a plane or a volume, as arrows. Pure.
+// Draws the corrections of a volumetric table as arrows. Pure.
 #pragma once
 
 #include "daemon/output/charts/run/run_charts.h"
@@ -6,9 +6,9 @@
 
 namespace mdof::charts {
 
-// "table-3-XY.svg" and so on: a chart for each plane of two axes with several commands, through the
-// middle node of the third axis. A plane with more than kMostArrows nodes is left out, with the
-// reason.
+// One chart ("table-3-XY.svg") for each pair of axes that both have several nodes. The chart shows
+// the plane through the middle node of the third axis. A plane with more than kMostArrows nodes
+// gets no chart; RunCharts::left_out states the reason.
 RunCharts volumetric_table_charts(const VolumetricTable& table, output::Language language);
 
 }  // namespace mdof::charts

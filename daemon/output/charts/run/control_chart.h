@@ -1,4 +1,5 @@
-// A control chart of a figure of the stored runs over time, as an SVG document. Pure.
+// A control chart: one figure of the stored runs against the time of the runs, as an SVG document.
+// Pure.
 #pragma once
 
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace mdof::charts {
 
-// The trend must have at least one value. Each value has its number, limits and runs as data-…
-// attributes, in the unit of the figure's name.
+// The trend must have at least one value. The data-… attributes of each value are the value, its
+// limits and its runs. The name of the figure ends in the unit of these numbers.
 std::string control_chart_svg(const daemon::Trend& trend, output::Language language);
 
 }  // namespace mdof::charts

@@ -1,4 +1,4 @@
-// The points of a run as marks of a chart.
+// Converts the points of a run to the symbols that a chart shows (Mark).
 #pragma once
 
 #include <cstddef>
@@ -11,22 +11,24 @@
 
 namespace mdof::charts {
 
-// Marks of one error, by its index in error_names(), in µm or µrad over mm.
+// The symbols of one error: y in µm or µrad, x in mm. `named`: index of the error in error_names().
 std::vector<Mark> error_marks(const StatedResults& results, std::size_t named);
 Legend marks_legend(std::span<const Mark> marks);
 
 // "run 3, axis X: five geometric errors against position"
 std::string run_title(const RunHeader& header, const std::string& what, Language language);
-// "model rigid, complete, recording 0f3a…", without a time, so that a replay gives the same bytes.
+// "model rigid, complete, recording 0f3a…". The text contains no time, because a replay must make
+// the same bytes.
 std::string about_run(const RunHeader& header, Language language);
 
-// The marks of a head; the mark that u is from noise only comes first.
+// Warnings for the top of a chart. Puts a warning that u contains noise only before `marks`, if
+// this is true.
 std::vector<std::string> with_noise_only_mark(NoiseOnly noise_only, std::vector<std::string> marks,
-                                              output::Language language);
+                                    output::Language language);
 std::vector<std::string> with_noise_only_mark(bool noise_only, std::vector<std::string> marks,
-                                              Language language);
+                                    Language language);
 
-// "position_mm" with its word in the language, for draw_axes().
+// The key of the position axis for draw_axes(): "position_mm" in English.
 std::string position_key(Language language);
 
 }  // namespace mdof::charts

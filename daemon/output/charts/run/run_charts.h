@@ -1,6 +1,6 @@
 // Charts of a stored run, one function each: it takes results and returns an SVG document. Pure:
-// the same results give the same bytes, without the time of creation. Drawn elements have their
-// numbers as data-… attributes, in the units of the result documents.
+// equal results make equal bytes, because a chart does not contain the time when it was made. Each
+// drawn element has its numbers in data-… attributes, in the units of the result documents.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ namespace mdof::charts {
 
 using output::Language;
 
-// A run with everything that the commands state about it.
+// A run with all results that the commands show for it.
 struct StatedResults {
   Run run;
   RunUncertainty uncertainty;            // uncertainty of its points
@@ -28,36 +28,40 @@ struct StatedResults {
   std::vector<StraightnessLines> lines;  // reference lines of the straightness
 };
 
-// Each has_… function returns whether its chart has anything to show; only then call …_svg.
+// Each function has_X() returns whether there is data for the chart X. Call X_svg() only if has_X()
+// is true.
 bool has_five_errors(const StatedResults& results);
 std::string five_errors_svg(const StatedResults& results, Language language);
 
 bool has_straightness(const StatedResults& results);
 std::string straightness_svg(const StatedResults& results, Language language);
 
-// Differences between the visits of a target from the same side, over the position and over the
-// time of the run. Both charts need a target with several visits.
+// Differences between several visits of a target from the same side. repeatability_svg() draws them
+// against the position, drift_svg() against the time. Both need at least one target with several
+// visits.
 bool has_repeatability(const StatedResults& results);
 std::string repeatability_svg(const StatedResults& results, Language language);
 std::string drift_svg(const StatedResults& results, Language language);
 
-// The budget of one figure; `title_of` names its runs. has_budget() is false if u is 0 or unknown.
+// The uncertainty budget of one figure. `title_of`: title that names the runs of the figure.
+// has_budget() is false if u is 0 or unknown.
 bool has_budget(const Budget& budget);
 std::string budget_svg(const Budget& budget, const std::string& title_of,
                        const std::vector<std::string>& marks, Language language);
 
-// `marks`: as for a run.
+// The errors in a compensation table. `marks`: warnings that the chart shows at its top.
 bool has_table(const CompensationTable& table);
 std::string table_svg(const CompensationTable& table, const std::vector<std::string>& marks,
                       Language language);
 
-// Two axes that were measured against one square; the chart enlarges their errors.
+// The squareness of two axes that were measured against the same square. The chart enlarges the
+// errors of the axes.
 struct SquarenessResults {
   Squareness squareness;
   Budget budget;     // budget of EC0Y, EB0Z or EA0Z
-  Run run_a, run_b;  // stated at the fixture
+  Run run_a, run_b;  // their errors are stated at the fixture
 };
-// Squareness of two axes with one run each; nullopt if it cannot be calculated.
+// The squareness of a pair of axes. `results` is nullopt if the squareness cannot be calculated.
 struct SquarenessOfPair {
   AxisPair axes;
   std::optional<SquarenessResults> results;
@@ -68,7 +72,7 @@ std::string squareness_svg(const SquarenessResults& results, Language language);
 // All charts of a run.
 struct RunCharts {
   std::vector<NamedChart> charts;
-  std::vector<std::string> left_out;  // one sentence for each chart that was left out
+  std::vector<std::string> left_out;  // one sentence for each omitted chart, with the reason
 };
 RunCharts charts_of_run(const StatedResults& results, Language language);
 

@@ -1,4 +1,4 @@
-// Points of a run in a panel: markers by approach, bands of U, lines of means.
+// Draws the points of a run in a panel: a symbol for each point, bands of U, and lines of means.
 #pragma once
 
 #include <cmath>
@@ -13,56 +13,63 @@
 
 namespace mdof::charts {
 
-// One value at one position, in the units of the result documents.
+// A symbol in a chart: one value y at one position x, in the units of the result documents.
 struct Mark {
   double x = 0, y = 0;
   double U = std::nan("");
-  bool is_standard = false;  // U contains u instead
+  bool is_standard = false;  // `U` contains the standard uncertainty u
   int direction = 0;
   int target = 0;
-  std::size_t row = 0;  // index of the result's point, from 0; attribute data-row
-  std::string flags;    // separated by spaces; empty: no fault
-  std::string reason;   // reason of a point without errors, whose y is NaN
+  std::size_t row = 0;  // index of the point in the result, from 0; attribute data-row
+  std::string flags;    // flags of the point, separated by spaces; empty: no flag
+  std::string reason;   // why the errors of the point are unknown; y is then NaN
 };
 
-inline constexpr std::size_t kMostMarks = 2000;  // limit for each approach; more marks are drawn as
-                                                 // columns
+inline constexpr std::size_t kMostMarks =
+    2000;  // largest number of symbols of one approach; see draw_marks()
 
-// Range of y - U to y + U of all marks.
+// Range from the smallest y - U to the largest y + U of all marks.
 Range range_of_marks(std::span<const Mark> marks);
-// Extends a range so that its markers stay inside the panel.
+// Extends a range at both ends, so that whole symbols are inside the panel.
 Range with_room(const Range& range);
 
-// A disc for forward, a hollow square for reverse, a hollow diamond for an unknown approach. A
-// flagged mark has a cross; a mark without a value is a cross at the upper edge.
+// Draws one symbol.
+// - forward: a disc
+// - reverse: a hollow square
+// - unknown approach: a hollow diamond
+// - a point with flags: its symbol with a cross
+// - a point without a value (y is NaN): a cross at the upper edge of the panel
 void draw_mark(Svg& svg, const Panel& panel, const Mark& mark);
-// Draws all marks. If an approach has more than kMostMarks, it draws the minimum and maximum of
-// each pixel column instead, so that outliers stay visible.
+// Draws all marks. If an approach has more than kMostMarks, the function divides the panel into
+// columns that are 1 px wide, and draws a line from the minimum to the maximum of each column.
+// Outliers stay visible.
 void draw_marks(Svg& svg, const Panel& panel, std::span<const Mark> marks);
 bool are_drawn_as_columns(std::span<const Mark> marks);
 
-// A band for each approach, from the smallest y - U to the largest y + U of each target (or of each
-// column, if the marks are drawn as columns). Draws nothing if U is unknown.
+// Draws a band for each approach. At each target (or column, if the marks are drawn as columns) the
+// band reaches from the smallest y - U to the largest y + U. Draws no band if U is unknown.
 void draw_U_bands(Svg& svg, const Panel& panel, std::span<const Mark> marks);
 
-const char* line_of(int direction);  // class of a line: solid forward, dashed in reverse
+const char* line_of(int direction);  // CSS classes of a line: solid for forward, dashed for reverse
 
-// "run 3, axis X", with the note below it. For simulated or doubtful runs the first marks follow in
-// the alarm colour. Returns the bottom of the head.
+// Draws the title ("run 3, axis X"), the subtitle below it, and then `marks` ("SIMULATED: …") in
+// the alarm colour. Draws at most three marks and states the number of the other marks. Returns the
+// lower edge of this area, px.
 double draw_run_head(Svg& svg, const std::string& title, const std::string& subtitle,
                      const std::vector<std::string>& marks, Language language);
 double run_head_height(const std::vector<std::string>& marks);
 
-// Sentences below the panels, in lines of the chart's width; returns the bottom.
+// Draws sentences below the panels, wrapped to the width of the chart. Returns the lower edge of
+// the last line, px.
 double draw_notes(Svg& svg, double top, const std::vector<std::string>& notes);
 double notes_height(const std::vector<std::string>& notes);
 
-// Content of the legend of marks: forward, reverse and so on.
+// The entries in the legend of the symbols.
 struct Legend {
   bool forward = false, reverse = false, unknown = false, flagged = false, unsolved = false;
   bool band = false, band_is_u = false;
 };
-// At most two rows; returns the bottom.
+// Draws at most two rows. Returns the lower edge of the last row, px.
 double draw_marks_legend(Svg& svg, double top, const Legend& legend,
                          std::span<const LegendItem> lines, Language language);
 

@@ -8,7 +8,8 @@
 
 namespace mdof::charts {
 
-// Each has_… function returns whether its plot has anything to show; only then call …_svg.
+// Each function has_X() returns whether there is data for the plot X. Call X_svg() only if has_X()
+// is true.
 bool has_histogram(const OutputSummary& output);
 std::string histogram_svg(const StudyResult& result, const OutputSummary& output);
 

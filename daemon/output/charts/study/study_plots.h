@@ -14,9 +14,10 @@ namespace mdof::charts {
 //   sensitivity.svg           if it has indices
 //   convergence.svg           if it has a history
 //   allocation.svg            if an allocation has a frontier
-// The same figures give the same bytes, because no file contains a time or duration. Each file is
-// complete or absent. Files of the same name are replaced; other files stay. Numbers are in the
-// units at the ends of the keys. Error: io, with the folder or file and the remedy. Any thread.
+// Equal figures make equal bytes, because no file contains a time or duration. A file is written
+// either completely or not at all. Existing files with these names are replaced. The unit of a
+// number is the end of its key. Error (io): the message names the folder or file, and the remedy.
+// Any thread.
 Status write_study_plots(const StudyResult& result, const std::filesystem::path& folder);
 
 }  // namespace mdof::charts

@@ -9,21 +9,24 @@
 
 namespace mdof::controllers {
 
-constexpr std::size_t kSiemensPointLimit = 200;  // points of a table: 808D, 828D; others MD38000
-constexpr std::size_t kResamplingPointLimit = 20'000;  // points of a series before resampling
+constexpr std::size_t kSiemensPointLimit = 200;  // largest number of points in a table of an 808D
+                                                 // or 828D; MD38000 states it for other controls
+constexpr std::size_t kResamplingPointLimit =
+    20'000;  // largest number of points in a series before resampling
 
 struct EqualSteps {
   double first_m = 0, step_m = 0;
-  std::vector<double> forward, reverse;  // E; m
-  double loss_m = 0;                     // largest change at a point of the series, by resampling
+  std::vector<double> forward, reverse;  // E in m
+  double loss_m = 0;  // largest change by resampling at a point of the original series
 
   double last_m() const { return first_m + step_m * static_cast<double>(forward.size() - 1); }
 };
 
-// The number of steps follows from the smallest interval of the series. It is doubled while the
-// series changes by more than 1 % of its largest error, up to most_points() - 1. Steps are whole
-// nanometres, as in the file. The change becomes a note of `out`; its last `written` gets the
-// number of points. Error (bad_input): fewer than two points.
+// Resamples a series to equal steps. The first number of steps is the range divided by the smallest
+// interval of the series. While resampling changes a value by more than 1 % of the largest error,
+// the number of steps is doubled, up to most_points() - 1. A step is a whole number of nanometres,
+// as in the file. Adds a note with the change to `out`, and sets the number of points in the last
+// element of out.written. Error (bad_input): fewer than two points.
 Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Export& out);
 // ExportOptions::siemens_points, or kSiemensPointLimit.
 std::size_t most_points(const ExportOptions& options);
@@ -31,12 +34,14 @@ std::size_t most_points(const ExportOptions& options);
 // Largest absolute error of both approaches.
 double largest_error_m(const Series& s);
 
-// Points at equal steps are not thinned; a note states this if a tolerance was given.
+// Returns the options with the tolerance 0, because no points can be omitted from equal steps. Adds
+// a note if the user stated a tolerance.
 ExportOptions without_tolerance(const ExportOptions& options, Export& out);
 
 // "AX1" for X.
 std::string siemens_axis(char axis);
-// The values of LEC and CEC are in the basic system of the control, independent of G70 and G71.
+// The control reads the values of LEC and CEC in the units of its basic system; G70 and G71 have no
+// effect on them.
 inline constexpr const char* kMetricOnly =
     "; The basic system of the control must be metric (MD10240 = 1): the values are in mm.\n";
 

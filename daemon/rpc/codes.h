@@ -1,4 +1,4 @@
-// The error codes of the RPC interface: one table, used in both directions.
+// The error codes of the RPC interface. Server and client convert codes with the same table.
 #pragma once
 
 #include <span>
@@ -16,16 +16,18 @@ inline constexpr int kInternalError = -32603;
 // Codes of this server.
 inline constexpr int kBusy = -32000;  // too many connections; the connection is closed after this
                                       // line
-inline constexpr int kChanged = -32001;    // generation changed: read again, then decide
-inline constexpr int kConflict = -32002;   // not possible now: a run is in progress, the axis moves
-inline constexpr int kForbidden = -32003;  // this transport allows only reading
-inline constexpr int kNotFound = -32004;   // the named run, table, device does not exist
-inline constexpr int kBadInput = -32010;   // a file, a document or a value in it
-inline constexpr int kIo = -32011;         // device, file system, database
-inline constexpr int kCheck = -32012;      // a result exists but fails its check
-inline constexpr int kReplyTooLarge = -32013;  // request pages: offset, count
+inline constexpr int kChanged =
+    -32001;  // the generation has changed; the client must read the data again
+inline constexpr int kConflict =
+    -32002;  // not possible now, for example because a run is in progress
+inline constexpr int kForbidden = -32003;      // the client may only read over this transport
+inline constexpr int kNotFound = -32004;       // the run, table or device does not exist
+inline constexpr int kBadInput = -32010;       // a file, or a value in a file, is invalid
+inline constexpr int kIo = -32011;             // a device, the file system or the database failed
+inline constexpr int kCheck = -32012;          // the result does not pass a check
+inline constexpr int kReplyTooLarge = -32013;  // the client must request less: "offset", "count"
 
-// The codes that a client may distinguish, for rpc.discover.
+// A code that a client may distinguish, as rpc.discover describes it.
 struct CodeMeaning {
   const char* name;
   int code;
@@ -34,6 +36,6 @@ struct CodeMeaning {
 std::span<const CodeMeaning> code_meanings();
 
 int code_of(ErrorCode code);
-ErrorCode error_code_of(int code);  // the ErrorCode that a client gets for it
+ErrorCode error_code_of(int code);  // the ErrorCode that Client::call() returns for this code
 
 }  // namespace mdof::rpc

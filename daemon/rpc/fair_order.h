@@ -1,6 +1,6 @@
-// Selects the next user of a shared thread: the one that has used the least of its time lately
-// (start-time fair queueing, Goyal, Vin and Cheng 1996). A user with few requests is served before
-// one with many.
+// Selects the next user of a shared thread: the user that has used the thread for the shortest time
+// recently (start-time fair queueing, Goyal, Vin and Cheng 1996). A user with few requests
+// therefore comes before a user with many requests.
 #pragma once
 
 #include <algorithm>
@@ -11,24 +11,25 @@
 
 namespace mdof {
 
-// The used time of one user, on the time scale of the order.
+// The time that one user has used, on the virtual time scale of FairOrder.
 struct FairShare {
   std::chrono::nanoseconds end{0};
 };
 
-// Thread-bound, or protected by the owner's lock. Pure: the caller measures the cost of a turn.
+// Thread-bound, or protected by the owner's lock. It reads no clock: the caller measures the
+// duration of a turn.
 template <class T>
 class FairOrder {
  public:
   bool empty() const { return waiting_.empty(); }
 
-  // `who` waits for one turn. It must not wait twice at a time.
+  // Adds `who` to the queue for one turn. `who` must not be in the queue already.
   void add(T who, const FairShare& share) {
     waiting_.push_back({std::max(now_, share.end), std::move(who)});
   }
 
-  // Returns the user with the least used time; if equal, the one that has waited longest. Must not
-  // be empty.
+  // Removes and returns the user with the shortest used time. If several users have the same time,
+  // returns the one that was added first. The queue must not be empty.
   T take() {
     assert(!waiting_.empty());
     const auto next =
@@ -40,8 +41,9 @@ class FairOrder {
     return who;
   }
 
-  // Call it with the cost of a turn before the next take(). For a new user the cost delays the
-  // first turn, so that repeated reconnecting gives no advantage.
+  // Adds the duration `cost` of a turn to the used time of a user. Call it before the next take().
+  // For a new user, call it with a duration that delays its first turn; then a client has no
+  // advantage if it connects again and again.
   void charge(FairShare& share, std::chrono::nanoseconds cost) { share.end = now_ + cost; }
 
   template <class Condition>

@@ -1,4 +1,4 @@
-// Writes JSON-RPC 2.0 messages without their line ends. Private header.
+// Writes JSON-RPC 2.0 messages, without a line end. Private header.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace mdof::rpc {
 
-// Maximum length of an error message and of its data; longer texts are cut.
+// Largest length of an error message, and of its data, in bytes. Longer texts are cut.
 inline constexpr std::size_t kMaxErrorText = 1024;
 
 // `id` and `json` are JSON text. A line end inside `json` becomes a space.
 void append_result(std::string& out, std::string_view id, std::string_view json);
 void append_error(std::string& out, std::string_view id, int code, std::string_view message,
                   std::string_view data = {});
-// The message includes the text of the remedy; {"data": {"remedy": …}} contains its code.
+// The message contains the text of the remedy. {"data": {"remedy": …}} contains the code of the
+// remedy.
 void append_error(std::string& out, std::string_view id, const Error& error);
 void append_notification(std::string& out, std::string_view method, std::string_view params);
 
@@ -25,7 +26,8 @@ struct Notification {
 };
 Notification parse_notification(std::string_view message);
 
-// Quotes text of a client for a message to it, cut to the length of a reasonable name.
+// Puts a text that a client sent into quotes, for a message to this client. Cuts it to the length
+// of a usual name.
 std::string in_quotes(std::string_view text);
 
 }  // namespace mdof::rpc

@@ -1,4 +1,5 @@
-// The methods, one row each. Dispatch, parameter checks and rpc.discover use these rows.
+// The table of all methods. Each method has one row. The server uses this row to call the method,
+// to check its parameters, and to describe it in rpc.discover.
 #pragma once
 
 #include <functional>
@@ -17,8 +18,8 @@ namespace mdof::rpc {
 enum class ParamType { string, number, integer, boolean, array, object };
 const char* to_string(ParamType type);  // as in JSON Schema
 
-// Limits of a value, so that a request cannot demand more work or memory than a call may use.
-// Limits of numbers also hold for the numbers of an array.
+// Limits of a parameter's value. They limit the work and memory that a request can demand. The
+// limits of numbers also apply to each number in an array.
 struct Bounds {
   double least = -9007199254740992.0, most = 9007199254740992.0;  // 2^53
   std::size_t items = 64;    // maximum number of elements of an array
@@ -26,7 +27,7 @@ struct Bounds {
 };
 
 struct Param {
-  std::string name;  // ends with the unit, if it has one
+  std::string name;  // ends with the unit, if the value has one
   ParamType type = ParamType::string;
   std::string description;
   bool required = false;
@@ -34,51 +35,57 @@ struct Param {
   Bounds bounds = {};
 };
 
-// Returns the result as JSON text (one value, UTF-8). A line feed in it becomes a space.
+// Returns the result as JSON text: one value, UTF-8. A line feed in the text becomes a space.
 using SyncHandler = std::function<Result<std::string>(const Params&)>;
-// Keeps the Reply until the result is known. Params are only valid during the call.
+// Receives a Reply, and calls it when the result is known. Params are only valid during the call of
+// the handler.
 using AsyncHandler = std::function<void(const Params&, Reply)>;
 
 struct Method {
   std::string name;     // "run.list"
   std::string summary;  // one sentence
   std::vector<Param> params = {};
-  std::string result = {};        // a sentence with information beyond the members
-  std::string_view members = {};  // shape of the result, in the syntax of schema/field/shape.h;
-                                  // empty: any value
-  std::string example = "{}";     // params by name
-  bool writes = false;            // changes something; rejected if the client may only read
-  bool subscribes = false;        // needs a permanent connection
-  bool approves = false;          // only for the group ServerOptions::approvers, if given
+  std::string result = {};  // a sentence with facts that `members` does not state
+  std::string_view members =
+      {};  // members of the result, in the syntax of schema/field/shape.h; empty: any value
+  std::string example = "{}";  // params by name
+  bool writes =
+      false;  // the method changes data; the server rejects the call if the client may only read
+  bool subscribes = false;  // the method needs a connection that stays open
+  bool approves = false;  // only clients in the group ServerOptions::approvers may call the method,
+                          // if this group is set
   std::variant<SyncHandler, AsyncHandler> handler;
 };
 
-// Built once, then only read, by one thread. It must outlive the server and must not move.
+// The table is complete before the server starts; then one thread reads it. It must exist longer
+// than the server and must not move.
 class MethodTable {
  public:
-  // Title and version in rpc.discover; the table adds that method itself.
+  // Title and version that rpc.discover states. The table contains the method rpc.discover from the
+  // start.
   MethodTable(std::string title, std::string version);
   MethodTable(const MethodTable&) = delete;
   MethodTable& operator=(const MethodTable&) = delete;
 
-  // A repeated name, or an example that is not JSON, is a programming error.
+  // Programming errors: a method with this name exists already; the example is not JSON.
   void add(Method method);
 
   const Method* find(std::string_view name) const;
   std::string nearest(std::string_view name) const;  // empty: no similar name
   const std::map<std::string, Method, std::less<>>& methods() const { return methods_; }
 
-  // The OpenRPC 1.2.6 document from the method at `offset` on, with as many methods as fit into
-  // `max_bytes`. "x-total" is the number of methods; "x-next-offset" exists if some are left. A
-  // single method that does not fit is described without the schema of its result, and a
-  // description states this.
+  // Returns an OpenRPC 1.2.6 document. It describes the methods from number `offset`, as many as
+  // fit into `max_bytes`. "x-total" is the number of all methods. "x-next-offset" is the number of
+  // the next method; it is missing after the last method. If the first method alone does not fit,
+  // the document describes it without the schema of its result, and states this.
   std::string openrpc(std::size_t offset, std::size_t max_bytes) const;
 
  private:
   const std::string& schema_of(const Method& method) const;
 
   std::string title_, version_;
-  mutable std::map<std::string, std::string> schemas_;  // schemas of results, made on first use
+  mutable std::map<std::string, std::string>
+      schemas_;  // schemas of results; a schema is made when it is first needed
   std::map<std::string, Method, std::less<>> methods_;
 };
 

@@ -1,4 +1,4 @@
-// An object with which one call is answered, now or later, from any thread.
+// The object with which a handler answers one call, now or later, from any thread.
 #pragma once
 
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace mdof::rpc {
 
-// Move-only. Call it once, with JSON text or an Error. If it is destroyed without an answer, the
-// client gets -32603. Any thread may own and call it. If the client or the server no longer exists,
-// the answer is dropped.
+// Move-only. Call operator() once, with JSON text or an Error. If the Reply is destroyed before,
+// the client gets the error -32603. Any thread may own and call it. If the client or the server no
+// longer exists, the answer is dropped.
 class Reply {
  public:
   struct Slot;  // see exchange.h
@@ -22,8 +22,8 @@ class Reply {
 
   void operator()(Result<std::string> result);
 
-  // Identity of the client: equal for all calls of one client, expired after it has disconnected.
-  // Do not call it after the answer.
+  // Identifies the client: the pointers of all calls of one client are equal, and they are expired
+  // after the client has disconnected. Do not call this function after the answer.
   std::weak_ptr<const void> client() const;
 
  private:

@@ -15,33 +15,35 @@ struct ServerOptions {
   using milliseconds = std::chrono::milliseconds;
 
   // Limits of lines and messages.
-  std::size_t max_line_bytes = 64 * 1024;   // one request, without its line end
-  std::size_t max_reply_bytes = 48 * 1024;  // one sent line, with its line end
+  std::size_t max_line_bytes = 64 * 1024;   // length of a request without its line end
+  std::size_t max_reply_bytes = 48 * 1024;  // length of a sent line with its line end
   std::size_t max_depth = 32;               // nesting depth of a request
-  std::size_t max_batch = 100;              // members of a batch
-  std::size_t max_id_bytes = 256;           // one id as JSON text
+  std::size_t max_batch = 100;              // requests in a batch
+  std::size_t max_id_bytes = 256;           // length of an id as JSON text
 
   // Limits of one client.
-  std::size_t max_unsent_bytes = 1024 * 1024;  // a request only begins if its reply fits
-  std::chrono::microseconds turn{100};         // after this time the other clients get a turn
+  std::size_t max_unsent_bytes =
+      1024 * 1024;                      // a request only begins if its largest reply has space
+  std::chrono::microseconds turn{100};  // duration of a turn; then the other clients get a turn
   std::size_t max_subscriptions = 32;
-  std::size_t max_queued_events = 64;  // length of the queue of one subscription to events; when
-                                       // full, the oldest event is dropped
-  milliseconds request_timeout{5000};  // limit for a whole line, from its first byte
-  milliseconds stall_timeout{10000};   // time during which the client takes none of the unsent
-                                       // output
-  milliseconds idle_timeout{0};        // limit without request and subscription; 0: no limit
-  milliseconds drain_timeout{1000};    // time for the client to read the last line before the
-                                       // connection closes
+  std::size_t max_queued_events =
+      64;  // pending events of one subscription; if there are more, the oldest event is dropped
+  milliseconds request_timeout{5000};  // time from the first byte of a line to its last byte
+  milliseconds stall_timeout{
+      10000};                    // time during which the client reads none of the unsent output
+  milliseconds idle_timeout{0};  // time without a request and without a subscription; 0: no limit
+  milliseconds drain_timeout{1000};  // time for the client to read the last line before the
+                                     // connection closes
 
   // Limits of the server.
   std::size_t max_connections = 64;
   std::size_t max_connections_of_user = 32;  // connections of one uid, over Unix and TCP sockets
                                              // together
-  // One of max_connections is reserved for this group, the group of the machine's control, even if
-  // other users have all other connections.
+  // One of max_connections is reserved for clients in this group. It is the group of the machine's
+  // control, which can then connect even if other users have all other connections.
   std::optional<gid_t> kept_for_group;
-  // Only this group may call methods that approve; nullopt: every client that may write.
+  // Only clients in this group may call methods with Method::approves. nullopt: every client that
+  // may write may call them.
   struct Group {
     gid_t id = 0;
     std::string name;
@@ -49,18 +51,21 @@ struct ServerOptions {
   std::optional<Group> approvers;
   bool tcp_may_write = false;  // allows writing methods over loopback TCP
 
-  // Limits of browsers; their connections do not count among those above. The body of a request is
-  // limited by max_line_bytes; request_timeout limits the head, and then the body.
-  std::size_t max_http_connections = 128;  // beyond it, the connection that has been idle longest
-                                           // is closed
-  std::size_t max_http_streams = 64;       // maximum number of connections with GET /events
+  // Limits of browsers. Connections of browsers do not count in max_connections. max_line_bytes
+  // limits the body of a request. request_timeout limits the time for the head of a request, and
+  // the time for its body.
+  std::size_t max_http_connections =
+      128;  // if there are more, the server closes the connection that has been idle longest
+  std::size_t max_http_streams = 64;  // maximum number of connections with GET /events
   std::size_t max_http_head_bytes = 8 * 1024;
-  milliseconds http_idle_timeout{15000};  // limit between two requests
-  milliseconds http_heartbeat{10000};     // on a stream without events
-  std::size_t max_kept_events = 4096;     // for streams that resume
+  milliseconds http_idle_timeout{15000};  // time between two requests
+  milliseconds http_heartbeat{
+      10000};  // interval of the comments that are sent on a stream without events
+  std::size_t max_kept_events = 4096;  // events that are kept for streams that resume
   std::size_t max_kept_event_bytes = 1024 * 1024;
 
-  std::function<void(const std::string&)> log;  // one line; empty: to stderr
+  std::function<void(const std::string&)>
+      log;  // writes one line of the log; empty function: the log goes to stderr
 };
 
 }  // namespace mdof::rpc

@@ -10,11 +10,12 @@ namespace mdof::rpc {
 // n, "value": ...}. `missed` counts the values that were not sent since the previous message.
 struct Topic {
   std::string name;
-  // false: a value, of which only the newest of each axis is sent; a slow client gets fewer values.
-  // true: an event; events do not replace each other. For a slow client up to max_queued_events are
-  // queued; then the oldest event is dropped.
+  // false: the topic has values. A newer value of an axis replaces an older value that has not been
+  // sent, so a slow client receives fewer values. true: the topic has events, which do not replace
+  // each other. If a slow client has max_queued_events pending events, the oldest event is dropped.
   bool event = false;
-  std::chrono::milliseconds min_interval{20};  // between two messages to a client; for values only
+  std::chrono::milliseconds min_interval{
+      20};  // shortest interval between two values to a client; not used for events
 };
 
 }  // namespace mdof::rpc

@@ -1,5 +1,5 @@
-// Transmits the messages of a session as lines over a socket, within limits that protect the other
-// clients. Private header.
+// Transmits the messages of a session as lines over a socket. Its limits protect the other clients.
+// Private header.
 #pragma once
 
 #include <chrono>
@@ -17,15 +17,15 @@ namespace mdof::rpc {
 
 struct ServerCore;
 
-// Thread-bound: the event loop. All longer work (receiving, requests, sending) is done in
-// take_turn(), which the server calls in a fair order. Other events only ask for a turn, so that a
-// handler never runs inside another handler.
+// Thread-bound: the event loop. Only take_turn() receives, handles requests and sends; the server
+// calls it for all connections in a fair order. All other events only ask the server for a turn. A
+// handler therefore never runs inside another handler.
 class Connection final : public ClientSocket {
  public:
   Connection(ServerCore& server, int socket);  // takes ownership; the socket is connected and
                                                // non-blocking
 
-  // Call one of these two first.
+  // Call either start() or reject_connection() first.
   void start(std::shared_ptr<Session> session);
   void reject_connection(std::string_view why);
 
@@ -57,10 +57,11 @@ class Connection final : public ClientSocket {
 
   ServerCore& server_;
   LineBuffer input_;
-  std::optional<LineBuffer::Line> line_;  // in progress; valid because nothing is read meanwhile
+  std::optional<LineBuffer::Line> line_;  // the line in progress; it stays valid because the
+                                          // connection reads nothing until it is finished
   FairShare share_;
-  std::optional<Clock::time_point> line_since_;      // begin of an incomplete line
-  std::optional<Clock::time_point> draining_since_;  // further input is discarded
+  std::optional<Clock::time_point> line_since_;      // time of the first byte of an incomplete line
+  std::optional<Clock::time_point> draining_since_;  // not nullopt: further input is discarded
 };
 
 }  // namespace mdof::rpc

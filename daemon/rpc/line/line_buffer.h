@@ -11,17 +11,18 @@ namespace mdof::rpc {
 
 class LineBuffer {
  public:
-  // The user of a line may read `padding` bytes after it.
+  // `padding`: number of bytes after a line that its user may read.
   LineBuffer(std::size_t max_line_bytes, std::size_t padding);
 
-  // Space for receiving; empty only if the next line is too long. Invalidates the result of next().
+  // The space for received bytes. It is empty only if the next line is too long. The call makes the
+  // result of next() invalid.
   std::span<char> space();
   void received(std::size_t bytes) { end_ += bytes; }
   void discard() { begin_ = scanned_ = end_; }
 
   struct Line {
     std::string_view text;  // without LF or CR LF
-    bool too_long = false;  // nothing can follow such a line
+    bool too_long = false;  // the rest of the line is unknown, so no other line can follow
   };
   bool has_line();             // a complete line or a line that is too long
   std::optional<Line> next();  // valid until space()

@@ -1,5 +1,5 @@
-// Serves the sessions of a service on Unix and TCP sockets, one message a line. README.md describes
-// the protocol.
+// Accepts clients of a service on Unix and TCP sockets. Each line is one message.
+// daemon/rpc/README.md describes the protocol.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace mdof::rpc {
 
 // Thread-bound: call it on the loop's thread, or while the loop does not run. The service and the
-// loop must outlive it.
+// loop must exist longer than the server.
 class LineServer {
  public:
   LineServer(EventLoop& loop, Service& service);
@@ -22,13 +22,14 @@ class LineServer {
   LineServer(const LineServer&) = delete;
   LineServer& operator=(const LineServer&) = delete;
 
-  // Mode 0660. Replaces the socket file of a daemon that no longer runs. Error (conflict): a daemon
-  // answers on the socket.
+  // Creates a Unix socket with mode 0660. Replaces the socket file of a daemon that no longer runs.
+  // Error (conflict): a daemon answers on the socket.
   Status listen_unix(const std::string& path);
-  // A socket that already listens (Unix or TCP), for example from sd_listen_fds(). Takes ownership
-  // unless it returns an error.
+  // Uses a Unix or TCP socket that already listens, for example from sd_listen_fds(). Takes
+  // ownership unless it returns an error.
   Status listen_fd(int fd);
-  // Loopback only: "127.0.0.1" or "::1"; port 0 selects a free one. Returns the port.
+  // `address` is "127.0.0.1" or "::1", because only programs on this machine may connect. Port 0
+  // selects a free port. Returns the port.
   Result<std::uint16_t> listen_tcp(const std::string& address, std::uint16_t port);
 
  private:

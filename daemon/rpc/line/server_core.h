@@ -14,7 +14,8 @@ struct ServerCore final : ClientSet<Connection> {
   using ClientSet::ClientSet;
   ~ServerCore() override { close_all(); }
 
-  void adopt(int socket);  // a connected client, which is turned away if all places are taken
+  void adopt(
+      int socket);  // `socket`: a connected client; it is rejected if there are too many clients
   void request_turn(std::shared_ptr<Connection> connection);
 
  private:
@@ -23,7 +24,7 @@ struct ServerCore final : ClientSet<Connection> {
   void wake_due() override;
   std::chrono::milliseconds least_limit() const override;
 
-  FairOrder<std::shared_ptr<Connection>> order_;  // connections with a request to run
+  FairOrder<std::shared_ptr<Connection>> order_;  // connections that wait for a turn
   bool again_ = false;
   const Connection* in_turn_ = nullptr;
 };

@@ -1,6 +1,7 @@
-// Boost.Asio without deprecated names. This folder uses its loop: descriptors, timers and signals.
-// Sockets are opened and written with plain system calls. Not the standalone Asio, because
-// Boost.Beast (daemon/rpc/web/) needs Boost.Asio, and both must not be mixed. Private header.
+// Includes Boost.Asio without deprecated names. This folder uses its event loop for descriptors,
+// timers and signals. It opens and writes sockets with plain system calls. The standalone Asio
+// library is not used, because Boost.Beast (daemon/rpc/web/) needs Boost.Asio, and one program must
+// not contain both. Private header.
 #pragma once
 
 #ifndef BOOST_ASIO_NO_DEPRECATED

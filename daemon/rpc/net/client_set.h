@@ -1,5 +1,6 @@
-// The connections of a server of either kind. They get turns in time slices, are checked regularly,
-// and are woken when a value is due. Private header.
+// The connections of a server: a line server or an HTTP server. ClientSet gives turns to the
+// connections, checks their time limits regularly, and wakes them when a value is due. Private
+// header.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +37,7 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
     due_timer_.expires_at(when);
     due_timer_.async_wait([weak = this->weak_from_this()](const LoopError& error) {
       const auto self = weak.lock();
-      if (!self || error) return;  // destroyed, or replaced by an earlier time
+      if (!self || error) return;  // the set was destroyed, or an earlier time replaced this time
       self->due_.reset();
       self->wake_due();
     });
@@ -47,7 +48,7 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
   std::vector<std::shared_ptr<C>> connections;
 
  protected:
-  // Gives a turn to the next connection; returns the time after this turn.
+  // Gives a turn to the next connection. Returns the time at the end of this turn.
   virtual Clock::time_point give_turn(Clock::time_point now) = 0;
   virtual bool awaits_turn() const = 0;
   virtual void wake_due() = 0;  // wakes connections whose value is due
@@ -68,8 +69,9 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
   }
 
  private:
-  // Works in time slices. Between them the loop checks sockets and timers, so that a new request
-  // need not wait for all connections that are before it in the queue.
+  // Gives turns for at most kSlice, then returns to the loop and continues later. In between, the
+  // loop checks sockets and timers. A new request therefore does not wait for all connections that
+  // are before it in the queue.
   void give_turns() {
     constexpr std::chrono::microseconds kSlice{300};
     turns_posted_ = false;
@@ -77,7 +79,8 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
     for (const auto end = now + kSlice; awaits_turn() && now < end;) now = give_turn(now);
     if (awaits_turn()) post_turns();
   }
-  // Often enough to exceed a limit by at most an eighth of it.
+  // Checks the time limits of all connections. The interval is an eighth of the shortest limit, so
+  // that no limit is exceeded by more than an eighth.
   void sweep() {
     for (const auto& connection : std::vector(connections)) connection->check_times(Clock::now());
     if (connections.empty()) {

@@ -1,5 +1,6 @@
-// The socket of a connection of either kind (line/connection.h, web/http_connection.h): pending
-// output, readiness events of the loop, and one turn at a time. Private header.
+// Base class of connections (line/connection.h, web/http_connection.h). It contains the socket and
+// the pending output, waits until the socket can be read or written, and requests turns. Private
+// header.
 #pragma once
 
 #include <chrono>
@@ -19,7 +20,7 @@ class ClientSocket : public Transport, public std::enable_shared_from_this<Clien
   using Clock = std::chrono::steady_clock;
 
   void take_turn();
-  void close();  // immediately; the server forgets the connection
+  void close();  // closes at once and removes the connection from the server
 
   std::size_t unsent() const override { return output_.unsent(); }
   void wake() override;
@@ -29,23 +30,25 @@ class ClientSocket : public Transport, public std::enable_shared_from_this<Clien
                                                         // non-blocking
 
   virtual void request_turn() = 0;
-  virtual void forget() = 0;   // called when the socket is closed
+  virtual void
+  forget() = 0;  // called when the socket is closed; removes the connection from the server
   virtual void receive() = 0;  // called when data can be read
-  virtual void pump() = 0;     // the rest of a turn
+  virtual void pump() = 0;     // called in each turn after receive()
 
   void flush();
   void wait_readable();
   void wait_writable();
-  void end_output();  // once; input can still be read
-  bool hung_up();     // the client has closed both directions
+  void end_output();  // closes the output direction, at most once; input can still be read
+  bool hung_up();     // whether the client has closed both directions
 
   asio::posix::stream_descriptor socket_;
-  std::shared_ptr<Session> session_;  // reset on closing, because a session occupies a place
+  std::shared_ptr<Session>
+      session_;  // null after closing, because an open session counts as a connected client
   Outbox output_;
   bool closed_ = false, input_ended_ = false;
   bool reading_ = false, writing_ = false, has_turn_ = false;
-  std::optional<Clock::time_point> stalled_since_;  // since then the client takes none of the
-                                                    // unsent output
+  std::optional<Clock::time_point>
+      stalled_since_;  // the time since when the client has read none of the unsent output
 
  private:
   bool readable_ = false, shut_down_ = false;

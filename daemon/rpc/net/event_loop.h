@@ -1,5 +1,5 @@
-// The event loop of the main thread: readiness of descriptors, timers, signals and work from other
-// threads, run one after the other on the thread that called run().
+// The event loop of the main thread. It waits for descriptors, timers, signals and work from other
+// threads, and runs their functions one after the other on the thread that called run().
 #pragma once
 
 #include <chrono>
@@ -24,12 +24,13 @@ class EventLoop {
 
   // Runs until stop(), also without any work.
   void run();
-  // Thread-safe. Running work is finished first.
+  // Thread-safe. run() returns after the function that runs at this time.
   void stop();
-  // Thread-safe. Keeps the order of each posting thread. Does nothing after the loop's end.
+  // Thread-safe. Functions from one thread run in the order in which this thread posted them. Does
+  // nothing after the loop has been destroyed.
   void post(std::function<void()> work);
-  // Before run() or on the loop: calls `work` every `period`, on a fixed grid; missed ticks are
-  // skipped.
+  // Before run() or on the loop: calls `work` every `period`, at multiples of `period`; missed
+  // calls are skipped.
   void call_every(std::chrono::nanoseconds period, std::function<void()> work);
   // Before run() or on the loop: calls `work(number)` on the loop for each of these signals.
   void on_signal(const std::vector<int>& signals, std::function<void(int)> work);
@@ -38,10 +39,11 @@ class EventLoop {
   void on_readable(int descriptor, std::function<void()> work);
 
   const std::shared_ptr<Core>& core() const { return core_; }
-  std::shared_ptr<Executor> executor() const;  // for users that do not depend on EventLoop
+  std::shared_ptr<Executor> executor() const;  // for code that does not depend on EventLoop
 
  private:
-  std::shared_ptr<Core> core_;  // shared with objects that may post after the loop's end
+  std::shared_ptr<Core>
+      core_;  // shared with objects that may post after the loop has been destroyed
 };
 
 }  // namespace mdof::rpc

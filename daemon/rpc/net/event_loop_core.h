@@ -12,11 +12,11 @@
 namespace mdof::rpc {
 
 struct EventLoop::Core final : Executor {
-  std::mutex mutex;  // protects `open`, and the context against posts during its destruction
+  std::mutex mutex;  // protects `open`; prevents posts while the context is destroyed
   bool open = true;
   std::unique_ptr<asio::io_context> context = std::make_unique<asio::io_context>(1);
 
-  // Thread-safe. Drops the work after the loop's end.
+  // Thread-safe. Drops the work after the loop has been destroyed.
   template <class Work>
   void post(Work&& work) {
     const std::scoped_lock lock(mutex);

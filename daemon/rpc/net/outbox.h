@@ -13,8 +13,8 @@ class Outbox {
   std::string& text() { return text_; }
   std::size_t unsent() const { return text_.size() - sent_; }
 
-  // Sends as much as the socket takes without blocking. Returns the number of bytes; nullopt: the
-  // connection is broken.
+  // Sends as many bytes as the socket accepts without blocking. Returns the number of bytes;
+  // nullopt: the connection is broken.
   std::optional<std::size_t> flush(int socket);
 
  private:

@@ -1,12 +1,12 @@
-// The process at the other end of a socket, as recorded by the kernel at connection. Private
-// header.
+// The process at the other end of a socket. The kernel recorded it when the client connected.
+// Private header.
 #pragma once
 
 #include "daemon/rpc/session/peer.h"
 
 namespace mdof::rpc {
 
-// For a Unix socket its credentials; for a TCP client the owner of its socket, if the kernel
+// Unix socket: the credentials of the client. TCP: the owner of the client's socket, if the kernel
 // reports it.
 Peer peer_of(int socket);
 

@@ -26,18 +26,19 @@ class Descriptor {
 
 std::string system_error_text(int number);
 
-// Non-blocking and listening. Mode 0660. Replaces a socket file on which no process answers.
+// Returns a non-blocking, listening socket with mode 0660. Replaces a socket file on which no
+// process answers.
 Result<Descriptor> listen_on_unix(const std::string& path);
-// 127.0.0.1 or ::1; port 0: any.
+// `address` is 127.0.0.1 or ::1. Port 0 selects a free port.
 Result<Descriptor> listen_on_tcp(const std::string& address, std::uint16_t port);
-// Error: usage, if the descriptor is no listening stream socket of these kinds. Does not take
+// Error (usage): the descriptor is not a Unix or TCP stream socket that listens. Does not take
 // ownership.
 Status check_listening(int fd);
 std::uint16_t port_of(int socket);
 
-// Blocking. The error is errno; the caller makes its message.
+// Connects a blocking socket. The error is errno; the caller makes the message.
 tl::expected<Descriptor, int> connect_to_unix(const std::string& path);
-// Errors: usage, if the path does not fit into a socket address.
+// Error (usage): the path does not fit into a socket address.
 Status check_unix_path(const std::string& path);
 
 }  // namespace mdof::rpc

@@ -10,14 +10,15 @@
 
 namespace mdof::rpc {
 
-// One value for each parameter of the row, in its order; empty: absent or null.
+// `values` has one element for each parameter in the row of the method, in the same order. nullopt:
+// the parameter is absent or null.
 struct ParamValues {
   const Method* method = nullptr;
   std::vector<std::optional<simdjson::dom::element>> values;
 };
 
-// Fills `out` from the request's params (object: by name; array: by position; or none). Errors are
-// `usage` and name the parameter.
+// Fills `out` from the params of a request: an object (by name), an array (by position), or none.
+// Error (usage): a parameter is missing, unknown or invalid; the message names it.
 Status check_params(const Method& method, const std::optional<simdjson::dom::element>& params,
                     ParamValues& out);
 

@@ -1,4 +1,4 @@
-// The parameters of one call, already checked against the method's row.
+// The parameters of one call. The server has already checked them against the row of the method.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace mdof::rpc {
 
 struct ParamValues;  // see param_values.h
 
-// Use only names of the row, with the type of the row; anything else is a programming error. An
-// optional parameter that is absent or null gives the fallback. Thread-bound, and valid only until
-// the handler returns: keep copies, not views.
+// Use only names in the row of the method, with the type in this row; another name or type is a
+// programming error. If an optional parameter is absent or null, the functions return `fallback`.
+// Thread-bound. Valid only until the handler returns: keep copies, not views.
 class Params {
  public:
   Params(const ParamValues& values, Caller& caller) : values_(values), caller_(caller) {}
@@ -25,8 +25,8 @@ class Params {
   double number(std::string_view name, double fallback = 0) const;
   std::int64_t integer(std::string_view name, std::int64_t fallback = 0) const;
   bool boolean(std::string_view name, bool fallback = false) const;
-  // The elements of an array. An element of another type gives a usage error that names it. Empty
-  // if absent.
+  // The elements of an array; empty if the parameter is absent. Error (usage): an element has
+  // another type; the message names the element.
   Result<std::vector<double>> numbers(std::string_view name) const;
   Result<std::vector<std::int64_t>> integers(std::string_view name) const;
   Result<std::vector<std::string>> strings(std::string_view name) const;

@@ -1,4 +1,4 @@
-// Handles one JSON-RPC 2.0 message and makes its reply: parsing, rules of the specification, calls.
+// Handles one JSON-RPC 2.0 message: parses it, checks it, calls the methods, and makes the reply.
 // Private header.
 #pragma once
 
@@ -14,18 +14,18 @@
 
 namespace mdof::rpc {
 
-// A batch whose members have not all been called yet.
+// A batch in which not all requests have been called yet.
 struct BegunBatch {
   std::shared_ptr<Exchange> exchange;  // null: no batch in progress
-  std::size_t next = 0;                // index of the next member
+  std::size_t next = 0;                // index of the next request in the batch
 };
 
 struct Handled {
-  bool open = false;   // the reply comes later, through the sink
-  bool begun = false;  // the batch has more members to call
+  bool open = false;   // the reply is not complete yet; the sink receives it later
+  bool begun = false;  // the batch contains requests that have not been called yet
 };
 
-// Thread-bound: the event loop. Not reentrant: a handler must not cause another handle().
+// Thread-bound: the event loop. Not reentrant: a handler must not call handle().
 class Dispatcher {
  public:
   Dispatcher(std::shared_ptr<Executor> executor, const MethodTable& table,
@@ -34,10 +34,10 @@ class Dispatcher {
 
   using Clock = std::chrono::steady_clock;
 
-  // `message` must be followed by kPadding readable bytes of any value. Appends the reply to `out`
-  // if it is known at once; it never contains a line end. After `until`, no further member of a
-  // batch is called (the first one always is); call it again with the same message and `batch` to
-  // continue.
+  // `message` must be followed by kPadding readable bytes of any value. If the reply is known at
+  // once, appends it to `out`. A reply contains no line end. After the time `until` the function
+  // calls no further request of a batch, but always at least one. To continue, call the function
+  // again with the same message and `batch`.
   Handled handle(std::string_view message, Caller& caller, std::weak_ptr<ReplySink> sink,
                  std::string& out, BegunBatch& batch, Clock::time_point until);
 

@@ -1,5 +1,5 @@
-// The reply to one message, single or batch, composed of answers that may come late. Private
-// header.
+// Collects the answers to one message, which is one request or a batch, and makes the reply.
+// Answers may arrive later. Private header.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@
 
 namespace mdof::rpc {
 
-// Receives replies that could not be given at once.
+// Receives replies that were not complete when the message had been handled.
 class ReplySink {
  public:
   virtual ~ReplySink() = default;
-  // Finishes an open exchange. An empty reply means that nothing must be sent.
+  // Receives the reply of an exchange. If the reply is empty, nothing must be sent.
   virtual void finish(std::string_view reply) = 0;
 };
 
@@ -32,18 +32,19 @@ class Exchange {
  public:
   Exchange(ReplyLimits limits, std::size_t members, bool batch, std::weak_ptr<ReplySink> sink);
 
-  // Call one of these once for each member, in any order. `id` is JSON text, empty for a
-  // notification.
+  // Call either answer() or answer_error() once for each request of the message, in any order. `id`
+  // is JSON text; it is empty for a notification.
   void answer(std::string_view id, const Result<std::string>& result);
   void answer_error(std::string_view id, int code, std::string_view message,
                     std::string_view data = {});
-  // Call it after all members were called. True: the reply is complete and was appended to `out`
-  // (nothing for notifications only). False: the sink gets it later.
+  // Call it after all requests of the message were called. True: the reply is complete and was
+  // appended to `out`; nothing is appended if all requests are notifications. False: the sink
+  // receives the reply later.
   bool seal(std::string& out);
 
   const std::weak_ptr<ReplySink>& sink() const { return sink_; }
 
-  // Bytes reserved in the reply for a member without an answer, without its id.
+  // Bytes that the reply reserves for each request without an answer, in addition to its id.
   static constexpr std::size_t kReserveBytes = 160;
 
  private:
@@ -52,14 +53,15 @@ class Exchange {
   void append_to(std::string& out) const;
 
   ReplyLimits limits_;
-  std::size_t open_;  // number of members without an answer
+  std::size_t open_;  // number of requests without an answer
   bool batch_;
   bool sealed_ = false;
   std::weak_ptr<ReplySink> sink_;
   std::string text_;  // messages, separated by commas
 };
 
-// Appends the reply to one call. A result that does not fit into `max_bytes` becomes an error.
+// Appends the reply to one call. If the result does not fit into `max_bytes`, appends an error
+// instead.
 void append_reply(std::string& out, std::string_view id, const Result<std::string>& result,
                   std::size_t max_bytes);
 

@@ -1,4 +1,4 @@
-// The thread on which all sessions run, as an interface.
+// An interface to the thread on which all sessions run.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@ namespace mdof::rpc {
 class Executor {
  public:
   virtual ~Executor() = default;
-  // Thread-safe. Runs `work` on that thread: at once if called there, otherwise later. Drops it if
-  // the thread accepts no more work.
+  // Thread-safe. Runs `work` on this thread: at once if the caller is on this thread, otherwise
+  // later. Drops `work` if the thread accepts no more work.
   virtual void dispatch(std::function<void()> work) = 0;
 };
 

@@ -1,4 +1,4 @@
-// The process at the other end of a transport, recorded at connection.
+// The process at the other end of a transport, as recorded when it connected.
 #pragma once
 
 #include <sys/types.h>
@@ -14,10 +14,11 @@ namespace mdof::rpc {
 struct Peer {
   std::optional<Credentials> credentials = {};  // nullopt if the kernel does not report them (TCP)
   std::vector<gid_t> further_groups = {};       // groups besides the group of the credentials
-  // Owner of the socket of a TCP client on this machine. It counts for the limit of connections,
-  // like the user of a Unix socket, but gives no permissions.
+  // Owner of the socket of a TCP client on this machine. It only serves to limit the connections of
+  // a user (max_connections_of_user); the client gets no permissions from it.
   std::optional<uid_t> socket_owner = {};
-  // Each request of a browser has its own permission: only its token permits writing.
+  // no: not a browser. reads, writes: a request of a browser, without or with the token that
+  // permits writing.
   enum class Http { no, reads, writes };
   Http http = Http::no;
 

@@ -1,5 +1,5 @@
-// Data that all clients share, independent of their transport: methods, topics, limits and
-// connections. README.md describes the protocol.
+// Methods, topics, limits and sessions of all clients, independent of the transport.
+// daemon/rpc/README.md describes the protocol.
 #pragma once
 
 #include <chrono>
@@ -19,17 +19,18 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: call it on the loop's thread (from other threads through the loop), or while the
-// loop does not run. The table must outlive it, and it must outlive all transports.
+// Thread-bound: use it on the thread of the loop, or while the loop does not run. The table must
+// exist longer than the service, and the service longer than all transports.
 class Service {
  public:
-  // `loop` runs the follow-up work of late replies.
+  // `loop` sends replies that become complete after their handler has returned.
   Service(std::shared_ptr<Executor> loop, const MethodTable& table, ServerOptions options = {});
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
 
-  // Returns a session for a connected client, or the reason why there is no free place. The session
-  // keeps its place until it is released: the transport releases it when the client disconnects.
+  // Returns a session for a connected client. Error: there are too many clients; the message states
+  // the limit. The session counts as a client until the transport releases it, when the client
+  // disconnects.
   Result<std::shared_ptr<Session>> admit(Peer peer, Transport& transport);
   std::size_t session_count() const;
   std::vector<std::string> clients() const;  // names of the clients (Session::name())
@@ -37,18 +38,20 @@ class Service {
   void add_topic(Topic topic);
   // nullptr if the topic does not exist.
   const Topic* topic(std::string_view name) const { return topics_.topic(name); }
-  // Calls `hear` with each event, with or without subscribers, before they get it. It serves to
-  // keep events for browsers that reconnect. An empty function ends this.
+  // From now on, calls `hear` with each event, before its subscribers receive it, and also if it
+  // has no subscriber. This keeps events for browsers that reconnect. An empty function ends the
+  // calls.
   using Hear = std::function<void(std::string_view topic, std::string_view json)>;
   void on_event(Hear hear) { event_listener_ = std::move(hear); }
-  // The interval at which values should be made, so that no value is made in vain and all
-  // subscribers get new ones: the common interval of the subscribers, or the shortest interval of
-  // the topic if a subscriber waits for its first value or the intervals differ. nullopt: no
-  // subscribers.
+  // The interval at which the program should make values of this topic:
+  // - all subscribers have the same interval: this interval
+  // - the intervals differ, or a subscriber waits for its first value: min_interval of the topic
+  // - no subscribers: nullopt
   std::optional<std::chrono::milliseconds> wanted_interval(std::string_view topic) const;
-  // `json` is one JSON value. Cheap: all waiting subscribers share the value, and it is sent in a
-  // later turn of the loop. Errors: unknown topic; value too large for a reply (subscribers then
-  // see it in "missed"). `of`: the source of the value (topic.h).
+  // `json` is one JSON value. The call is short, because all subscribers share the value, and a
+  // later turn of the loop sends it. Errors: the topic is unknown; the value is too large for a
+  // message (the next message then counts it in "missed"). `of`: the source of the value, for
+  // example the axis.
   Status publish(std::string_view topic, std::string json, std::string_view of = "");
 
   const ServerOptions& options() const { return options_; }
@@ -67,7 +70,7 @@ class Service {
   TopicHub topics_;
   std::vector<Holder> holders_;
   Hear event_listener_;
-  std::string last_refusal_;  // the last logged reason for which a client was turned away
+  std::string last_refusal_;  // why the last rejected client was rejected, as logged
 };
 
 }  // namespace mdof::rpc

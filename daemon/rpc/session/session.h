@@ -22,22 +22,22 @@ namespace mdof::rpc {
 class Transport {
  public:
   virtual ~Transport() = default;
-  // Sends one message; the transport adds the line end or other framing.
+  // Sends one message. The transport adds the line end, or what else separates messages.
   virtual void send(std::string_view message) = 0;
   virtual std::size_t unsent() const = 0;  // bytes that the client has not yet taken
-  // Asks for a turn, because there is something to send or space for a request again. It is called
-  // during other work, so the turn must come later.
+  // Asks for a turn, because there is something to send, or because a request has space again. The
+  // function must not begin the turn itself, because it is called during other work.
   virtual void wake() = 0;
 };
 
-// Objects that all sessions of a daemon share; they outlive the sessions.
+// Objects that all sessions of a daemon share. They exist longer than the sessions.
 struct SessionParts {
   Dispatcher& dispatcher;
   TopicHub& topics;
   const ServerOptions& options;
 };
 
-// Thread-bound: the event loop. The transport releases it before its own end.
+// Thread-bound: the event loop. The transport releases the session before it is destroyed itself.
 class Session final : public Caller,
                       public ReplySink,
                       public Subscriber,
@@ -50,25 +50,27 @@ class Session final : public Caller,
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  // The basis of all limits: a request only begins if its largest reply has space.
+  // Whether the largest possible reply has space in the unsent output. A request only begins if
+  // this is true; all limits depend on this rule.
   bool has_room() const;
-  // Handles one message, followed by Dispatcher::kPadding readable bytes. Call it only with
-  // has_room() and before end(). Appends the reply to `out` if it is known at once; a later reply
-  // goes to Transport::send. False: a batch was not finished by `until`; call it again with the
-  // same message, before any other.
+  // Handles one message. Dispatcher::kPadding readable bytes must follow it. Call it only if
+  // has_room() is true, and before end(). If the reply is known at once, appends it to `out`;
+  // otherwise sends it later with Transport::send(). Returns false if a batch was not finished at
+  // the time `until`; then call it again with the same message before any other message.
   bool handle(std::string_view message, std::string& out,
               Clock::time_point until = Clock::time_point::max());
-  // Sends the due notifications, up to about the size of a reply. Returns the time of the next one.
+  // Sends the due notifications, at most about max_reply_bytes. Returns the time of the next
+  // notification.
   std::optional<Clock::time_point> send_due(Clock::time_point now);
 
   bool has_subscriptions() const { return !subscriptions.empty(); }
   bool has_nothing_pending() const;           // no open calls, no subscriptions
-  bool is_idle(Clock::time_point now) const;  // whether it was idle for longer than the limit
+  bool is_idle(Clock::time_point now) const;  // whether it was idle for longer than idle_timeout
 
   // Sends the reason and ends the session.
   void refuse(std::string_view why);
   void end_idle();
-  // No further messages: subscriptions end, and late replies are dropped.
+  // Ends the session: its subscriptions end, and replies that come later are dropped.
   void end();
 
   const Peer& peer() const { return peer_; }
@@ -92,7 +94,7 @@ class Session final : public Caller,
   Transport& transport_;
   bool ended_ = false;
   BegunBatch batch_;
-  std::size_t open_exchanges_ = 0;  // messages with a late reply
+  std::size_t open_exchanges_ = 0;  // number of messages whose reply comes later
   Clock::time_point active_;        // time of the last request or answer
 };
 

@@ -1,4 +1,5 @@
-// One client's subscription to one topic: pending messages and their times. Private header.
+// The subscription of one client to one topic, with the pending messages and the times at which
+// they are due. Private header.
 #pragma once
 
 #include <chrono>
@@ -14,11 +15,11 @@
 
 namespace mdof::rpc {
 
-// Pure: the caller gives the time.
+// It reads no clock: the caller states the time.
 class Subscription {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  using Value = std::shared_ptr<const std::string>;  // JSON, shared by all waiting subscriptions
+  using Value = std::shared_ptr<const std::string>;  // JSON text; all subscriptions share it
 
   // The topic must outlive the subscription.
   Subscription(const Topic& topic, std::chrono::milliseconds interval, std::size_t max_queued);
@@ -28,22 +29,24 @@ class Subscription {
   bool awaits_first() const;
   void set_interval(std::chrono::milliseconds interval) { interval_ = interval; }
 
-  // A value replaces the pending value of the same source. Each `of` ("X", an axis) has its own
-  // intervals, because values that arrive together would otherwise replace each other for ever. An
-  // event is queued; if the queue is full, the oldest event is dropped.
+  // Adds a value or an event. `of` is its source, for example the axis "X".
+  // - A value replaces the pending value of the same source. Each source has its own interval;
+  // otherwise values of several sources that arrive together would always replace each other.
+  // - An event is added to a queue. If the queue is full, the oldest event is dropped.
   void offer(Value value, Time now, std::string_view of = "");
-  void miss() { ++missed_; }  // counts a value that cannot be sent
-  // Earliest time of the next message; nullopt: none is pending. A value that would be old at that
-  // time is delayed by one more interval, so that a newer value can replace it.
+  void miss() { ++missed_; }  // counts a value that is too large to be sent
+  // The earliest time at which the next message may be sent; nullopt: no message is pending. If the
+  // pending value would be old at this time, the time is one interval later, because a newer value
+  // can then replace it.
   std::optional<Time> due() const;
-  // Appends this message.
+  // Appends the due message to `out`.
   void take(Time now, std::string& out);
 
  private:
   const Topic& topic_;
   std::chrono::milliseconds interval_;
   std::size_t max_queued_;
-  struct Line {  // messages of one source
+  struct Line {  // the pending messages of one source
     std::string of;
     std::deque<Value> waiting = {};
     Time next{}, offered{};

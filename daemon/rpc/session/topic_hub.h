@@ -1,4 +1,4 @@
-// The topics and their subscribers. Private header.
+// All topics and their subscribers. Private header.
 #pragma once
 
 #include <chrono>
@@ -30,9 +30,10 @@ class TopicHub {
  public:
   explicit TopicHub(const ServerOptions& options) : options_(options) {}
 
-  void add(Topic topic);                            // a repeated name is a programming error
+  void add(Topic topic);  // a second topic with the same name is a programming error
   const Topic* topic(std::string_view name) const;  // nullptr if unknown
-  bool fits(std::string_view topic, std::string_view json) const;  // whether it fits into a message
+  bool fits(std::string_view topic,
+            std::string_view json) const;  // whether `json` fits into a message
   std::optional<std::chrono::milliseconds> wanted_interval(std::string_view topic) const;
   Status publish(std::string_view topic, std::string json, std::string_view of = "");
 
@@ -53,8 +54,8 @@ class TopicHub {
   std::map<std::string, Row, std::less<>> rows_;
 };
 
-// Passes due messages to `send`, one in each call. A further message begins while fewer than
-// `max_bytes` were sent. Returns the time of the next message that only waits for its time.
+// Calls send() with each due message, until at least `max_bytes` were sent. Returns the earliest
+// time at which another pending message is due.
 std::optional<Subscription::Time> take_due(Subscriber& who, Subscription::Time now,
                                            std::size_t max_bytes,
                                            const std::function<void(std::string_view)>& send);

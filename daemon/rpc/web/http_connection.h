@@ -1,5 +1,5 @@
-// One connection of a browser: sequential requests or a stream of events, within limits that
-// protect the other clients. Private header.
+// One connection of a browser. It handles requests one after the other, or sends a stream of
+// events. Its limits protect the other clients. Private header.
 #pragma once
 
 #include <chrono>
@@ -19,9 +19,10 @@ namespace mdof::rpc {
 
 struct HttpServerCore;
 
-// Thread-bound: the event loop. Each request and each stream has its own session. Nothing more is
-// read until a request is answered and the client has taken the answer. Pending messages of a
-// stream stay in shared objects (KeptEvents, Subscription), so that a slow browser needs no memory.
+// Thread-bound: the event loop. Each request and each stream has its own session. The connection
+// reads the next request after the client has received the answer to the previous request. Pending
+// messages of a stream are in KeptEvents and Subscription, which limit them. A slow browser
+// therefore needs little memory.
 class HttpConnection final : public ClientSocket {
  public:
   HttpConnection(HttpServerCore& server, int socket);  // takes ownership; connected and
@@ -34,7 +35,7 @@ class HttpConnection final : public ClientSocket {
   bool is_stream() const { return is(State::streaming); }
   bool is_idle() const { return is(State::reading) && input_.empty(); }
   Clock::time_point since() const { return since_; }
-  // For a stream: the time at which a pending value may be sent.
+  // For a stream: the time at which the next pending value may be sent.
   std::optional<Clock::time_point> due() const { return due_; }
 
   void send(std::string_view message) override;
@@ -69,17 +70,17 @@ class HttpConnection final : public ClientSocket {
   HttpServerCore& server_;
   const Peer peer_;
   State state_ = State::reading;
-  std::string input_;        // begins with the present request
-  std::size_t scanned_ = 0;  // number of its bytes that were checked for the end of the head
+  std::string input_;        // received bytes, from the beginning of the present request
+  std::size_t scanned_ = 0;  // number of bytes in input_ that were searched for the end of the head
   std::optional<HttpHead> head_;
-  std::size_t body_at_ = 0;                 // offset in input_, once the head was read
-  std::optional<std::string> reply_;        // reply to a call, not yet sent
-  bool calling_ = false;                    // a batch has more members to call
-  std::vector<std::string> events_;         // topics of a stream that are events
-  std::uint64_t seen_ = 0;                  // id of the newest event that the stream has
-  Clock::time_point since_ = Clock::now();  // begin of the present phase: idle, head, body,
-                                            // draining
-  Clock::time_point sent_ = since_;         // last output on a stream
+  std::size_t body_at_ = 0;           // offset of the body in input_; valid after the head was read
+  std::optional<std::string> reply_;  // reply to a call, not yet sent
+  bool calling_ = false;              // a batch contains requests that have not been called yet
+  std::vector<std::string> events_;   // topics of a stream that have events
+  std::uint64_t seen_ = 0;            // id of the newest event that was sent on the stream
+  Clock::time_point since_ =
+      Clock::now();                  // beginning of the present phase: idle, head, body, draining
+  Clock::time_point sent_ = since_;  // last output on a stream
   std::optional<Clock::time_point> due_;
 };
 

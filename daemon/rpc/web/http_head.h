@@ -1,5 +1,5 @@
-// The head of an HTTP/1.1 request, read by the parser of Boost.Beast and checked by stricter rules,
-// so that no proxy between a browser and mdofd can read another request from the same bytes.
+// Reads the head of an HTTP/1.1 request with the parser of Boost.Beast, and checks it by stricter
+// rules: a proxy between browser and mdofd must not understand the same bytes as another request.
 // Private header.
 #pragma once
 
@@ -31,8 +31,9 @@ struct HttpLimits {
   std::size_t head_bytes, body_bytes;
 };
 
-// Length of the head in `received` including its empty line; 0: incomplete. Error: the bytes cannot
-// become a valid request. `scanned`: bytes that were checked before; updated.
+// Returns the length of the head in `received`, including the empty line at its end. 0: the head is
+// incomplete. Error: the bytes cannot become a valid request. `scanned`: number of bytes that
+// earlier calls searched; the function updates it.
 tl::expected<std::size_t, HttpError> head_length(std::string_view received, std::size_t& scanned,
                                                  std::size_t max_bytes);
 

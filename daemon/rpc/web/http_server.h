@@ -1,5 +1,6 @@
-// Serves the sessions of a service to browsers: the files of the page, POST /rpc for JSON-RPC
-// requests, GET /events for topics as server-sent events. README.md describes the protocol.
+// Accepts browsers as clients of a service. It serves the files of the page, handles JSON-RPC
+// requests (POST /rpc), and sends topics as server-sent events (GET /events). daemon/rpc/README.md
+// describes the protocol.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +17,14 @@
 namespace mdof::rpc {
 
 struct HttpSetup {
-  std::string token = {};               // permits writing; empty: nobody may write
-  std::vector<std::string> hosts = {};  // "name:port", besides the loopback names of this machine
+  std::string token = {};  // token that permits writing; empty: no browser may write
+  std::vector<std::string> hosts =
+      {};  // allowed host names "name:port", in addition to the loopback names of this machine
   std::span<const PageFile> files = page_files();
 };
 
 // Thread-bound: call it on the loop's thread, or while the loop does not run. The service and the
-// loop must outlive it.
+// loop must exist longer than the server.
 class HttpServer {
  public:
   HttpServer(EventLoop& loop, Service& service, HttpSetup setup);
@@ -30,7 +32,7 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  // 127.0.0.1 or ::1; port 0: any. Returns the port.
+  // `address` is 127.0.0.1 or ::1. Port 0 selects a free port. Returns the port.
   Result<std::uint16_t> listen(const std::string& address, std::uint16_t port);
   std::size_t connection_count() const;
 

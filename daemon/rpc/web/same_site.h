@@ -1,5 +1,5 @@
-// Distinguishes requests of mdofd's own page or of programs from those of foreign pages. Private
-// header.
+// Accepts requests of mdofd's own page and of programs, and rejects requests of other web pages.
+// Private header.
 #pragma once
 
 #include <string>
@@ -10,9 +10,10 @@
 
 namespace mdof::rpc {
 
-// Host must be a loopback name of this machine with any port (a tunnel may change it), or one of
-// `hosts` ("name:port"); otherwise a foreign name points to this machine (DNS rebinding). Origin,
-// if present, must be the same host; otherwise a foreign page sent the request. Error: 421 or 403.
+// The field Host must be a loopback name of this machine, with any port because a tunnel may change
+// the port, or one of `hosts` ("name:port"). Another name shows that a foreign name points to this
+// machine (DNS rebinding). If the field Origin is present, it must have the same host and port.
+// Another Origin shows that a foreign page sent the request. Error: 421 or 403.
 tl::expected<void, HttpError> check_same_site(const HttpHead& head,
                                               const std::vector<std::string>& hosts);
 

@@ -1,4 +1,4 @@
-// The files of the web page as they are sent. Private header.
+// The files of the web page, ready to be sent. Private header.
 #pragma once
 
 #include <map>
@@ -13,16 +13,16 @@ namespace mdof::rpc {
 struct ServedFile {
   std::string_view type;  // "text/css; charset=utf-8"
   std::string_view text;
-  std::string gzip;             // compressed text; empty: not shorter
+  std::string gzip;             // compressed text; empty if it would not be shorter
   std::string etag, etag_gzip;  // hash of the content, in quotes
 };
 
 class ServedFiles {
  public:
-  // A name without a known type is a programming error.
+  // It is a programming error if the type of a name is unknown.
   explicit ServedFiles(std::span<const PageFile> files);
-  // "/NAME", or "/" for index.html. Names are compared without decoding, so that only listed files
-  // can be read. nullptr if unknown.
+  // `path` is "/NAME", or "/" for index.html. The path is not decoded, and only the files of the
+  // page can be found. nullptr: no such file.
   const ServedFile* find(std::string_view path) const;
 
  private:

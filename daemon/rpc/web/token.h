@@ -9,13 +9,15 @@
 
 namespace mdof::rpc {
 
-// The token in `file`, which is created (mode 0600) if missing. Errors: io; check: others can read
-// the file, or it contains no token.
+// Reads the token in `file`. If the file is missing, creates it with a new token and mode 0600.
+// Errors: io: reading or writing failed; check: other users can read the file, or it contains no
+// token.
 Result<std::string> load_token(const std::filesystem::path& file);
-// The same, but does not create the file.
+// Reads the token in `file`, but does not create the file.
 Result<std::string> read_token(const std::filesystem::path& file);
 
-// Whether this is "Bearer TOKEN". Takes the same time for all wrong tokens of the same length.
+// Whether `authorization` is "Bearer " followed by `token`. The comparison takes the same time for
+// all wrong tokens of the same length.
 bool bears_token(std::string_view authorization, std::string_view token);
 
 }  // namespace mdof::rpc

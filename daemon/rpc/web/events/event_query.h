@@ -1,4 +1,4 @@
-// The query of GET /events. Private header.
+// Reads the query in the URL of GET /events. Private header.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ struct EventQuery {
   std::chrono::milliseconds interval{100};  // shortest time between two values of a topic
 };
 
-// "topics=live.update,run.event&interval_ms=100", also percent-encoded. Error: 400.
+// "topics=live.update,run.event&interval_ms=100", may be percent-encoded. Error: 400.
 tl::expected<EventQuery, HttpError> read_event_query(std::string_view query);
 
 }  // namespace mdof::rpc

@@ -1,5 +1,5 @@
-// The latest events of all topics, for browsers that reconnect and state the last event that they
-// saw. Private header.
+// Keeps the latest events of all topics. A browser that reconnects states the id of its last event
+// and receives the later events. Private header.
 #pragma once
 
 #include <chrono>
@@ -13,8 +13,9 @@
 
 namespace mdof::rpc {
 
-// Ids increase by 1. They begin at the start time of mdofd in microseconds, so that they also
-// increase over restarts. They are below 2^53, so that JavaScript can use them as numbers.
+// The id of an event is the id of the event before it + 1. The first id is the start time of mdofd
+// in microseconds; ids therefore also increase when mdofd restarts. They are below 2^53, because
+// JavaScript represents larger integers inexactly.
 class KeptEvents {
  public:
   struct Limits {
@@ -32,9 +33,9 @@ class KeptEvents {
   std::uint64_t last_id() const { return next_ - 1; }
   std::size_t size() const { return events_.size(); }
 
-  // The position at which a client with the last event `id` continues. `count` is the number of
-  // lost events; nullopt if `id` is from an earlier start of mdofd, because the number is then
-  // unknown.
+  // The position at which a client continues whose last event has the id `id`. `count` is the
+  // number of lost events. It is nullopt if the number is unknown, because `id` is from an earlier
+  // start of mdofd.
   struct Resumed {
     std::uint64_t after;
     bool lost = false;
@@ -42,8 +43,8 @@ class KeptEvents {
   };
   Resumed resume(std::string_view id) const;
 
-  // The first event after `after`, of any topic. If `lost` events after it are no longer kept,
-  // there is no event in the result.
+  // The first event of any topic whose id is larger than `after`. If some of these events are no
+  // longer kept, `lost` is their number and `event` is nullptr.
   struct Next {
     const Event* event = nullptr;  // nullptr: no further event, or lost > 0
     std::uint64_t lost = 0;

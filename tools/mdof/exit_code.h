@@ -1,4 +1,4 @@
-// Exit status of mdof (man mdof).
+// The exit status of mdof, as man mdof describes it.
 #pragma once
 
 #include "schema/base/result.h"

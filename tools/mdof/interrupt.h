@@ -1,10 +1,11 @@
-// Lets long work end early on a signal, with the results so far.
+// Ends long work early if a signal arrives; the program then uses the results so far.
 #pragma once
 
 namespace mdof::tools {
 
-// While an object exists, the first SIGINT, SIGTERM or SIGHUP (unless ignored) only makes
-// requested() true; a second signal ends the program as usual. Only one object may exist at a time.
+// While an object exists, the first SIGINT, SIGTERM or SIGHUP only makes requested() true. A second
+// signal ends the program as usual. A signal that the program ignored before stays ignored. Only
+// one object may exist at a time.
 class Interrupt {
  public:
   Interrupt();

@@ -1,6 +1,6 @@
-// Writes results to the standard output and messages for people to the standard error. Both may
-// contain free text from other sources. A character that a terminal would execute as a command is
-// written as "?", or as an escape if the text is a JSON document.
+// Writes results to the standard output, and messages for the user to the standard error. A text
+// may contain characters from other sources that a terminal would execute as a command. Such a
+// character is written as "?", or as an escape sequence if the text is a JSON document.
 #pragma once
 
 #include <string_view>
@@ -13,12 +13,13 @@ namespace mdof::tools {
 // program exits quietly with success.
 Status write_out(std::string_view text);
 Status write_line(std::string_view text);  // Adds a line end.
-// Writes the text unchanged, for a screen with its own control characters or for rows of numbers,
-// which need no check. Free text in it must have passed printable().
+// Writes the text unchanged: for a text with intended control characters, or for rows of numbers.
+// If the text contains free text from other sources, the caller must check this part with
+// printable().
 Status write_commands(std::string_view text);
 
-// Writes a message to the standard error: wrapped to the width of a terminal, otherwise in one line
-// for journals and scripts.
+// Writes a message to the standard error. On a terminal the message is wrapped to the width;
+// otherwise it is one line, for journals and scripts.
 void say(std::string_view message);
 void warn(std::string_view message);  // The same, with "warning: " in front.
 

@@ -8,19 +8,20 @@
 
 namespace mdof::tools {
 
-// Shows a bar with the rate and the remaining time on the standard error. The bar appears after one
-// second and only on a terminal; the destructor erases it. Thread-bound.
+// Writes a bar with the rate and the remaining time to the standard error, if this is a terminal.
+// The bar appears after one second. The destructor erases it. Thread-bound.
 class ProgressBar {
  public:
-  // `done_before`: the part of the work that was done earlier; it does not count for the rate.
+  // `done_before`: the part of the work that an earlier program did; the rate does not include it.
   explicit ProgressBar(std::string what, double done_before = 0);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // Draws nothing without a total. Cheap, because it draws at most ten times a second.
+  // Draws nothing if the total is unknown. May be called very often, because it draws at most ten
+  // times a second.
   void show(const Progress& progress);
-  // Shows the elapsed seconds, for work without known progress.
+  // Shows the elapsed seconds, for work whose progress is unknown.
   void show_elapsed();
 
  private:

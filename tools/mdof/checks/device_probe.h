@@ -1,4 +1,4 @@
-// Opens a device, reads from it and reports what its channels deliver.
+// Opens a device, reads from it, and reports the readings of its channels.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,14 @@ namespace mdof::tools {
 
 struct ChannelFinding {
   std::string id, unit;
-  double mean = 0, sd = 0, low = 0, high = 0;  // usable values only, in `unit`
-  std::uint64_t values = 0, unusable = 0;  // Unusable values are over range, missing or suspect.
-  std::string worst;                       // The worst quality that was seen.
+  double mean = 0, sd = 0, low = 0, high = 0;  // of the usable values, in `unit`
+  std::uint64_t values = 0, unusable = 0;      // Unusable: over range, missing or suspect.
+  std::string worst;                           // The worst quality of a value.
 };
 
 struct DeviceFinding {
   std::string name, driver, description, error;
-  // Scan rate that the device states (NaN: it states none), and the measured scan rate.
+  // The scan rate that the device states (NaN: none), and the measured scan rate.
   double stated_rate_hz = kNaN, rate_hz = 0;
   std::uint64_t scans = 0, lost = 0;
   std::vector<ChannelFinding> channels;
@@ -28,7 +28,8 @@ struct DeviceFinding {
 
 using StopRequested = std::function<bool()>;
 
-// Reads for `for_s` seconds, or until stop() returns true. A failure is in `error`.
+// Reads for `for_s` seconds, or until stop() returns true. If this fails, the message is in
+// DeviceFinding::error.
 DeviceFinding probe_device(const drivers::DriverSpec& device, double for_s,
                            const StopRequested& stop);
 std::string finding_text(const DeviceFinding& finding);

@@ -1,4 +1,4 @@
-// Checks the whole chain against generated data with known results.
+// Checks the evaluation and the storage of data with generated data whose results are known.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@ namespace mdof::tools {
 
 struct SelfCheck {
   std::string what;
-  double figure = 0, bound = 0;  // The check passes if figure <= bound.
+  double figure = 0, bound = 0;  // The check passes if `figure` <= `bound`.
   std::string unit;
-  std::string problem;  // Why there is no figure; empty if there is one.
+  std::string problem;  // Why `figure` is unknown; empty: it is known.
   bool passed() const { return problem.empty() && figure <= bound; }
 };
 
-// Checks the models in both directions, the point detection with a synthetic log, and a store in a
-// temporary folder. The figures are the same in each call.
+// Checks the models (errors to readings, and readings to errors), the detection of points in a
+// synthetic log, and a database in a temporary folder. Each call has the same figures.
 std::vector<SelfCheck> run_self_checks();
 
 }  // namespace mdof::tools

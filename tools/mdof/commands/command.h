@@ -1,5 +1,5 @@
-// The commands of mdof. Each command is one file in a folder beside this file and returns one row:
-// its name, its help, and its options. commands.inc lists the commands.
+// The commands of mdof. Each command has one .cpp file in a folder beside this file; a function in
+// it returns the Command. commands.inc lists these functions.
 #pragma once
 
 #include <functional>
@@ -17,16 +17,19 @@ using Action = std::function<Status()>;
 
 struct Command {
   const char* name;     // "replay"; "device probe" is the command `probe` of the group `device`
-  const char* summary;  // One line of the help, without a full stop.
-  const char* footer;   // End of the command's own help: notes, and "Example:\n  mdof replay ..."
-  Action (*declare)(CLI::App& command);  // Adds the options; the action runs after they are parsed.
+  const char* summary;  // One line for the list of commands, without a full stop.
+  const char* footer;   // End of the command's help: notes, and "Example:\n  mdof replay ..."
+  Action (*declare)(CLI::App& command);  // Adds the options. Returns the function that runs after
+                                         // mdof has read them.
   const char* section = "";              // Section of the help, from commands.inc.
-  bool reads_all_options = false;        // Reads the options of all commands (help and completion).
+  bool reads_all_options =
+      false;  // The command reads the options of all commands (help and completion).
 };
 
 std::vector<Command> all_commands();  // In the order of the help.
 
-// When a command is called, declares its options and sets `chosen` to its action.
+// Declares all commands. When the user calls a command, its options are declared and `chosen`
+// becomes its action.
 void declare_commands(CLI::App& app, Action& chosen);
 
 }  // namespace mdof::tools

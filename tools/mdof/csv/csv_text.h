@@ -8,8 +8,8 @@
 
 namespace mdof::tools {
 
-// Numbers have 17 significant digits, so that they read back to the same bits. An unknown value is
-// an empty cell. A text with a comma, a quote or a line end is quoted (RFC 4180).
+// Numbers have 17 significant digits; a program that reads them gets exactly the same double. An
+// unknown value is an empty cell. A text with a comma, a quote or a line end is quoted (RFC 4180).
 class CsvText {
  public:
   CsvText& cell(double x);

@@ -1,4 +1,5 @@
-// Raw samples of one device as a probe log (schema/recording/probe_log.h), which mdof replay reads.
+// Writes raw samples of one device as a probe log (schema/recording/probe_log.h). mdof replay reads
+// this format.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,8 @@ std::string log_csv_head(const std::vector<std::string>& comments,
 // Times have a resolution of 1 ns, values have 17 digits. A missing value is an empty cell.
 void append_log_csv(std::string& out, const SampleBlock& block);
 
-// Number of values whose quality a CSV log cannot express: over range, suspect, stale.
+// Number of values that are over range, suspect or stale. A CSV log cannot contain this
+// information.
 std::uint64_t marked_values(const SampleBlock& block);
 
 }  // namespace mdof::tools

@@ -9,12 +9,17 @@
 
 namespace mdof::tools {
 
-// One row for each point: its place in the sequence, the five errors in the units of their keys,
-// their combined standard uncertainties, the noise part of these, the expanded uncertainties (95
-// %), samples, flags, the reason why the point is not solved, and what the uncertainties cover.
+// One row for each point, with these columns:
+// - target, position and place in the sequence
+// - the five errors, in the units of their keys
+// - combined standard uncertainty of each error, and its part from noise
+// - expanded uncertainty of each error (95 %)
+// - number of samples, flags, and the reason if the point is not solved
+// - the sources that the uncertainties include
 std::string points_csv(const Run& run, const RunUncertainty& uncertainty);
-// One row for each error and approach. Angles have no straightness, and straightness errors have no
-// range. The mean of both approaches has the uncertainties in `figures`.
+// One row for each error and approach, and for the mean of both approaches. Straightness is empty
+// for angles; range is empty for straightness errors. Only the mean of both approaches has
+// uncertainties, from `figures`.
 std::string figures_csv(const Run& run, const StatedFigures& figures);
 
 }  // namespace mdof::tools

@@ -7,8 +7,8 @@
 
 namespace mdof::tools {
 
-// One row for each position: errors (actual - nominal) and their standard uncertainties, forward
-// and reverse.
+// One row for each position, with the errors (actual - nominal) and their standard uncertainties in
+// forward and in reverse approach.
 std::string table_csv(const CompensationTable& table);
 
 }  // namespace mdof::tools

@@ -1,5 +1,5 @@
-// Live compensation for a given configuration of LinuxCNC: safe limits, and the HAL lines that
-// connect the component between motion and drives.
+// Live compensation for a user's configuration of LinuxCNC: calculates safe limits, and writes the
+// HAL lines that connect the component mdof_compensation between motion and drives.
 #pragma once
 
 #include <string>
@@ -18,23 +18,24 @@ struct LiveJoint {
   bool second = false;  // The second joint of an axis with two joints, as in a gantry.
 };
 
-// In machine units and s.
+// Lengths are in machine units (mm or inch), times in s.
 struct LiveCompensation {
   bool inch = false;
   std::vector<LiveJoint> joints;
   double max_offset = 0, max_velocity = 0, max_acceleration = 0, fade_velocity = 0;
-  std::string offset_reason, velocity_reason;  // How each limit was derived.
+  std::string offset_reason, velocity_reason;  // How max_offset and max_velocity were derived.
   std::string hal;                             // Content of the file kCompensationHal.
 };
 
 struct LiveRequest {
-  double margin_mm = 0.1;  // Distance between soft limits and hard stops.
+  double margin_mm = 0.1;  // Smallest distance between a soft limit and the hard stop of the axis.
   std::string socket;
   bool simulated = false, despite_warnings = false;
-  bool one_approach = false;  // The tables have one approach, which is applied in both directions.
+  bool one_approach =
+      false;  // The tables have only one approach; the component applies it in both directions.
 };
 
-// Error (bad_input): lists every unsafe setting by its section and key.
+// Error (bad_input): a setting is unsafe. The message lists section and key of each unsafe setting.
 Result<LiveCompensation> live_compensation(const LinuxCncIni& ini, const HalWiring& wiring,
                                            const LiveRequest& request);
 

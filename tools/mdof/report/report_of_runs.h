@@ -1,4 +1,4 @@
-// Collects the contents of reports and documents of stored runs.
+// Collects the contents of reports, DCC and QIF documents on stored runs.
 #pragma once
 
 #include <string>
@@ -20,17 +20,21 @@ struct ReportRequest {
   bool before_after = false;
 };
 
-// --set, --tolerance, --axis, --reference, --db.
+// Adds --set, --tolerance, --axis, --reference and --db.
 void add_report_options(CLI::App& command, ReportRequest& request);
 
-// Contains results and rigs of the runs, the changes between two runs of an axis, the squareness of
-// axes, the decisions on tolerances, and the facts of [report] in the rigs. --set replaces single
-// facts. Errors: a run or rig cannot be read; usage: an unknown key or figure, or not exactly two
-// runs of each axis for before_after.
+// The report contains:
+// - results and rig of each run
+// - the changes between two runs of an axis
+// - the squareness of axes
+// - the decisions on tolerances
+// - the facts in [report] of the rigs, with the facts from --set replaced
+// Errors: a run or a rig cannot be read. Errors (usage): a key or figure is unknown; before_after
+// is true, but an axis does not have exactly two runs.
 Result<report::Report> report_of_runs(const ReportRequest& request);
 
-// Prints the marks of each run (SIMULATED, DOUBTFUL) and the notices of comparisons to the standard
-// error.
+// Prints the warnings of each run (SIMULATED, DOUBTFUL) and the notices of the comparisons to the
+// standard error.
 void print_report_marks(const report::Report& report);
 
 }  // namespace mdof::tools

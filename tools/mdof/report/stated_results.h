@@ -1,4 +1,4 @@
-// Stored results for charts and reports, calculated in the same way as by the other commands.
+// Reads stored runs for charts and reports, and calculates the same results as the other commands.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,19 @@
 
 namespace mdof::tools {
 
-// An imported run has figures, but no uncertainty of points. Error: the run does not exist.
+// The results of a run. For an imported run they contain figures, but no uncertainty of points.
+// Error: the run does not exist.
 Result<charts::StatedResults> stated_results(store::Store& store, std::int64_t run,
                                              Reference reference);
 
-// The run numbers that the arguments RUN... name, each once.
+// The numbers of the runs that the arguments RUN... name. A repeated number is omitted.
 Result<std::vector<std::int64_t>> run_numbers(store::Store& store,
                                               const std::vector<std::string>& words,
                                               const std::string& axis);
 
-// One entry for each pair of axes (XY, XZ, YZ) that has runs along both axes: the squareness,
-// calculated as by `mdof squareness`, or the reason why there is none, such as several runs along
-// one axis. Nothing is stored.
+// One element for each pair of axes (XY, XZ, YZ) if `runs` contains both axes: the squareness, as
+// `mdof squareness` calculates it, or the reason why it cannot be calculated, for example several
+// runs of one axis. Does not store the squareness.
 std::vector<charts::SquarenessOfPair> squareness_of_runs(
     store::Store& store, const std::vector<const charts::StatedResults*>& runs);
 

@@ -1,5 +1,5 @@
-// Writes solved rows as text to the standard output in a separate thread, because writing 17 digits
-// takes as long as reading them.
+// Writes solved rows as text to the standard output. A separate thread writes, because writing
+// numbers with 17 digits needs as much time as reading them.
 #pragma once
 
 #include <atomic>
@@ -15,22 +15,23 @@
 namespace mdof::tools {
 
 enum class RowForm {
-  csv,   // Header: error keys and encoder_mm. One line for each row; errors are empty if it is not
-         // solved.
-  json,  // {"axis", "model", "reference", "rows": [{"EYX_um": ..., "encoder_mm": ...}, ...]};
-         // errors are null if the row is not solved.
+  csv,   // A header with the error keys and encoder_mm, then one line for each row. In an unsolved
+         // row the errors are empty.
+  json,  // {"axis", "model", "reference", "rows": [{"EYX_um": ..., "encoder_mm": ...}, ...]}; in an
+         // unsolved row the errors are null.
 };
 
-// Thread-bound, apart from its own thread "write rows". Uses the memory of a few blocks.
+// Thread-bound; its thread "write rows" is internal. Uses memory for a few blocks.
 class ErrorRows {
  public:
   ErrorRows(RowForm form, const MovingAxis& moving, Model model);
-  ~ErrorRows();  // Ends without writing the pending blocks.
+  ~ErrorRows();  // Does not write the pending blocks.
 
-  // Returns the next block to fill; nullptr: writing has failed, and finish() returns the error.
+  // Returns the block that the caller fills next. nullptr: writing has failed, and finish() returns
+  // the error.
   SolvedRows* next();
   void put();  // Queues the filled block for writing.
-  // Writes the pending blocks. Error: the standard output failed.
+  // Writes the pending blocks. Error: writing to the standard output failed.
   Status finish();
 
  private:
@@ -42,15 +43,15 @@ class ErrorRows {
   char* append_json(const SolvedRows& rows, char* out);
 
   const RowForm form_;
-  std::array<ErrorName, 5> names_;        // With the error sign for the moving body.
+  std::array<ErrorName, 5> names_;        // With the sign for the moving body.
   std::array<std::string, 6> json_keys_;  // {"EYX_um": ,"encoder_mm":
   std::string head_;
   bool first_row_ = true;
   std::vector<char> text_;
   SolvedRows filling_;
   BoundedQueue<SolvedRows> filled_, free_;  // Written blocks return to free_.
-  Status status_;       // Result of the thread, valid after the thread has ended.
-  std::thread thread_;  // Last member, because the thread uses all others.
+  Status status_;                           // Result of the thread; valid after it has ended.
+  std::thread thread_;                      // Last member, because the thread uses all others.
 };
 
 }  // namespace mdof::tools

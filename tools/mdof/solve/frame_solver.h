@@ -18,8 +18,9 @@
 
 namespace mdof::tools {
 
-// One value for each row in each column; m and rad in the axis' local frame, motion of the target,
-// at the carriage (Eq. 2-12). All errors are NaN if the row is not solved.
+// Each column has one value for each row. The errors are those of the target's motion, at the
+// carriage, in the local frame of the axis, in m and rad (Eq. 2-12). In an unsolved row all errors
+// are NaN.
 struct SolvedRows {
   std::vector<double> encoder_m;
   std::array<std::vector<double>, kErrorCount> local;
@@ -29,34 +30,37 @@ struct SolvedRows {
 // Thread-bound.
 class FrameSolver {
  public:
-  // `channels`: the channels in the file's header. Errors: the rig cannot determine the five
-  // errors, or does not match the model or the channels.
+  // `channels`: the channels in the header of the file. Errors: the probes of the rig cannot
+  // determine the five errors; the rig does not match the model or the channels.
   static Result<FrameSolver> create(const Rig& rig, Model model, std::vector<Channel> channels);
 
-  // Consumes `raw` and replaces `out` (reusing its memory). Rows keep their order.
+  // Solves the rows of `raw` and replaces the contents of `out`, in the same order. Converts the
+  // values in `raw` to metres.
   Status solve(SampleBlock& raw, SolvedRows& out);
 
   std::uint64_t rows() const { return rows_; }
-  // Rows in which a probe is at the end of its range.
+  // Number of rows in which a probe is at the end of its range.
   std::uint64_t over_range() const { return over_range_; }
-  // Rows without errors because a probe's value is missing; not counted as unsolved.
+  // Number of rows without errors because the reading of a probe is missing. unsolved() does not
+  // include these rows.
   std::uint64_t without_reading() const { return without_reading_; }
   std::uint64_t unsolved() const { return unsolved_; }
-  // The reason for the first unsolved row.
+  // Why the first unsolved row was not solved.
   const std::string& why_unsolved() const { return why_unsolved_; }
-  // The applied corrections (schema/rig/effects/physics.h) and their largest amount, one sentence
-  // each.
+  // One sentence for each applied correction (schema/rig/effects/physics.h), with its largest
+  // value.
   Notices correction_notices() const;
-  // Reports height maps of the rig that do not cover the travel of the rows.
+  // Reports the height maps of the rig that do not cover the travel in these rows.
   Notices map_notices(const Rig& rig) const;
-  // Reports probes whose readings leave the calibrated range of their record.
+  // Reports the probes with readings outside the calibrated range in their calibration record.
   Notices stretch_notices() const { return algo::stretch_notices(rig_, spans_); }
 
  private:
   FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels);
   bool corrects() const { return rig_.physics && rig_.physics->corrects(); }
   std::optional<Air> air_of(const SampleBlock& block, std::size_t row) const;
-  // False: the reading cannot be corrected; the reason is noted.
+  // Corrects the readings of one row. False: a reading cannot be corrected; the function stores the
+  // reason.
   bool correct(const algo::ReadingCorrection& correction, const SampleBlock& block, std::size_t row,
                std::vector<double>& readings_m);
   void leave_unsolved(std::size_t row, const std::string& why);
@@ -71,7 +75,7 @@ class FrameSolver {
   Rig rig_;
   algo::Solver solver_;
   drivers::Calibrator calibrator_;
-  std::vector<double> travel_m_;  // Used only if the travel differs from the encoder.
+  std::vector<double> travel_m_;  // Used only if the travel differs from the encoder position.
   std::vector<Channel> channels_;
   std::size_t encoder_ = 0;
   std::vector<std::size_t> probes_;                             // [probe of the rig] -> channel
@@ -79,9 +83,10 @@ class FrameSolver {
   daemon::LargestChange tilt_, dielectric_;
   std::uint64_t rows_ = 0, over_range_ = 0, without_reading_ = 0, unsolved_ = 0;
   std::string why_unsolved_;
-  // Least and largest d of the rows solved one by one.
+  // Smallest and largest travel of the rows that were solved one by one.
   std::optional<std::array<double, 2>> travels_m_;
-  std::vector<std::optional<algo::ReadingSpan>> spans_;  // Probes with a calibrated stretch.
+  std::vector<std::optional<algo::ReadingSpan>>
+      spans_;  // [probe] range of its readings; nullopt: its record states no calibrated range.
 };
 
 }  // namespace mdof::tools

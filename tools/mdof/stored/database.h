@@ -9,7 +9,7 @@
 
 namespace mdof::tools {
 
-// `option`: the argument of --db; empty: the default in daemon/paths.h.
+// `option`: the argument of --db; empty: the default path in daemon/paths.h.
 Result<std::filesystem::path> database_path(const std::string& option);
 Result<store::Store> open_to_read(const std::string& option);
 Result<store::Store> open_to_write(const std::string& option);

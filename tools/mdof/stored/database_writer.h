@@ -1,4 +1,4 @@
-// Determines which process writes the database of a command, and connects to it.
+// Finds the process that writes the database of a command, and connects to it.
 #pragma once
 
 #include <optional>
@@ -10,25 +10,27 @@
 
 namespace mdof::tools {
 
-// Returns a connection to the mdofd that holds the database and has to write for the command;
-// nullopt if no process holds the database, so that the command writes itself. `database` and
-// `socket` are the values of the options. Nothing has been sent before an error. Errors:
-// io: another program writes, and no mdofd answers at `socket` or it holds another database;
-// conflict: no program writes, and the mdofd at a `socket` other than the default holds another
-// database.
+// For a command that writes. If an mdofd uses the database, returns a connection to it: the command
+// must ask mdofd to write. nullopt: no process has opened the database for writing, and the command
+// writes itself. `database` and `socket` are the values of the options.
+// Errors; nothing was sent then:
+// - io: another process writes the database, but no mdofd answers at `socket`, or the mdofd there
+// uses another database
+// - conflict: no process writes the database, `socket` is not the default, and the mdofd there uses
+// another database
 Result<std::optional<rpc::Client>> writing_daemon(const std::string& database,
                                                   const std::string& socket);
 
-// The same for a command that reads: nullopt if no mdofd answers for the database, so that the
-// command reads it itself. Error: conflict, as above.
+// For a command that reads. nullopt: no mdofd that uses the database answers, and the command reads
+// it itself. Error: conflict, as above.
 Result<std::optional<rpc::Client>> serving_daemon(const std::string& database,
                                                   const std::string& socket);
 
-// The path under which mdofd opens the file: absolute, without links.
+// The path of the file as mdofd uses it: absolute, without symbolic links.
 std::string canonical_path(const std::string& file);
 
-// Asks mdofd to make and store a run from a file, and waits as long as this takes. Reads the stored
-// run from the database.
+// Calls the method `method`, with which mdofd makes a run from a file and stores it. Waits up to 24
+// h. Then reads the stored run from the database.
 Result<Run> store_in_daemon(rpc::Client& mdofd, const std::string& database,
                             std::string_view method, std::string_view params);
 

@@ -1,4 +1,5 @@
-// Reads members of JSON from mdofd, with a fallback if a member is missing or has another type.
+// Reads members of JSON texts from mdofd. If a member is missing or has another type, the functions
+// return NaN, nullopt or an empty value.
 #pragma once
 
 #include <simdjson.h>

@@ -1,4 +1,4 @@
-// The raw readings around a stop of a stored run, from its recording or log.
+// Reads the raw readings around a stop of a stored run from the recording or log of the run.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,10 @@
 
 namespace mdof::tools {
 
-// The readings from half the averaged length of the stop (at least 0.2 s) before it until the same
-// time after it. Errors: the run has no such point; the recording is missing or is not the source
-// of the run.
+// Returns the readings during the averaged time of the stop, and before and after it. The time
+// before and the time after are each half the averaged time, but at least 0.2 s. `row`: index of
+// the point in the run. Errors: the run has no such point; the recording is missing, or is not the
+// source of the run.
 Result<std::vector<charts::RawSeries>> raw_stop(const Run& run, std::size_t row);
 
 }  // namespace mdof::tools

@@ -27,17 +27,18 @@ CLI::Option* add_run_argument(CLI::App& command, const char* name, std::string& 
 CLI::Option* add_run_arguments(CLI::App& command, std::vector<std::string>& runs, const char* what);
 void add_latest_axis_option(CLI::App& command, std::string& axis);
 
-// Returns the number; for "latest" the number of the newest run (of `axis`, if given) that has
-// ended. Error (bad_input): the run measures another axis.
+// Returns the number of a run. `run` is a number or "latest", the newest run that has ended (of
+// `axis`, if it is not nullopt). Error (bad_input): the run measures another axis.
 Result<std::int64_t> run_number(store::Store& store, const std::string& run,
                                 std::optional<Axis> axis = std::nullopt);
 
-// The same for the argument of --db; opens the database only if necessary.
+// The same with the argument of --db. Opens the database only if necessary.
 Result<std::int64_t> run_number(const std::string& database, const std::string& run,
                                 std::optional<Axis> axis = std::nullopt);
 
-// Finds the runs of two axes. `axes`: for example "XZ"; empty: any axes, and "latest" means X for
-// the first run and Y for the second. Error (bad_input): a run measures another axis.
+// Returns the numbers of the runs of two axes. `axes`: for example "XZ". If `axes` is empty, the
+// runs may measure any axes; then "latest" is the newest run of X as the first run, and of Y as the
+// second run. Error (bad_input): a run measures another axis.
 Result<std::array<std::int64_t, 2>> run_pair(const std::string& database,
                                              const std::array<std::string, 2>& runs,
                                              const std::string& axes = "");

@@ -13,20 +13,21 @@
 namespace mdof::tools {
 
 struct RunPositioningRequest {
-  std::vector<std::string> errors;  // "EYX"; empty: all five.
-  bool keep_slope = false;          // For a straightness error: see readings_of_run().
+  std::vector<std::string> errors;  // "EYX"; empty: all five errors.
+  bool keep_slope = false;          // For straightness errors; see readings_of_run().
   bool partial = false;             // Accept a partial run.
 };
 
 struct RunPositioning {
   std::vector<PositioningColumn> columns;  // One for each error.
-  Notices notices;                         // Notices of the run and of its plan.
+  Notices notices;                         // Notices on the run and on its plan.
   bool keep_slope = false;
   std::string U_reason;  // Why U is unknown; empty: U is known.
 };
 
-// At the point where the run is stated. scale_period_m: 0 if unknown. Errors: the run is
-// incomplete, does not have this error, or its visits give no figures.
+// Calculates the parameters at the reference point of the run. `scale_period_m`: period of the
+// scale; 0: unknown. Errors: the run is incomplete, it does not have the error, or it has too few
+// visits for the parameters.
 Result<RunPositioning> run_positioning(const Run& run, const RunPositioningRequest& request,
                                        double scale_period_m);
 

@@ -1,4 +1,4 @@
-// A run stored by mdofd, in the format of `mdof show`.
+// The text of a run that mdofd has stored, as `mdof show` prints it.
 #pragma once
 
 #include <cstdint>

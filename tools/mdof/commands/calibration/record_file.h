@@ -1,4 +1,4 @@
-// The calibration record that a command writes: its dates and its file.
+// Options and functions of commands that write a calibration record to a file.
 #pragma once
 
 #include <string>
@@ -18,26 +18,26 @@ struct RecordOptions {
   int valid_days = 365;
 };
 void add_record_options(CLI::App& command, RecordOptions& options);
-// The options without --date.
+// Adds the same options except --date.
 void add_record_file_options(CLI::App& command, RecordOptions& options);
 
-// "A, B, C".
+// The ids of the rig's probes: "A, B, C".
 std::string probe_ids(const Rig& rig);
 
-// A record of this rig without probes. `started_utc`: start of the newest log, or empty. Error:
-// invalid date.
+// Returns a record of this rig to which the caller adds the probes. `started_utc`: start time of
+// the newest log, or empty. Error: the date is invalid.
 Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
                                        const RecordOptions& options,
                                        const std::string& started_utc);
 
-// Error: the file exists already, because a record is never changed.
+// Error: the file exists already. A record is never changed.
 Status write_record(const std::string& file, const std::string& text);
 
-// A sentence that warns which probes a motion of the target along this axis may touch.
+// A warning: the sentence names the probes that the target may touch if it moves along this axis.
 std::string clearance_warning(const Rig& rig, Axis axis);
 
-// The key offset_um of the rig for a measured zero. If the probe reads a gap, the zero counts in
-// the opposite sense.
+// The value of the key offset_um in the rig for a measured zero, µm. If the probe measures a gap,
+// the sign of the zero is reversed.
 double offset_for_zero_um(const Probe& probe, double zero_m);
 
 }  // namespace mdof::tools

@@ -1,4 +1,5 @@
-// Height maps as arguments of a command: files in each known form, and runs that scanned a part.
+// Reads the height maps that a command names: files in several formats, and runs that scanned a
+// part.
 #pragma once
 
 #include <cstdint>
@@ -20,37 +21,39 @@ namespace mdof::tools {
 struct MapOptions {
   std::string unit, database;
 };
-// The run number in "run:12", or in "12" if no file has this name.
+// The run number in the text "run:12", or in "12" if there is no file "12".
 std::optional<std::int64_t> scanned_run_number(const std::string& name);
 
-// Error (usage): `out` is the file of one of these maps and would be overwritten.
+// Error (usage): the output file `out` is one of the input files `maps`.
 Status check_out(const std::string& out, const std::vector<std::string>& maps);
 
-// True if `common` is less than nine tenths of the measured pixels.
+// True if `common` < 0.9 `measured` (numbers of pixels).
 bool has_few_common_pixels(std::size_t common, std::size_t measured);
-// Warns if `common` is less than nine tenths of the measured pixels of `map`. `rest`: what happens
-// to the other pixels.
+// Prints a warning if has_few_common_pixels() is true for the measured pixels of `map`. `rest`: a
+// text for the warning that states what happens to the other pixels.
 void warn_few_common_pixels(const SurfaceMap& map, std::size_t common, const std::string& rest);
 
 void add_map_options(CLI::App& command, MapOptions& options);
 
-// Loads a file, recognised by its content: .sdf, Zygo .dat, CSV, XYZ; or a run: "run:12", or "12"
-// if no file has this name. Prints assumptions about the file as warnings.
+// Loads the map of a run ("run:12", or "12" if there is no file "12") or of a file. The content of
+// the file decides its format: .sdf, Zygo .dat, CSV or XYZ. Prints a warning for each assumption
+// about the file.
 Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options);
 
-// Joins these runs into one scan. Prints as warnings which heights are left out.
+// Joins these runs to one scan. Prints a warning for heights that are left out.
 Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
                                      std::optional<double> pixel_m, const std::string& database);
 
-// Writes CSV, either completely or not at all; replaces an existing file.
+// Writes the map as CSV. Replaces an existing file. If writing fails, the file is unchanged.
 Status save_map(const SurfaceMap& map, const std::string& file);
 
-// A map to draw: file name without ending, and title.
+// A map that is drawn. `file`: file name without ".svg".
 struct DrawnMap {
   std::string file, title;
   const SurfaceMap& map;
 };
-// Writes SVG files into `folder`; empty: writes none. Leaves out a map without heights and says so.
+// Writes an SVG file for each map into `folder`. If `folder` is empty, writes no files. Prints a
+// message for each map without heights, which is left out.
 Status plot_maps(const std::vector<DrawnMap>& maps, const std::string& folder);
 
 void write_um(JsonWriter& json, const char* key, double pv_m, double rms_m);  // {pv_um, rms_um}

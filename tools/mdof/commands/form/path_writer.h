@@ -1,4 +1,4 @@
-// Writes the path of a fast tool servo to a file row by row.
+// Writes the path of a fast tool servo to a file, one row for each point.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ enum class PathForm {
   table,  // CSV: t_s,rho_mm,theta_deg,z_um,on_part
   gcode   // inverse time (G93): X radius in mm, C in degrees, Z in mm
 };
-PathForm path_form(const std::string& file);  // Chosen by the ending of the file name.
+PathForm path_form(const std::string& file);  // The ending of the file name decides the form.
 
 struct PathRates {
   double speed_rpm = 0;
@@ -37,7 +37,8 @@ class PathWriter {
 
  private:
   Status flush();
-  // Appends `before` and x with fixed decimals: 9 decimals are ns, pm, or a billionth of a degree.
+  // Appends `before` and the number x. 9 decimals are a resolution of 1 ns (x in s), 1 pm (x in mm)
+  // or 1e-9 degree.
   void word(const char* before, double x, int decimals = 9);
   std::string file_;
   PathRates rates_;

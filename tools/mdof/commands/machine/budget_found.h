@@ -1,4 +1,4 @@
-// The results of mdof machine budget at one command.
+// Calculates the results of mdof machine budget at one position of the axes.
 #pragma once
 
 #include <cstdint>
@@ -18,21 +18,24 @@ struct BudgetRequest {
   algo::MachineApproach approach = algo::MachineApproach::mean;
   std::uint64_t trials = 1'000'000, seed = 1;
   unsigned threads = 1;
-  std::optional<double> target_um;  // Target for the volume, with probability kBudgetCoverage.
+  std::optional<double> target_um;  // Largest permitted position error of the tool, which must be
+                                    // met with the probability kBudgetCoverage.
 };
 
-// One stage of the budget. `outputs` are x, y, z, volume by Monte Carlo; empty without a cause.
+// One stage of the budget: now, or as designed. `outputs`: position errors x, y, z and the length
+// of this vector ("volume") by Monte Carlo; empty if the stage has no causes.
 struct FoundStage {
   algo::BudgetModel model;
   std::vector<OutputSummary> outputs;
   double volume_p95_um = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Largest factors on the u of the causes with which the volume keeps the target. 0: the target is
-// missed even without these causes. Infinite: the target is kept with any u.
+// Largest factors for the standard uncertainties of the causes at which the target is still met. 0:
+// the target is missed even if the causes have no uncertainty. Infinite: the target is met for any
+// uncertainty.
 struct FoundAllocation {
-  double common_factor = 0;   // on all u in common
-  std::vector<double> alone;  // by cause, on its u alone
+  double common_factor = 0;   // the same factor for all causes
+  std::vector<double> alone;  // [cause] factor for this cause only
 };
 
 struct FoundMachineBudget {

@@ -1,4 +1,4 @@
-// One update of the measurement as text.
+// Shows the updates of a running measurement as text.
 #pragma once
 
 #include <map>
@@ -19,29 +19,31 @@ struct LiveUpdate {
   double encoder_mm = 0;
   bool still = false, simulated = false, stale = false;
   std::vector<Probe> probes;
-  std::vector<std::pair<std::string, double>> errors;  // "EYX_um"; empty: not solved.
-  std::optional<std::int64_t> run;                     // The run in progress.
-  std::vector<std::string> trouble;                    // Present faults of the devices.
-  std::string json;                                    // The complete value.
+  std::vector<std::pair<std::string, double>>
+      errors;                        // Keys ("EYX_um") and values; empty: not solved.
+  std::optional<std::int64_t> run;   // The run in progress.
+  std::vector<std::string> trouble;  // The faults that devices have now.
+  std::string json;                  // The complete value.
 };
 
-// nullopt: the line is another message.
+// nullopt: the notification is not a "live.update".
 std::optional<LiveUpdate> read_update(std::string_view notification);
 
-// A "run.event" of type "trouble" (a device is lost, back, suspect or slow) or "left_out" (a stop
-// is near no target).
+// A "run.event" that the user must see. Type "trouble": a device is lost, works again, is suspect
+// or is slow. Type "left_out": a stop was ignored because it is near no target.
 struct TroubleEvent {
-  std::string axis, line;  // `line`: text for people.
+  std::string axis, line;  // `line`: text for the user.
   std::string json;        // The complete event.
 };
 std::optional<TroubleEvent> read_trouble(std::string_view notification);
 
-// "|.....#....+.........|": the reading within -range/2 ... range/2; '+' marks the middle, '<' or
-// '>' a reading beyond an end. Blank if the reading is unknown.
+// Draws a reading in the range of the probe, -range/2 to range/2: "|.....#....+.........|". '#' is
+// the reading, '+' the middle of the range. '<' or '>' at an end shows a reading outside the range.
+// If the reading is unknown, the bar is blank.
 std::string range_bar(double um, double range_um, std::size_t width = 41);
 
-// On a terminal, redraws a block of lines for each axis in place. Otherwise prints one text for
-// each update, wrapped into several lines. No line is longer than `columns`.
+// On a terminal, shows a block of lines for each axis and overwrites the block at each update.
+// Otherwise, appends a text for each update. No line has more than `columns` characters.
 class LiveScreen {
  public:
   LiveScreen(bool terminal, std::size_t columns) : terminal_(terminal), columns_(columns) {}
@@ -50,7 +52,7 @@ class LiveScreen {
  private:
   bool terminal_;
   std::size_t columns_;
-  std::map<std::string, std::string> blocks_;  // By axis.
+  std::map<std::string, std::string> blocks_;  // [axis] text of its block.
   std::size_t lines_ = 0;                      // Number of lines drawn last.
 };
 

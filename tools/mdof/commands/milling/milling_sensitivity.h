@@ -1,4 +1,5 @@
-// mdof milling --sensitivity: the share of each input in the variation of force and wall.
+// mdof milling --sensitivity: calculates how much the variation of each input contributes to the
+// variation of the force and of the wall.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +15,16 @@ namespace mdof::tools {
 
 struct MillingSensitivityRequest {
   std::uint64_t trials = 64,
-                seed = 1;  // `trials` for the indices; each trial solves the cut 2 + inputs times
+                seed = 1;  // `trials`: for the indices; each trial calculates the cut 2 + (number
+                           // of inputs) times
   unsigned threads = 1;
 };
 
 struct MillingSensitivity {
   std::vector<algo::VaryingInput> inputs;
-  std::vector<std::vector<double>> effects;  // [input][output], effect of one u
-  std::vector<OutputSummary> outputs;        // By Monte Carlo.
+  std::vector<std::vector<double>>
+      effects;  // [input][output], change of the output if the input changes by its u
+  std::vector<OutputSummary> outputs;  // By Monte Carlo.
   std::vector<OutputIndices> indices;
 };
 

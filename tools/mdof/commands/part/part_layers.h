@@ -1,4 +1,5 @@
-// PART.toml with everything that it names: the path, the machine, and the causes of each layer.
+// Loads PART.toml and the files that it names: the path, the machine, and the errors (causes) of
+// each layer.
 #pragma once
 
 #include <string>
@@ -14,7 +15,7 @@ namespace mdof::tools {
 
 struct LoadedLayer {
   PartLayer plan;
-  std::string compensated_by;  // The compensation that removes it; empty: none.
+  std::string compensated_by;  // The compensation that corrects this layer; empty: none.
 };
 
 struct LoadedPart {
@@ -23,18 +24,20 @@ struct LoadedPart {
   algo::PartPath path;
   std::vector<LoadedLayer> layers;  // Active layers only.
   std::vector<algo::PartCause> causes;
-  // The remainder of the same causes after the compensation of each layer.
+  // The errors in `causes` that remain after the compensation of each layer.
   std::vector<algo::PartCause> left;
   std::vector<std::string> not_measured, no_u;
-  // Assumptions: tables that do not cover the path, tables ("table:N") without the slope that would
-  // be squareness, points of the path that the form map does not cover.
+  // Facts that the result depends on:
+  // - tables that do not cover the whole path
+  // - tables ("table:N") without a slope, so that squareness is not included
+  // - the number of points of the path that the form map does not cover
   std::vector<std::string> beyond_tables, tables_without_slope;
   std::size_t points_off_form_map = 0;
-  Notices notices;  // Missing data of a layer; the subject is the layer.
+  Notices notices;  // Notices on missing data; the subject of a notice is the layer.
 };
 
-// File paths are relative to PART.toml; stored tables are in the database. Assumptions are also
-// printed as warnings.
+// File paths are relative to PART.toml. `database` contains the stored tables. Also prints warnings
+// for the facts above.
 Result<LoadedPart> load_part(const std::string& file, const std::string& database);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// The stored run that a command shows.
+// Options and output of commands that show one stored run.
 #pragma once
 
 #include "daemon/store/store.h"
@@ -20,14 +20,15 @@ struct ChosenRun {
 
 void add_chosen_run(CLI::App& command, ChosenRun& choice);
 
-// The errors are stated at the chosen reference.
+// Loads the run with its errors at the reference point `choice.reference`.
 Result<Run> load_run(store::Store& store, const ChosenRun& choice);
 
 // Warns if another run supersedes this run.
 Status warn_if_superseded(store::Store& store, std::int64_t run);
 
-// Writes a table of bare numbers with the lines "# SIMULATED" and "# DOUBTFUL" before it, so that
-// the file itself contains these marks, and prints the notices.
+// Writes the CSV table, and prints the notices of the run. Writes the warnings that apply ("#
+// SIMULATED", "# DOUBTFUL", noise only) as lines before the table, because a user may pass on the
+// file alone.
 Status write_marked_csv(const Run& run, bool noise_only, const std::string& csv,
                         const ChosenRun& choice);
 

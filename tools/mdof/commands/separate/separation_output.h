@@ -1,4 +1,5 @@
-// Separates the set-ups that a command has prepared, and prints the result.
+// Separates the errors of the machine from those of the target, with the set-ups that a command has
+// prepared, and prints the result.
 #pragma once
 
 #include "daemon/measure/gate/gate.h"
@@ -13,14 +14,14 @@ namespace mdof::tools {
 
 struct OutputOptions {
   bool csv = false, json = false, rig_toml = false, despite_unseen = false, all_warnings = false;
-  daemon::Consent consent;  // consent to a map
+  daemon::Consent consent;  // for the output as a height map
 };
 
 void add_output_options(CLI::App& command, OutputOptions& options);
 
-// Separates and prints. Error (check): a map is requested, but daemon/measure/gate/gate.h refuses
-// it (contradictory set-ups are invalid), or the map has an undetermined part besides offset and
-// slope.
+// Separates the errors and prints the result. Errors (check), if a height map is requested:
+// daemon/measure/gate/gate.h rejects the data, for example because the set-ups contradict each
+// other; or the map has undetermined components besides offset and slope.
 Status separate_and_print(LoadedSources loaded, const char* method, const OutputOptions& options);
 
 }  // namespace mdof::tools

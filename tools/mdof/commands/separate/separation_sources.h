@@ -1,4 +1,4 @@
-// The inputs of a separation from the command line: stored runs or CSV files.
+// Reads the inputs of a separation that the user names: stored runs or CSV files.
 #pragma once
 
 #include <optional>
@@ -30,18 +30,23 @@ struct SourceOptions {
 
 void add_source_options(CLI::App& command, SourceOptions& options);
 
-// All set-ups before turns and shifts, with their names.
+// The set-ups with their names. The command then sets the turn or shift of each set-up.
 struct LoadedSources {
   algo::SeparationRequest request;
-  SeparationRecord record;  // Without its result.
+  SeparationRecord record;  // The record without the result.
   Notices notices;          // Notices of the runs and of their contents.
 };
 
-// Errors: files together with runs, runs of several axes or sides, a rig that already subtracts a
-// height map, the same readings twice, and errors of reading.
+// Errors:
+// - the sources are files and runs
+// - the runs have several axes or sides
+// - a rig already subtracts a height map
+// - two sources have the same readings
+// - a source cannot be read
 Result<LoadedSources> load_sources(const SourceOptions& options);
 
-// The axis of the 180° turn of the turned set-ups: --turned-about, otherwise the axis of motion.
+// The axis about which the target was turned by 180° in the turned set-ups: --turned-about, or the
+// axis of motion if this option is missing.
 Axis turned_about(const SourceOptions& options, Axis motion);
 
 }  // namespace mdof::tools

@@ -13,10 +13,11 @@ namespace mdof::tools {
 // Thread-bound. The destructor sends SIGTERM and waits until mdofd has ended.
 class DemoDaemon {
  public:
-  // Writes the example configuration into `folder` and starts `program` with it; mdofd serves the
-  // page at `http` ("127.0.0.1:0": any port) and writes its output to mdofd.log in the folder.
-  // Returns when mdofd answers. Errors (io): files cannot be written; mdofd cannot be started, or
-  // ends at once (with its last message).
+  // Writes the example configuration into `folder` and starts `program` (mdofd) with it. mdofd
+  // provides the web page at the address `http` ("127.0.0.1:0": any free port), and writes its
+  // messages to mdofd.log in `folder`. The function returns when mdofd answers. Errors (io): the
+  // files cannot be written; mdofd cannot be started; mdofd ends at once (the message contains its
+  // last message).
   static Result<DemoDaemon> start(const std::filesystem::path& program,
                                   const std::filesystem::path& folder, const std::string& http);
   ~DemoDaemon();
@@ -34,7 +35,8 @@ class DemoDaemon {
   std::string socket_;
 };
 
-// `asked` if given, otherwise mdofd in the folder of this program, otherwise mdofd on PATH.
+// Returns the path of mdofd: `asked` if it is not empty, otherwise mdofd in the folder of this
+// program, otherwise mdofd on PATH.
 Result<std::filesystem::path> find_mdofd(const std::string& asked);
 
 }  // namespace mdof::tools

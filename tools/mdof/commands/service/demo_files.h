@@ -1,4 +1,5 @@
-// The example configuration (daemon/examples/), embedded in the program: mdof demo needs no files.
+// The example configuration (daemon/examples/). It is part of the program, so that mdof demo needs
+// no other files.
 #pragma once
 
 namespace mdof::tools {

@@ -1,4 +1,4 @@
-// mdof help fields: describes the names of members and columns.
+// mdof help fields: describes the JSON members and CSV columns of mdof's output.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace mdof::tools {
 
 std::string field_list(std::size_t width);  // Sorted by name.
-// Accepts a name with or without its groups.
+// Describes one field. `name` may contain or omit the groups before the name. Error: no such field.
 Result<std::string> field_text(const std::string& name, std::size_t width);
 
 }  // namespace mdof::tools

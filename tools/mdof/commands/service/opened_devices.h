@@ -1,4 +1,5 @@
-// The devices of a configuration that a command opens itself while mdofd does not run.
+// The devices of a configuration, for commands that open devices themselves. mdofd must not run at
+// the same time.
 #pragma once
 
 #include <string>
@@ -21,8 +22,8 @@ struct DeviceChoice {
 
 void add_device_choice(CLI::App& command, DeviceChoice& choice);
 
-// Never empty. Errors: no device has this name; mdofd runs and holds the devices (the message names
-// `command`).
+// Returns at least one device. Errors: no device has this name; mdofd runs and uses the devices
+// (the message names `command`).
 Result<std::vector<drivers::DriverSpec>> chosen_devices(const DeviceChoice& choice,
                                                         const std::string& command);
 

@@ -1,4 +1,4 @@
-// The message for a wrong command line.
+// The error message if the command line is wrong.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ class ParseError;
 
 namespace mdof::tools {
 
-// One sentence: the word that is not known, the nearest known word, and where the help is.
+// One sentence that states the unknown word, the most similar known word, and how to get help.
 std::string usage_message(CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace mdof::tools

@@ -1,13 +1,13 @@
-// The part of MPI that mdof uses, as a C interface. Only this separate module links libmpi. mdof
-// loads it only under mpirun or srun, so that other starts of mdof have no cost.
+// The functions of MPI that mdof uses, as a C interface. Only this module is linked to libmpi. mdof
+// loads it only if mpirun or srun started mdof; otherwise mdof starts without libmpi.
 #pragma once
 
 #include <cstdint>
 
 extern "C" {
 
-// All functions are called from one thread. An error of MPI ends all processes (its default
-// handler).
+// All functions are called from one thread. If a call of MPI fails, MPI ends all processes (its
+// default error handler).
 struct MdofMpi {
   int rank, size;
   void (*send)(int to, const char* bytes, std::uint64_t count);

@@ -1,6 +1,5 @@
-// The plan of mdof-simulate: a simulated machine and the devices that measure it (README.md lists
-// the keys). The kernel module vhci-hcd connects USB devices to the bus of this computer; they are
-// unplugged when mdof-simulate ends.
+// Reads the plan of mdof-simulate: a simulated machine, and simulated devices that measure it.
+// tools/mdof_simulate/README.md lists the keys.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A simulated machine that several devices sense; all of them sense the same truth.
+// A simulated machine that several simulated devices measure. All of them measure the same motion.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ class SensedMachine {
  public:
   SensedMachine(const Rig& rig, drivers::SimulatorOptions options, drivers::ForwardModel model);
 
-  // Raw value of a channel before the rig's calibration, µm. The noise depends on the microsecond,
-  // so that two devices that read at different times see different noise.
+  // Raw value of a channel before the calibration of the rig, µm. The noise depends on the time in
+  // whole microseconds: two devices that read at different times get different noise.
   double raw_um(std::size_t channel, std::int64_t t_ns);
   std::size_t channel_of(const std::string& id) const;  // SIZE_MAX: no such channel.
 
@@ -29,7 +29,7 @@ class SensedMachine {
   std::int64_t at_ns_ = -1;
 };
 
-// The sensing function of a device with these inputs.
+// The function with which a simulated device with these inputs gets its readings.
 drivers::Senses senses(std::shared_ptr<SensedMachine> machine,
                        std::vector<drivers::SensedInput> inputs);
 

@@ -1,4 +1,5 @@
-// Serves simulated devices on TCP ports, serial lines and USB of this computer, in one thread.
+// Connects simulated devices to TCP ports, serial lines and USB ports of this computer, in one
+// thread.
 #pragma once
 
 #include <atomic>
@@ -19,7 +20,7 @@ struct Served {
   bool uhid = false;           // USB only: use uhid instead of vhci_hcd.
   std::vector<int> tcp_ports;  // One for each TCP port of the device; 0: any free port.
   double clock_ppm = 0;        // Rate error of the device's clock, ppm; positive: fast.
-  double jitter_ms = 0;        // Each packet is delayed by 0 to this time.
+  double jitter_ms = 0;        // Each packet is delayed by a random time from 0 to jitter_ms.
   std::int64_t seed = 1;       // Seed of the jitter.
 };
 
@@ -31,10 +32,11 @@ class Server {
   ~Server();
   Server(Server&&) noexcept;
 
-  // One line for each port: "capa-1 command 127.0.0.1:40123", "qsb serial /dev/pts/3", "encoders
-  // usb port 0".
+  // One line for each port, for example "capa-1 command 127.0.0.1:40123", "qsb serial /dev/pts/3"
+  // or "encoders usb port 0".
   std::string addresses() const;
-  // Serves until `stop` is true or the last device is unplugged, then unplugs all devices.
+  // Runs the devices until `stop` is true or the last device is unplugged. Then unplugs all
+  // devices.
   void serve(const std::atomic<bool>& stop);
 
  private:

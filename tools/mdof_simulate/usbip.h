@@ -1,5 +1,6 @@
-// USB/IP (Linux, Documentation/usb/usbip_protocol.rst): the protocol by which the kernel's vhci_hcd
-// sends USB requests to a device without a cable. Works on bytes without I/O.
+// The protocol USB/IP (Linux, Documentation/usb/usbip_protocol.rst), with which the kernel module
+// vhci_hcd sends USB requests to a simulated device. This class converts bytes and does no input or
+// output.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +17,12 @@ class UsbIp {
   // `device` must outlive this object.
   explicit UsbIp(drivers::usb::SimulatedUsb& device) : device_(&device) {}
 
-  // Takes the bytes `received` from the host (may be empty) and returns the bytes to send. Call it
-  // when bytes arrive, and also about every millisecond, because transfers wait for the device.
+  // Handles the bytes `received` from the host (may be empty) and returns the bytes to send. Call
+  // it when bytes arrive, and also about every millisecond, because a transfer waits until the
+  // device has data.
   std::string exchange(std::string_view received, std::int64_t now_ns);
-  // The input is not USB/IP or requests isochronous transfers; the connection cannot be used
-  // further.
+  // True: the host sent bytes that are not USB/IP, or requested an isochronous transfer. The
+  // connection cannot be used further.
   bool broken() const { return broken_; }
 
  private:

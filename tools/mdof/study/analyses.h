@@ -1,5 +1,5 @@
-// Analyses that a plan requests in addition to the statistics: indices, tolerances, another
-// fixture.
+// Calculates what a plan requests in addition to the statistics: sensitivity indices, the
+// allocation of tolerances, and the comparison with another fixture.
 #pragma once
 
 #include "schema/base/result.h"
@@ -9,11 +9,12 @@
 
 namespace mdof::tools {
 
-// Largest number of trials of a comparison; the ratio is then known to 0.2 % or better.
+// Largest number of trials for the comparison of two fixtures. With this number the standard
+// uncertainty of the ratio is at most 0.2 %.
 inline constexpr std::uint64_t kMostComparedTrials = std::uint64_t{1} << 18;
 
-// Fills indices, allocations and comparison, and warns if the trials are too few for good standard
-// errors. The figures do not depend on the number of threads.
+// Calculates indices, allocations and comparison of `result`. Adds a warning if there are too few
+// trials for reliable standard errors. The figures do not depend on the number of threads.
 Result<StudyState> analyse(const Study& study, unsigned threads, StudyResult& result);
 
 }  // namespace mdof::tools

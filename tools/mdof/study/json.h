@@ -1,4 +1,4 @@
-// Writes the result of a study as JSON, for printing and storing, and reads it.
+// Writes the result of a study as JSON for the output and the database, and reads it.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,12 @@
 
 namespace mdof::tools {
 
-// The figures that do not depend on threads, processes, interruptions and time: an object with
-// trials, seed, errors by key, bins, convergence, indices, allocations, comparison and warnings.
+// The figures of the study as a JSON object: trials, seed, errors by key, bins, convergence,
+// indices, allocations, comparison and warnings. The text does not depend on the number of threads
+// or processes, on interruptions, or on the time.
 std::string study_figures_json(const StudyResult& result);
 
-// The document of --json: the figures and the other facts of the calculation.
+// The output of --json: the figures, and facts about the calculation such as its duration.
 std::string study_json(const StudyResult& result, const std::string& figures_json,
                        std::optional<std::int64_t> study);
 

@@ -10,10 +10,11 @@
 
 namespace mdof::tools {
 
-// Tables with units, and how well the figures are known.
+// Tables with units, and the uncertainty of the figures.
 std::string study_text(const StudyResult& result);
 
-// One row for each output, first over all trials, then for each bin; 17 digits.
+// One row for each output over all trials, then one row for each output in each bin. Numbers have
+// 17 digits.
 std::string study_csv(const StudyResult& result);
 
 enum class StudyForm { text, json, csv };

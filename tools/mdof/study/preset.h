@@ -1,4 +1,4 @@
-// Presets of mdof sensitivity: their options by name, written as TOML and read.
+// Presets of mdof sensitivity: their options, which can be written and read as TOML.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace mdof::tools {
 
-// An option of both simulations with one number; `key` ends in its unit. The travel and its bins
-// ("travel_mm", "bins") and the seed are separate.
+// An option with one number, which both presets have. `key` ends in the unit. "travel_mm", "bins"
+// and the seed are not PresetNumbers.
 struct PresetNumber {
   const char* key;
   double algo::SimulationOptions::*member;
@@ -19,11 +19,12 @@ struct PresetNumber {
 };
 std::span<const PresetNumber> preset_numbers();
 
-// "simulation-1" or "simulation-2" with the defaults of the paper. Error (usage): unknown name; the
-// message names the nearest.
+// The options of "simulation-1" or "simulation-2" with the values of the paper. Error (usage): the
+// name is unknown; the message states the most similar name.
 Result<algo::SimulationOptions> preset_defaults(const std::string& name);
 
-// All options except the seed. A stored study keeps this text instead of a plan.
+// Writes all options except the seed as TOML. The database stores this text if a study has a preset
+// instead of a plan.
 std::string preset_toml(const std::string& name, const algo::SimulationOptions& options);
 struct Preset {
   std::string name;

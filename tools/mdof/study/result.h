@@ -1,4 +1,4 @@
-// Calculates the result of a study from the state of its work.
+// Calculates the result of a study from the statistics of its trials.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace mdof::tools {
 
-// Figures of the trials so far, with the last point of the convergence. Warnings state how many
-// trials were not solved.
+// The figures of the trials so far. Adds the present figures as the last point of the convergence.
+// If trials were not solved, a warning states their number.
 StudyResult result_of(const Study& study, const StudyWork& state, const std::string& started_utc);
 
 }  // namespace mdof::tools

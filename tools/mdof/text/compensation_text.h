@@ -1,4 +1,4 @@
-// Compensation tables as text. daemon/measure/gate writes their documents.
+// Compensation tables as text. daemon/measure/gate writes them as JSON.
 #pragma once
 
 #include <cstdint>

@@ -6,8 +6,8 @@
 
 namespace mdof::tools {
 
-// Formats the answer to device.list in lines of at most `columns` characters: a table of states and
-// counts, then the present faults of each device, or the last fault that has recovered.
+// Formats the reply to device.list: a table with state and counts of each device; then, for each
+// device, its present faults, or otherwise its last fault. A line has at most `columns` characters.
 std::string device_table(std::string_view device_list, std::size_t columns);
 
 }  // namespace mdof::tools

@@ -9,7 +9,7 @@
 
 namespace mdof::tools {
 
-// A title and one line for each action; empty without actions.
+// A title, and one line for each action. Empty if there are no actions.
 inline std::string history_text(const std::vector<HistoryEntry>& actions, std::size_t width) {
   std::string text = actions.empty() ? "" : "\nhistory\n";
   for (const HistoryEntry& action : actions)

@@ -1,4 +1,4 @@
-// An imported run as text and CSV: its readings, without five errors.
+// An imported run as text and CSV. It has readings, but not the five errors of other runs.
 #pragma once
 
 #include <cstddef>

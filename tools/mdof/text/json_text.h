@@ -1,5 +1,5 @@
-// Formats any JSON as text, so that the reply of a newer daemon is shown even if this mdof does not
-// know its members.
+// Formats any JSON as text. mdof can thus show the reply of a newer mdofd even if it does not know
+// all members.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Formats notices for a terminal: of many notices of one kind, three and a count are shown.
+// Prints notices. If there are many notices of one kind, prints three of them and the number of the
+// others.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@ namespace mdof::tools {
 // the others. `all`: keeps every notice.
 Notices summarised(const Notices& notices, bool all = false);
 
-// Prints the summarised notices to the standard error, one line each, marked with their severity.
+// Prints the summarised notices to the standard error, one line each, with their severity.
 void show_notices(const Notices& notices, bool all = false);
 
 }  // namespace mdof::tools

@@ -7,8 +7,8 @@
 
 namespace mdof::tools {
 
-// Lines of at most 80 columns: cycle, encoder, targets with the number of visits, rejected stops,
-// probes.
+// Describes the cycle, the encoder, the targets with their numbers of visits, the rejected stops,
+// and the probes. A line has at most 80 characters.
 std::string plausibility_text(const Plausibility& plausibility);
 
 }  // namespace mdof::tools

@@ -16,26 +16,27 @@ namespace mdof::tools {
 // "SIMULATED DATA: ..." with a line end, or empty.
 std::string simulated_notice(bool simulated);
 
-// First line of an output whose uncertainty contains noise only; otherwise empty.
+// The first line of the output if the uncertainties contain noise only; otherwise empty.
 std::string noise_only_notice(NoiseOnly noise_only);
 std::string noise_only_notice(bool noise_only);
 // The same line as a comment in a CSV or TOML file.
 std::string noise_only_comment(NoiseOnly noise_only);
 std::string noise_only_comment(bool noise_only);
 
-std::string stated_text(const StatedAt& at);  // One line: where straightness is stated.
+std::string stated_text(
+    const StatedAt& at);  // One line that states the reference point of the straightness errors.
 
-// All points, or the means by target and the points with flags or without errors; then the
-// plausibility. Without means, all points in any case.
+// If `means` is true and the run has means: the mean errors at each target, and the points with
+// flags or without errors. Otherwise all points. Then the plausibility of the run.
 std::string points_or_means_text(const Run& run, const RunUncertainty& uncertainty,
                                  std::size_t width, bool means);
 
-// Identity, provenance, notices. `result_sha256` may be empty.
+// Identity, provenance and notices of the run. `result_sha256` may be empty.
 std::string head_text(const RunHeader& header, const std::string& result_sha256, std::size_t width,
                       bool all_warnings = false);
-// Five errors ± u, samples, flags.
+// A table of the points: five errors ± u, number of samples, flags.
 std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width);
-// Slopes of the mean ± u, if `budgets` contains them.
+// A table of the straightness figures. The mean slopes have ± u if `budgets` contains them.
 std::string straightness_text(const std::vector<StraightnessFigure>& figures,
                               const std::vector<Budget>& budgets, std::size_t width);
 std::string minimum_zone_text(const std::vector<StraightnessLines>& lines, std::size_t width);

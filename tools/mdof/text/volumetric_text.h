@@ -10,7 +10,7 @@ namespace mdof::tools {
 
 // `generation`: 0 if the table is not active.
 std::string volumetric_text(const VolumetricTable& table, std::int64_t generation);
-// One row for each node: X_mm, Y_mm, Z_mm, corrections and their u.
+// One row for each node: X_mm, Y_mm, Z_mm, the corrections and their standard uncertainties.
 std::string volumetric_csv(const VolumetricTable& table);
 
 }  // namespace mdof::tools

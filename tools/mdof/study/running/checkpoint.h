@@ -1,4 +1,5 @@
-// The state of a study, as an object and as bytes that are stored to continue the study.
+// The state of a study, and its conversion to bytes (checkpoint). A stored checkpoint makes it
+// possible to continue the study.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +13,23 @@
 
 namespace mdof::tools {
 
-// Results of the trials 0 ... trials - 1, without gaps.
+// The results of the trials 0 ... `trials` - 1; no trial is missing.
 struct StudyWork {
   std::uint64_t trials = 0;
   double elapsed_s = 0;
-  algo::StudyScale scale;  // Scale of the statistics.
+  algo::StudyScale scale;  // Origin and unit of the sums in `statistics`.
   algo::StudyStatistics statistics;
   std::vector<Convergence> convergence;
-  // The blocks that were given to the adaptive rule, in this order; the figures of each block by
-  // output.
+  // [block][output] figures of the blocks that the adaptive rule has received, in this order.
   std::vector<std::vector<algo::BlockFigures>> rule;
 };
 // The state of a study before its first trial.
 StudyWork empty_work(const algo::Experiment& experiment, const algo::StudyScale& scale);
 
-// Appends the figures after state.trials trials to state.convergence.
+// Appends a point with the present figures to state.convergence.
 void add_convergence(StudyWork& state, double coverage);
 
-// The same trials give the same bytes, apart from elapsed_s.
+// The bytes depend only on the trials, except elapsed_s.
 std::string checkpoint_bytes(const StudyWork& state);
 // Error: the bytes are not a checkpoint of this experiment.
 Result<StudyWork> parse_checkpoint(std::string_view bytes, const algo::Experiment& experiment);

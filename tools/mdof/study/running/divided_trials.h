@@ -1,4 +1,4 @@
-// An experiment with slow trials, which divides each call among threads.
+// An experiment for slow trials: each call to run() uses several threads.
 #pragma once
 
 #include <atomic>
@@ -12,12 +12,13 @@
 
 namespace mdof::tools {
 
-// Runs the same trials as `experiment`, but divides each call to run() among threads, because a
-// cell of slow trials, such as whole runs, takes seconds. Only one call at a time.
+// Runs the same trials as `experiment`, but divides the trials of each call to run() among threads.
+// This is useful if one call takes seconds, for example if a trial is a whole simulated run. Only
+// one call to run() at a time.
 class DividedTrials final : public algo::Experiment {
  public:
-  // go_on() is called several times a second. When it returns false, run() leaves out the trials
-  // that have not begun.
+  // run() calls go_on() several times a second. After go_on() has returned false, run() begins no
+  // further trial.
   DividedTrials(const algo::Experiment& experiment, unsigned threads, std::function<bool()> go_on)
       : experiment_(experiment), threads_(threads), go_on_(std::move(go_on)) {}
   const std::vector<std::string>& outputs() const override { return experiment_.outputs(); }
@@ -25,7 +26,7 @@ class DividedTrials final : public algo::Experiment {
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override;
   std::uint64_t trials_run() const { return trials_run_; }  // Any thread.
-  // True: trials are missing, so the results are invalid.
+  // True: run() has omitted trials; the results are invalid.
   bool was_interrupted() const { return is_interrupted_; }
 
  private:

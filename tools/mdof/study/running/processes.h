@@ -12,13 +12,14 @@ struct MdofMpi;
 
 namespace mdof::tools {
 
-// Thread-bound. With one process, every call is trivial. Under MPI, all processes make the same
-// calls in the same order; if one process ends without leave(), MPI ends all of them.
+// Thread-bound. Without MPI there is one process, and the functions only return their arguments.
+// With MPI, all processes must call the same functions in the same order. If a process ends without
+// leave(), MPI ends all processes.
 class Processes {
  public:
   // If the environment shows that MPI started this process, loads the module mdof_mpi.so from the
-  // folder of the program. Error: the module cannot be loaded; each process would calculate the
-  // whole study.
+  // folder of the program. Error: the module cannot be loaded. It is an error because each process
+  // would otherwise calculate the whole study.
   static Result<Processes> join();
 
   int rank() const;
@@ -27,14 +28,15 @@ class Processes {
 
   std::string broadcast(std::string bytes);         // Returns the bytes of rank 0 to all processes.
   std::uint64_t broadcast_number(std::uint64_t x);  // Returns the number of rank 0 to all.
-  bool any(bool mine);  // Returns to all processes whether `mine` is true in any of them.
+  bool any(
+      bool mine);  // Returns, in all processes, whether `mine` is true in at least one process.
   void send(int to, std::string_view bytes);
   std::string receive(int from);
 
-  // Ok if `mine` is ok in all processes. Otherwise rank 0 gets the error of the process that
-  // failed; the others get an error that only ends them.
+  // Returns ok in all processes if `mine` is ok in all processes. Otherwise rank 0 returns the
+  // error of the process that failed, and the others return an error that only ends them.
   Status agree(const Status& mine);
-  // Called at the end, and after an error on which all processes have agreed.
+  // Call it at the end, and after agree() has returned an error.
   void leave();
 
  private:

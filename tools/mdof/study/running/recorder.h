@@ -1,5 +1,5 @@
-// Stores a study in the database while it runs. Each write opens the database separately, because a
-// study may take hours and mdofd must be able to write meanwhile.
+// Stores a study in the database while it runs. Opens the database for each write and closes it
+// again, because a study may take hours and mdofd must be able to write during this time.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +20,16 @@ struct StoredStudy {
   store::StudyCheckpoint checkpoint;
   StudyRequest request;
 };
-// Errors: not_found; conflict, if the study is complete or has no checkpoint.
+// Errors: not_found: no such study; conflict: the study is complete or has no checkpoint.
 Result<StoredStudy> study_to_continue(const std::string& database, std::int64_t id);
 
-// The state of the work of the stored study. Error (bad_input): the experiment has changed, because
-// a file that the plan names or mdof itself has changed.
+// The state from the checkpoint of the stored study. Error (bad_input): the experiment differs from
+// the stored one, because mdof or a file that the plan names has changed.
 Result<StudyWork> continued_work(const StoredStudy& stored, const Study& study);
 
 class StudyRecorder {
  public:
-  StudyRecorder() = default;  // Stores nothing.
+  StudyRecorder() = default;  // This recorder stores nothing.
   StudyRecorder(std::string database, std::int64_t id) : database_(std::move(database)), id_(id) {}
   static Result<StudyRecorder> begin(std::string database, const Study& study,
                                      const std::string& started_utc);
@@ -37,7 +37,8 @@ class StudyRecorder {
   std::optional<std::int64_t> id() const { return id_; }
   // Prints a warning if the checkpoint cannot be written; the study continues.
   void checkpoint(const StudyWork& state) const;
-  // Stores `state` if the result is not complete.
+  // Stores the result. If the study is not complete, also stores `state`, so that the study can be
+  // continued.
   Status end(const StudyResult& result, const std::string& figures_json,
              const StudyWork& state) const;
   // "mdof sensitivity --continue 3 --db FILE"

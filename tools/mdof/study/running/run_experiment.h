@@ -1,5 +1,5 @@
-// Whole simulated runs as trials, for plans with output_of = "run": the real pipeline evaluates
-// samples of the perturbed rig with the nominal rig.
+// The experiment for plans with output_of = "run". A trial is a whole simulated run: the perturbed
+// rig makes the samples, and the program evaluates them in the usual way, with the nominal rig.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,11 @@
 
 namespace mdof::tools {
 
-// Refuses what make_plan_experiment() refuses. Thread-safe, as every Experiment.
+// Has the same errors as make_plan_experiment(). The experiment is thread-safe.
 Result<std::unique_ptr<algo::ScalableExperiment>> make_run_experiment(const StudyPlan& plan);
 
-// Why a trial of such a plan gives no run. Ok if it gives a run, even a run without figures.
+// Error: the samples of this trial do not make a run; the message states the reason. Ok if they
+// make a run, also if the run has no figures.
 Status check_run_trial(const StudyPlan& plan, std::uint64_t trial);
 
 }  // namespace mdof::tools

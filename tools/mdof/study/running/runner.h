@@ -1,5 +1,6 @@
 // Runs the trials of a study on threads and on the processes of MPI, until all trials are done, the
-// adaptive rule has settled, or a user interrupts. None of these changes the figures.
+// adaptive rule ends the study, or the user interrupts. The figures of a number of trials do not
+// depend on threads, processes and interruptions.
 //
 //   rank 0 chooses the batches of the next round ─▶ every process works off its share, with
 //   separate statistics for each thread ─▶ each process merges its statistics ─▶ at intervals,
@@ -24,30 +25,30 @@
 namespace mdof::tools {
 
 struct RunnerOptions {
-  std::optional<std::uint64_t> trials;  // None: the adaptive rule decides.
+  std::optional<std::uint64_t> trials;  // nullopt: the adaptive rule decides.
   std::optional<algo::AdaptiveTolerance> adaptive;
   double coverage = 0.95;
   unsigned threads = 1;
-  bool slow = false;  // A trial takes milliseconds, so that the threads share each block.
-  // Called about every 30 s with all trials so far, in rank 0 only.
+  bool slow = false;  // True: a trial takes milliseconds, and the threads divide each block.
+  // Rank 0 calls it about every 30 s, with all trials so far.
   std::function<void(const StudyWork&)> checkpoint;
 };
 
 class StudyRunner {
  public:
-  // Error: the adaptive rule refuses the tolerances or the coverage.
+  // Error: the tolerances or the coverage are invalid for the adaptive rule.
   static Result<StudyRunner> create(const algo::Experiment& experiment, RunnerOptions options,
                                     Processes& processes);
-  // Continues from `state`. At the end, rank 0 has all trials in `state`; the other ranks have used
-  // it up.
+  // Continues from `state`. At the end, `state` of rank 0 contains all trials; `state` of the other
+  // ranks is invalid.
   StudyState run(StudyWork& state);
-  // Why the adaptive rule has not settled; empty: it has settled, or there is no rule.
+  // Why the adaptive rule has not ended the study; empty: it has, or there is no rule.
   std::string not_settled() const;
 
  private:
   using Clock = std::chrono::steady_clock;
-  using Parts = std::vector<std::optional<algo::StudyStatistics>>;  // One for each thread.
-  using Figures = std::vector<std::vector<algo::BlockFigures>>;     // One for each batch.
+  using Parts = std::vector<std::optional<algo::StudyStatistics>>;  // [thread]
+  using Figures = std::vector<std::vector<algo::BlockFigures>>;     // [batch][output]
   struct Round {
     std::uint64_t begin = 0, end = 0;  // batches
     bool collect = false;
@@ -76,12 +77,13 @@ class StudyRunner {
   RunnerOptions options_;
   Processes* processes_;
   std::optional<algo::AdaptiveRule> rule_;
-  // Work is counted in batches of batch_trials_ trials: a block of the statistics or of the rule.
+  // Work is counted in batches. A batch has batch_trials_ trials and is one block of the statistics
+  // or of the adaptive rule.
   std::uint64_t batch_trials_;
-  std::optional<std::uint64_t> total_;  // batches; none: no limit
+  std::optional<std::uint64_t> total_;  // batches; nullopt: no limit
   std::uint64_t done_ = 0;              // batches
   double expected_batches_ = 0;         // For the progress bar; 0: unknown.
-  double batches_per_s_ = 0;            // In the last round, all processes.
+  double batches_per_s_ = 0;            // Speed of all processes in the last round.
   bool stop_ = false;
   double elapsed_before_s_ = 0;
   Clock::time_point begin_, next_checkpoint_;

@@ -14,44 +14,49 @@
 
 namespace mdof::tools {
 
-// Settings for making and summarising the trials of a plan or preset. Empty: the plan decides.
+// Settings of a study. If a setting is nullopt, the plan or preset decides.
 struct StudySettings {
-  std::optional<std::uint64_t> trials;  // With an adaptive rule, the upper limit; none: no limit.
-  std::optional<std::uint64_t> seed;    // < 2^63
+  std::optional<std::uint64_t>
+      trials;  // With an adaptive rule: largest number of trials; nullopt: no limit.
+  std::optional<std::uint64_t> seed;  // < 2^63
   std::optional<double> coverage;
   std::optional<algo::AdaptiveTolerance> adaptive;
 };
-// Writes every setting that is present as TOML, and reads it.
+// Writes the settings that are not nullopt as TOML; parse_settings() reads them.
 std::string settings_toml(const StudySettings& settings);
 Result<StudySettings> parse_settings(const std::string& toml);
-// "EBX_urad=0.01": the numerical tolerance of one output, finite and above zero.
+// Reads the numerical tolerance of one output, for example "EBX_urad=0.01", and adds it. The
+// tolerance must be finite and above 0.
 Status add_tolerance(const std::string& key_value, algo::AdaptiveTolerance& tolerance);
 
 struct StudyRequest {
   std::string plan_toml;  // A plan, or the options of a preset (tools/mdof/study/preset.h).
-  std::string source;     // File of the plan; its paths are relative to it. Empty: a preset.
+  std::string
+      source;  // File of the plan; the paths in a plan are relative to this file. Empty: a preset.
   StudySettings settings;
 };
 
-// Ready to run. All settings have values; only the number of trials may be open.
+// A study that is ready to run. All settings have values, except the number of trials with an
+// adaptive rule.
 struct Study {
   StudyRequest request;
   std::string name;
   std::optional<algo::SimulationOptions> preset;
   std::optional<StudyPlan> plan;
   std::unique_ptr<algo::Experiment> experiment;
-  // The same object as `experiment`, if its parts can be scaled: only for a plan.
+  // The same object as `experiment` if the study has a plan, otherwise nullptr.
   const algo::ScalableExperiment* scalable = nullptr;
 
   bool slow() const { return plan && plan->whole_run; }  // A trial takes milliseconds.
 };
 Result<Study> make_study(StudyRequest request);
 
-// Facts that must not change between the parts of a study, one line each in the format of
-// sha256sum: the rigs and samples that the plan names, under these names, and the first trials,
-// which change with the mathematics. Reads the files.
+// A text that must be the same when a study is continued. It has one line in the format of
+// sha256sum for each rig or sample file that the plan names, and one line for the results of the
+// first trials, which change if the mathematics of mdof changes. Reads the files.
 Result<std::string> fingerprint(const Study& study);
-// Name of the first line of `now` that `before` does not contain; empty: no change.
+// The name (file or kFirstTrials) in the first line of `now` that `before` does not contain; empty:
+// nothing has changed.
 std::string changed_since(const std::string& before, const std::string& now);
 inline constexpr const char* kFirstTrials = "(first trials)";
 

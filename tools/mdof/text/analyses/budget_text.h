@@ -10,14 +10,14 @@
 
 namespace mdof::tools {
 
-// One row for each figure: value, U, k, random part of u, and the largest contributor.
+// One row for each figure: value, U, k, the part of u from noise, and the largest contribution.
 std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width);
 // The figures of a run, or the reason why they have no uncertainty.
 std::string stated_figures_text(const StatedFigures& stated, std::size_t width);
-// All details of one figure, with a sentence about what to improve first.
+// All contributions to one figure. A sentence states what the user should improve first.
 std::string budget_text(const Budget& budget, const std::optional<Decision>& decision,
                         std::size_t width);
-// One row for each figure and contributor.
+// One row for each contribution to each figure.
 std::string budgets_csv(const std::vector<Budget>& budgets);
 
 // States which undeclared uncertainties these budgets do not contain; empty: none is missing.

@@ -14,8 +14,8 @@ using daemon::StoredDrift;
 
 // Sentences about a significant drift, one line each; empty: no significant drift.
 std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_t width);
-// The output of `mdof show --figures` about drift: closures, drift of each error, effect on
-// straightness.
+// The drift as `mdof show --figures` prints it: closures, drift of each error, effect of the drift
+// on the straightness.
 std::string drift_text(const Run& run, const StoredDrift& drift, std::size_t width);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// Short table of the errors of a run, with one row for each target.
+// A short table of the errors of a run.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,10 @@
 
 namespace mdof::tools {
 
-// Means of all passes and both approaches ± u, as in a compensation table of this run alone
-// (straightness as measured, angles relative to the first target). Empty if the run gives no table,
-// for example because it has no targets.
+// One row for each target: the mean over all visits and both approaches ± u, as in a compensation
+// table from this run only. Straightness errors are as measured; angles are relative to the first
+// target. Empty if no compensation table can be calculated, for example because the run has no
+// targets.
 std::string means_text(const Run& run, std::size_t width);
 
 }  // namespace mdof::tools

@@ -8,7 +8,7 @@
 
 namespace mdof::tools {
 
-// Drift rates of each window, the correlation with temperature, and the verdict.
+// The drift rates in each time window, the correlation with the temperature, and the verdict.
 std::string parked_text(const daemon::ParkedLog& log, const algo::WarmUp& found, std::size_t width);
 std::string parked_json(const daemon::ParkedLog& log, const algo::WarmUp& found);
 // States that the system is ready, or why it is not: a sentence without a full stop.

@@ -13,10 +13,12 @@ struct PositioningColumn {
   std::string name;  // "EYX"; "deviation" for a file.
   bool angle = false;
   Positioning figures;
-  std::optional<RunPositioningUncertainty> U = std::nullopt;  // For a run only.
+  std::optional<RunPositioningUncertainty> U =
+      std::nullopt;  // nullopt if the readings are not from a run.
 };
 
-// One row for each parameter, one column for each series, and a column for U where it is known.
+// A table with a row for each parameter and a column for each element of `columns`. If U is known,
+// it has a further column.
 std::string parameters_text(const std::vector<PositioningColumn>& columns, std::size_t width);
 // One row for each target.
 std::string targets_text(const PositioningColumn& column, std::size_t width);

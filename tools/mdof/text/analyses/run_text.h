@@ -1,4 +1,4 @@
-// A measured run as text: the common output of `mdof show`, `mdof replay` and `mdof record`.
+// A measured run as text, as `mdof show`, `mdof replay` and `mdof record` print it.
 #pragma once
 
 #include <cstddef>

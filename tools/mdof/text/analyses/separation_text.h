@@ -1,4 +1,4 @@
-// A separation as text, as CSV, and as the [[plane]] of a rig.
+// A separation as text, as CSV, and as a [[plane]] for a rig file.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ std::string separation_text(const SeparationRecord& record, std::size_t width);
 // and slope are undetermined).
 std::string separation_csv(const SeparationRecord& record);
 
-// The height of the target as [[plane]] flatness_... of a rig. Comments state the date, the
-// sources, and what is not included.
+// The height of the target as the keys flatness_... of a [[plane]] in a rig file. Comments in the
+// text state the date, the sources, and what is not included.
 std::string separation_plane_toml(const SeparationRecord& record);
 
 // "offset, slope and 2 of period 10 mm"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
-/* Mathematics of the realtime component mdof_compensation: it receives a table of corrections
-   record by record, interpolates in it, and lets an offset with limited velocity and acceleration
-   follow the correction. The code uses no HAL and allocates no memory, so that it can be tested
-   outside LinuxCNC. C99 and C++.
+/* Mathematics of the realtime component mdof_compensation. The component receives a table of
+   corrections record by record, interpolates the correction at the position of the machine, and
+   changes its offset to this correction with limited velocity and acceleration. The code does not
+   use HAL and allocates no memory; tests can therefore run it outside LinuxCNC. C99 and C++.
 
    Positions, corrections and offsets are in machine units (mm or inch), times in s. X, Y, Z are 0,
    1, 2. The correction is added to a command. */
@@ -16,8 +16,8 @@
 #define MDOF_POSITION_TOLERANCE 1e-6 /* machine units */
 #define MDOF_MAX_COORDINATES 1024    /* of an axis of the grid */
 
-/* Corrections at the nodes of a grid, X fastest, then Y, then Z. The correction does not
-   depend on the position of an axis with one coordinate. */
+/* Corrections at the nodes of a grid. The order of the nodes is X fastest, then Y, then Z. If an
+   axis has only one coordinate, the correction does not depend on its position. */
 struct mdof_table {
   int n[3];
   double coordinate[3][MDOF_MAX_COORDINATES]; /* strictly increasing */
@@ -28,8 +28,9 @@ struct mdof_table {
   double largest; /* largest |correction| */
 };
 
-/* Finds the cell of `x` and the position of x in the cell as a share, 0 to 1; outside the grid, the
-   end of the grid. Returns whether x is inside. */
+/* Finds the cell that contains `x`. `share` is the position of x in this cell: 0 at its lower end,
+   1 at its upper end. If x is outside the grid, the result is the nearer end of the grid. Returns
+   whether x is inside the grid. */
 static inline bool mdof_cell(const double* at, int n, double x, int* cell, double* share) {
   int low = 0, high = n - 1;
   *cell = 0;
@@ -49,8 +50,8 @@ static inline bool mdof_cell(const double* at, int n, double x, int* cell, doubl
   return x >= at[0] - MDOF_POSITION_TOLERANCE && x <= at[n - 1] + MDOF_POSITION_TOLERANCE;
 }
 
-/* The correction at a position, linear along each axis between nodes; outside the grid, the
-   correction at its end. Returns whether the position is inside. */
+/* The correction at a position, interpolated linearly along each axis between the nodes. Outside
+   the grid, it is the correction at the end of the grid. Returns whether the position is inside. */
 static inline bool mdof_table_at(const struct mdof_table* table, const double position[3],
                                  double correction[3]) {
   int cell[3];
@@ -70,15 +71,15 @@ static inline bool mdof_table_at(const struct mdof_table* table, const double po
       node += stride * (cell[axis] + upper);
       stride *= table->n[axis];
     }
-    if (weight == 0) continue; /* the node may be beyond the last one */
+    if (weight == 0) continue; /* the node may not exist */
     for (int k = 0; k < 3; ++k) correction[k] += weight * table->correction[3 * node + k];
   }
   return inside;
 }
 
 struct mdof_limits {
-  double fade_velocity;    /* limit after a change of tables, unless the path needs more */
-  double max_velocity;     /* of the offset */
+  double fade_velocity; /* limit of the velocity after a change of tables; a path may need more */
+  double max_velocity;  /* of the offset */
   double max_acceleration; /* of the offset */
   double max_offset;       /* largest |offset| */
 };
@@ -93,8 +94,9 @@ static inline double mdof_clamp(double x, double most) {
   return x > most ? most : x < -most ? -most : x;
 }
 
-/* The velocity that covers a distance in whole periods and decreases by at most max_acceleration *
-   period in each, so that the motion ends at rest: m (m + 1) / 2 steps of that size cover it. */
+/* The velocity at which the offset can still stop after `distance`, because in each period the
+   velocity decreases by at most step = max_acceleration * period. If the velocity is m * step,
+   the offset needs the distance m (m + 1) / 2 * step * period until it stops. */
 static inline double mdof_approach(double distance, const struct mdof_limits* limits,
                                    double period) {
   const double step = limits->max_acceleration * period; /* change of velocity */
@@ -105,11 +107,12 @@ static inline double mdof_approach(double distance, const struct mdof_limits* li
   return distance < 0 ? -velocity : velocity;
 }
 
-/* Moves the offset of one axis by one period. `before` and `now`: the corrections at the last and
-   at the present position, both from the same table. The offset follows the change of the
-   correction, and a remaining difference fades: after a table has been replaced, `before` differs
-   from the offset. The total velocity is at most fade_velocity or the velocity of the correction.
-   Returns whether the offset differs from the correction. */
+/* Changes the offset of one axis in one period. `before` and `now`: the corrections at the last and
+   at the present position, both from the same table. The velocity of the offset is the sum of two
+   velocities: the change of the correction in this period, and the approach to the correction if
+   the offset differs from it, for example after a new table. The sum is at most the larger of
+   fade_velocity and the velocity of the correction. Returns whether the offset still differs from
+   the correction. */
 static inline bool mdof_follow(struct mdof_offset* offset, double before, double now,
                                const struct mdof_limits* limits, double period) {
   const double wanted_before = mdof_clamp(before, limits->max_offset);
@@ -122,23 +125,23 @@ static inline bool mdof_follow(struct mdof_offset* offset, double before, double
   velocity = mdof_clamp(velocity, fmax(limits->fade_velocity, fabs(asked)));
   velocity = mdof_clamp(velocity, limits->max_velocity);
   velocity = offset->velocity + mdof_clamp(velocity - offset->velocity, step);
-  if (!(step > 0) || !isfinite(velocity)) velocity = 0; /* invalid limits: it rests */
+  if (!(step > 0) || !isfinite(velocity)) velocity = 0; /* invalid limits: no motion */
   offset->value = mdof_clamp(offset->value + velocity * period, most);
   offset->velocity = velocity;
   return wanted != now || fabs(wanted - offset->value) > 1e-7;
 }
 
-/* The loader sends a table one record at a time, so that a servo period handles a bounded part of
-   it. Only a complete table is used; the incomplete table of a loader that has ended is discarded.
-   A record is a word, session << 4 | kind, and three numbers. A session is one table of one
-   loader. */
+/* The loader sends a table as many small records, because the work in one servo period must be
+   limited. The component uses only complete tables. If a loader ends before its table is complete,
+   the component discards the table. A record is a word, session << 4 | kind, and three numbers. The
+   session is a number that is the same in all records of one table from one loader. */
 enum mdof_record_kind {
-  MDOF_ALIVE = 1,      /* mdofd is connected (0, 1); the table in use is the active one (0, 1) */
+  MDOF_ALIVE = 1,      /* mdofd is connected: 1 or 0; the table in use is active: 1 or 0 */
   MDOF_CLEAR = 2,      /* no table is active */
-  MDOF_BEGIN = 3,      /* generation; simulated (0, 1) */
-  MDOF_SIZE = 4,       /* coordinates of X, Y, Z; these follow, X first */
-  MDOF_COORDINATE = 5, /* in machine units */
-  MDOF_NODE = 6,       /* corrections of X, Y, Z in machine units, X fastest */
+  MDOF_BEGIN = 3,      /* generation; 1: simulated data, 0: not */
+  MDOF_SIZE = 4,       /* numbers of coordinates of X, Y, Z; the coordinates follow, X first */
+  MDOF_COORDINATE = 5, /* one coordinate in machine units */
+  MDOF_NODE = 6,       /* corrections of X, Y, Z at one node in machine units */
   MDOF_END = 7
 };
 
@@ -154,7 +157,7 @@ enum mdof_received {
 struct mdof_receiver {
   struct mdof_table* table; /* the table that is filled; not the table in use */
   long most_nodes;
-  unsigned session; /* 0: none is under way */
+  unsigned session; /* 0: no table is being received */
   int coordinates, coordinates_received;
   long nodes_received;
 };
@@ -205,8 +208,8 @@ static inline enum mdof_received mdof_receive_node(struct mdof_receiver* r, cons
   return MDOF_GOES_ON;
 }
 
-/* Handles a record of a table, BEGIN to END. Records of a refused session, or of a session that
-   another loader has replaced, are ignored: MDOF_GOES_ON. */
+/* Handles one record of a table, from MDOF_BEGIN to MDOF_END. Ignores records of a session whose
+   table was refused or replaced by that of another loader, and returns MDOF_GOES_ON for them. */
 static inline enum mdof_received mdof_receive(struct mdof_receiver* r, unsigned word,
                                               const double v[3], double max_offset) {
   const unsigned session = word >> 4;

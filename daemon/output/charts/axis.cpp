@@ -10,7 +10,8 @@ namespace mdof::charts {
 namespace {
 
 constexpr double kLargest = 1e300, kLeastSpan = 1e-290;
-constexpr double kFarDecade = 1e150;  // ratios on a logarithmic axis do not overflow
+constexpr double kFarDecade =
+    1e150;  // limit of values on a logarithmic axis; their ratios do not overflow
 constexpr double kLabelGap = 14, kTickDistance = 28;  // px
 constexpr int kMostTicks = 10;
 constexpr double kLog2Of10 = 3.321928094887362, kLog10Of2 = 0.3010299956639812;
@@ -28,12 +29,14 @@ TickStep round_up(double step) {
   return {1.0, exponent + 1};
 }
 
-// n · 10^exponent. Division by a positive power keeps 3 · 10^-1 the double nearest to 0.3.
+// n · 10^exponent. For a negative exponent the function divides, because 3 / 10 is the double
+// nearest to 0.3, but 3 * 0.1 is not.
 double decimal(double n, int exponent) {
   return exponent < 0 ? n / power_of_ten(-exponent) : n * power_of_ten(exponent);
 }
 
-// Labels of ordinary size need no factor; others share a power of ten, in steps of 1000.
+// The exponent of the power of ten by which all labels are divided: 0 for values of usual size,
+// otherwise a multiple of 3.
 int common_exponent(double largest) {
   const int exponent = decimal_exponent(largest);
   if (largest == 0 || (exponent >= -3 && exponent < 5)) return 0;
@@ -57,8 +60,8 @@ Axis with_ticks(const Range& range, int count) {
   return axis;
 }
 
-// log2(x / a) for 0 < a <= x, by squaring, so that every library gives the same bits. Accurate to
-// 2^-32.
+// log2(x / a) for 0 < a <= x, with an accuracy of 2^-32. The function uses only squares, so that
+// the result has the same bits with every mathematics library.
 double log2_of_ratio(double x, double a) {
   int exponent = 0;
   double m = 2 * std::frexp(x / a, &exponent);  // 1 <= m < 2
@@ -142,8 +145,7 @@ Axis logarithmic_axis(const Range& range, double length_px) {
   axis.logarithmic = true;
   axis.low = std::clamp(range.low, 1 / kFarDecade, kFarDecade);
   axis.high = std::clamp(range.high, axis.low, kFarDecade);
-  if (axis.high < 2 * axis.low) {  // the range is too small for decades: put the value in the
-                                   // middle
+  if (axis.high < 2 * axis.low) {  // the range is too small for a logarithmic axis: extend it
     axis.low /= 2;
     axis.high *= 2;
   }

@@ -38,7 +38,7 @@ constexpr std::array<Unit, 19> kUnits = {{{"um", "µm"},
 
 constexpr const char* kMinus = "−";
 
-// Text of std::to_chars with a true minus sign.
+// Replaces the hyphen in a text of std::to_chars by a true minus sign.
 std::string with_minus(std::string_view digits) {
   return digits.starts_with('-') ? kMinus + std::string(digits.substr(1)) : std::string(digits);
 }

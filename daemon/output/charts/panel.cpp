@@ -29,7 +29,7 @@ void draw_sign(Svg& svg, const LegendItem& item, Place left) {
   if (item.sign == LegendSign::dot) svg.dot(item.mark, {left.x + (kSignPx - 6) / 2, y}, 3);
 }
 
-// Calls draw(steps) for each sequence of steps without a gap.
+// Calls draw() for each group of neighbouring steps without a gap between them.
 template <class Draw>
 void for_each_run(std::span<const Step> steps, Draw draw) {
   const auto known = [](const Step& s) { return std::isfinite(s.low) && std::isfinite(s.high); };

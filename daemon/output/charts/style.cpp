@@ -25,8 +25,8 @@ constexpr std::array<Colour, 17> kColours = {{
     {"halo", "stroke", "#ffffff", "#0d1117"},
 }};
 
-// Rules that are the same for light and dark. dash and dot are line styles; elements of Svg::dot
-// have a colour class only, such as ink-dot.
+// The rules that do not depend on the theme. The classes "dash" and "dot" are line styles. An
+// element of Svg::dot() has only a colour class, such as "ink-dot".
 constexpr const char* kShapes =
     ".mdof text{font-family:system-ui,'DejaVu Sans',Arial,sans-serif;font-size:12px}"
     ".mdof .title{font-size:17px;font-weight:600}"
@@ -52,8 +52,8 @@ constexpr const char* kMarksOfRuns =
     ".mdof .grey-band{fill:#6e7781;fill-opacity:.16;stroke:#6e7781;stroke-width:.6}"
     ".mdof .alarm{fill:#b3261e;font-weight:600}";
 
-// From dark to light with increasing height, so that a print without colours also shows the
-// heights.
+// The colours of heights, from dark (low) to light (high), so that a print without colours also
+// shows the heights.
 constexpr const char* kHeights =
     ".mdof .height-0{fill:#440154}.mdof .height-1{fill:#482878}.mdof .height-2{fill:#3e49"
     "89}.mdof .height-3{fill:#31688e}.mdof .height-4{fill:#26828e}.mdof .height-5{fill:#1"

@@ -35,8 +35,8 @@ std::string_view escape_of(char c) {
   }
 }
 
-// Shortest text to 0.01 px. Non-finite and extreme values are errors of the caller; the SVG stays
-// valid.
+// The shortest text of a coordinate, rounded to 0.01 px. Non-finite and very large values are
+// errors of the caller; they are replaced so that the SVG stays valid.
 std::string px(double x) {
   if (!std::isfinite(x)) x = 0;
   char buffer[32];

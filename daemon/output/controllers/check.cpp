@@ -11,7 +11,7 @@
 namespace mdof::controllers {
 namespace {
 
-constexpr int kBetween = 4;  // test points in each step of the grid
+constexpr int kBetween = 4;  // number of test intervals between two points of the table
 constexpr double kRounding_m = 1e-12;
 
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
@@ -22,12 +22,13 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
   return y[i - 1] + (y[i] - y[i - 1]) * ((at - x[i - 1]) / (x[i] - x[i - 1]));
 }
 
-// The simulated machine: how an error of the axis `along` and a correction of `command` move the
-// tool relative to the work. It follows from the bodies of the chain, not from the factor of the
-// export.
+// The simulated machine: the factors (+1 or -1) with which an error of the axis `along`, and a
+// correction of the axis `command`, move the tool relative to the work. The factors follow from the
+// bodies in the chain. They do not use the factor of the export, because the test must detect
+// errors in it.
 struct Machine {
   double error = 1, command = 1;
-  bool own = false;  // the corrected axis is the measured one, so the correction also changes the
+  bool own = false;  // true: the correction moves the measured axis itself, and so changes the
                      // position of E
 };
 
@@ -42,7 +43,7 @@ Machine machine_of(const CompensationTable& table, const AppliedCorrection& appl
   return machine;
 }
 
-// One approach: the error of the axis and the correction of the controller.
+// The data of one approach: the errors of the axis, and the corrections of the controller.
 struct Approach {
   const std::vector<double>&error_at, &error, &added_at, &added;
 };
@@ -61,7 +62,9 @@ class Trial {
   Trial(const Series& series, const AppliedCorrection& applied, const Machine& machine, double zero)
       : series_(series), applied_(applied), machine_(machine), zero_(zero) {}
 
-  // Largest value over both approaches; `sign` 0: without correction, -1: with the wrong sign.
+  // The largest error over all test points and both approaches. `sign`: 1: with the correction, 0:
+  // without it, -1: with the wrong sign. `swapped`: with the correction of the other approach.
+  // `one_way`: uses the mean of both approaches.
   double residual(double sign, bool swapped, bool one_way) const {
     double largest = 0;
     for (const double x : places()) {
@@ -71,8 +74,9 @@ class Trial {
     }
     return largest;
   }
-  // Largest error while the ramp does not apply a step of the correction: after a reversal at any
-  // position, while the axis continues and the step is one that the ramp does not apply.
+  // The largest error while LinuxCNC does not apply a step of the correction. The axis reverses at
+  // any test point and moves on. The old correction stays applied as long as the step to the new
+  // correction has a size that the ramp does not apply.
   double largest_unapplied_error(const UnappliedSteps& held) const {
     const std::vector<double> x = places();
     double largest = 0;
@@ -91,7 +95,8 @@ class Trial {
   }
   // False if no test point is inside both the measured and the written range.
   bool has_test_points() const { return !places().empty(); }
-  // |E dE/dx|: the effect of the correction on the position of E, if it moves the measured axis.
+  // Largest |E dE/dx|. If the correction moves the measured axis, the error acts at another
+  // position, and changes by about this value.
   double second_order() const {
     if (!machine_.own) return 0;
     double largest = 0, steepest = 0;
@@ -130,7 +135,8 @@ class Trial {
   const Series& series_;
   const AppliedCorrection& applied_;
   Machine machine_;
-  double zero_;  // subtracted from the correction, so that it is 0 at home
+  double zero_;  // constant that was subtracted from the correction, so that the correction is 0 at
+                 // home
 };
 
 Control control_of(const std::string& name, double residual, double bound, double change) {
@@ -144,7 +150,7 @@ double largest_reversal(const Series& s) {
   return largest;
 }
 
-// Missing values of the table are not exported.
+// The series without positions at which a value is missing; such positions are not exported.
 Series without_missing(const Series& s) {
   Series whole = s;
   whole.position_m.clear();
@@ -159,9 +165,9 @@ Series without_missing(const Series& s) {
   return whole;
 }
 
-// The constant that the file does not contain. It shifts the zero of the machine and is no error.
-// Beyond the ends of the file the controller uses its end values, even if the axis was measured
-// there.
+// The correction at home, which was subtracted from all values in the file. It only shifts the zero
+// of the machine and is no error. If home is outside the range of the file, the controller uses the
+// value at the end of the file; so does this function.
 double zero_of(const Series& s, const AppliedCorrection& applied, const ExportOptions& options) {
   const std::optional<double> home_m = options.home_m(applied.along);
   if (!home_m) return 0;
@@ -182,7 +188,7 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
   CheckedError e;
   e.error = applied.error;
   e.angle = series.angle;
-  // The controller has one value for both approaches.
+  // True: the file has one value for both approaches, but the errors of the approaches differ.
   const bool one_value = applied.forward == applied.reverse && largest_reversal(series) > 0;
   e.one_way = one_value && options.one_approach;
   e.by_reversal = one_value ? 0.5 * largest_reversal(series) : 0;
@@ -201,13 +207,13 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
   e.bound = std::min(
       thinning + trial.second_order() + step + left + e.by_ramp,
       algo::ResidualLimits{residual_limit(options), options.residual_share}.of(e.before, step));
-  // If the step of the numbers rounds all values to zero, nothing is corrected (for example, mm
-  // read as um).
+  // If all values are less than the step of the numbers in the file, they are rounded to 0 and
+  // nothing is corrected. This happens, for example, if values in mm are read as um.
   const bool lost = e.nothing && e.before > kRounding_m;
   e.cancels = trial.has_test_points() && e.residual <= e.bound && !lost;
   e.controls.push_back(
       control_of("wrong sign", trial.residual(-1, false, e.one_way), e.bound, 2 * e.before));
-  // With one value this mistake changes nothing.
+  // If the file has one value for both approaches, this mistake has no effect.
   e.controls.push_back(control_of("forward and reverse swapped", trial.residual(1, true, e.one_way),
                                   e.bound, one_value ? 0 : largest_reversal(series)));
   return e;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kWeihongPointLimit = 10'000, kSsfkPointLimit = 1500;
 constexpr double kTenthOfMicrometre = 1e-7;
-constexpr double kSsfkPositionLimit_m = 200;  // limit of 32 bits in whole 0.1 µm
+constexpr double kSsfkPositionLimit_m = 200;  // limit: the format stores 32-bit integers in 0.1 µm
 constexpr const char* kWeihongFile = "axeserr.dat";
 
 std::string tenths_text(double m) {
@@ -58,7 +58,7 @@ AppliedCorrection empty_correction(char axis) {
   return {{'E', axis, axis}, axis, axis, {}, {}, {}};
 }
 
-// The whole number after a required key.
+// Reads the integer after `key`, which must be at the beginning of this line.
 Result<double> whole_after(const ControllerFile& file, const std::vector<std::string_view>& lines,
                            std::size_t at, const std::string& key) {
   const auto words = at < lines.size() ? words_of(lines[at]) : std::vector<std::string_view>();

@@ -1,4 +1,4 @@
-// The table of formats, one row each. To add a format, add a file in this folder and a row here.
+// The list of all formats. To add a format, add a file to this folder and a row to this list.
 #include <algorithm>
 
 #include "daemon/output/controllers/error_rows.h"

@@ -10,19 +10,20 @@ namespace {
 constexpr double kRoundingOfGrid_m = 1e-12;
 constexpr std::string_view kCommands = "XYZ";
 
-// Calculated residuals without and with the correction, and with deliberate mistakes.
+// Largest errors of one axis: without the correction, with it, and with deliberate mistakes in it.
 struct Residuals {
   double before = 0, with = 0, wrong_sign = 0;
-  std::optional<double> exchanged;  // X and Y exchanged; nullopt: this mistake is not possible
-  double exchange = 0;              // change by this mistake
+  std::optional<double>
+      exchanged;        // error with X and Y exchanged; nullopt: this mistake is not possible
+  double exchange = 0;  // largest change of the correction by this mistake
 };
 
-// Residuals of the table itself, which no file can correct.
+// Errors that remain because of the table itself; no file can correct them.
 struct LeftByTable {
   double by_reversal = 0, between_nodes = 0;
 };
 
-// `left_m`: the part that the file format cannot represent.
+// `left_m`: the largest part of a correction that the file format cannot represent.
 CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
                        const Format& format, const ExportOptions& options, double left_m,
                        const LeftByTable& table) {
@@ -31,7 +32,7 @@ CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
   e.angle = angle;
   e.by_reversal = table.by_reversal;
   e.between_nodes = table.between_nodes;
-  e.before = r.before + e.by_reversal;  // upper limit, in the worse approach
+  e.before = r.before + e.by_reversal;  // an upper limit of the error in the worse approach
   e.residual = r.with + e.between_nodes + e.by_reversal;
   const double step = format.quantum_m + kRoundingOfGrid_m;
   e.bound = algo::ResidualLimits{options.residual_m, options.residual_share}.of(e.before, step);
@@ -44,7 +45,7 @@ CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
   return e;
 }
 
-// The nodes, and the middles of the cells along all axes of the grid.
+// The test points: all nodes, and the centres of all cells.
 std::vector<Vec3> places_of(const VolumetricTable& table) {
   std::vector<Vec3> places;
   for (std::size_t node = 0; node < table.nodes(); ++node) {
@@ -78,8 +79,9 @@ Residuals residuals_of(const VolumetricTable& table, const VolumetricTable& appl
   return r;
 }
 
-// Motion of the tool along X for a command of Y of 1 m, if X moves to x + k y. It follows from the
-// bodies of the chain, whose lines enclose 90 deg + EC0Y.
+// The error angle that remains if the controller moves X to x + k y: motion of the tool along X, in
+// m, for a command of 1 m along Y. It follows from the bodies in the chain; the angle between the
+// axes is 90 deg + EC0Y.
 double angle_after_shear(const SquareAxes& axes, double k) {
   const auto moved = [&](char axis, double command) {
     const ChainAxis* of = axes.machine.find(axis);

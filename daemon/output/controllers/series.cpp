@@ -144,8 +144,8 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables) {
   return {};
 }
 
-// A mark quotes text of a run. It must not begin a new line or contain a character that the
-// controller does not support.
+// A warning can contain text of a user. In a file it must not begin a new line or contain a
+// character that the controller does not support.
 std::string plain_ascii_line(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kPlain[] = {
       {"µ", "u"}, {"±", "+-"}, {"°", " deg"}};

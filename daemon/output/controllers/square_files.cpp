@@ -29,7 +29,7 @@ std::vector<std::string> head_of(const SquareAxes& axes, const ExportOptions& op
   return lines;
 }
 
-// A file with one line for the controller, below the information for readers.
+// Makes a file with comment lines for readers and one line for the controller.
 Result<Export> exported(const SquareAxes& axes, const ExportOptions& options, const char* name,
                         const char* sign, const std::vector<std::string>& how,
                         const std::string& line) {
@@ -42,7 +42,7 @@ Result<Export> exported(const SquareAxes& axes, const ExportOptions& options, co
   return out;
 }
 
-// The only line of a file that is no comment, without `begin`.
+// The text after `begin` in the only line of a file that is not a comment.
 Result<std::string_view> value_of(const std::vector<ControllerFile>& files, const char* name,
                                   char sign, std::string_view begin) {
   const ControllerFile* file = find_file(files, name);
@@ -83,8 +83,8 @@ Result<double> shear_of(const SquareAxes& axes) {
 
 Result<Export> write_klipper(const SquareAxes& axes, const ExportOptions& options) {
   MDOF_TRY(const double k, shear_of(axes));
-  // The square ABCD that the machine draws, with its origin in A and the side s: B is at (s, 0) and
-  // D at (-k, 1) times a factor that makes AD = s.
+  // ABCD is the figure that the machine draws without correction for a square with the side s. A is
+  // at (0, 0), B at (s, 0). D is in the direction (-k, 1) from A, and AD = s.
   const double cosine = k / std::hypot(1, k);  // cosine of the angle at B between BA and BC
   const double AC = kSide_mm * std::sqrt(2 - 2 * cosine);
   const double BD = kSide_mm * std::sqrt(2 + 2 * cosine);
@@ -104,8 +104,8 @@ Result<double> read_klipper(const std::vector<ControllerFile>& files) {
     x = *read;
     text = text.find(',') == text.npos ? std::string_view() : text.substr(text.find(',') + 1);
   }
-  // The rule of the firmware: the other side from both diagonals, and the angle at A by the cosine
-  // rule.
+  // As in the firmware: calculates the side AB from both diagonals and AD, and then the angle at A
+  // by the cosine rule.
   const double AC = length[0], BD = length[1], AD = length[2];
   const double side = std::sqrt(2 * AC * AC + 2 * BD * BD - 4 * AD * AD) / 2;
   const double angle = std::acos((AC * AC - side * side - AD * AD) / (2 * side * AD));

@@ -22,7 +22,7 @@ std::string document_of(const CompensationTable& table, const ExportOptions& opt
   return json.take() + "\n";
 }
 
-// `of`: an element, or a result that may not exist.
+// `of`: a JSON element, or a simdjson result that may be an error. NaN: no such number.
 template <class Of>
 double number_of(const Of& of, const std::string& key) {
   double x = std::nan("");
@@ -45,7 +45,7 @@ Result<AppliedCorrection> correction_of(const element& table, const std::string&
   for (const element& point : points) {
     const double forward = number_of(point["forward"], key);
     const double reverse = number_of(point["reverse"], key);
-    if (!std::isfinite(forward) || !std::isfinite(reverse)) continue;  // null: no value
+    if (!std::isfinite(forward) || !std::isfinite(reverse)) continue;  // null: the value is missing
     read.position_m.push_back(from_mm(number_of(point, "position_mm")));
     read.forward.push_back(factor * from_um(forward));
     read.reverse.push_back(factor * from_um(reverse));

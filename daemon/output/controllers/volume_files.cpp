@@ -17,7 +17,7 @@ constexpr const char* kIsgTable = "volcomp.csv";
 constexpr const char* kIsgList = "volcomp.lis";
 constexpr const char* kGeoTable = "geo_correction.txt";
 constexpr double kStepsEqual_m = 1e-9;
-constexpr std::size_t kMostOfGeoTable = 4000;  // rows or columns
+constexpr std::size_t kMostOfGeoTable = 4000;  // largest number of rows, and of columns
 
 std::string letter_of(std::size_t axis) {
   return std::string(1, kLinear[axis]);
@@ -38,7 +38,7 @@ std::vector<std::string_view> words_in(std::string_view line, char separator) {
   return words;
 }
 
-// All words as numbers; nullopt if a word is not a number.
+// The words of a line as numbers; nullopt if a word is not a number.
 std::optional<std::vector<double>> numbers_in(std::string_view line, char separator) {
   std::vector<double> numbers;
   for (const std::string_view word : words_in(line, separator)) {
@@ -49,7 +49,7 @@ std::optional<std::vector<double>> numbers_in(std::string_view line, char separa
   return numbers;
 }
 
-// The positions of one axis in the rows, sorted and without repetition.
+// Sorts the positions of one axis and removes repeated positions.
 std::vector<double> places_of(std::vector<double> all) {
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -65,7 +65,7 @@ std::string isg_list(const VolumetricTable& t, const std::vector<std::string>& h
          kIsgTable + "\nfile_format[0] ISG_CSV\n";
 }
 
-// If u of any node is unknown, the largest u is unknown.
+// The largest u of all nodes in µm, or "unknown" if u of a node is unknown.
 std::string largest_u_text(const VolumetricTable& t, std::size_t axis) {
   double largest = 0;
   for (const Vec3& node : t.u_m) {
@@ -164,7 +164,7 @@ Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files) {
     ++n;
     if (line.starts_with("//")) continue;
     const auto words = words_in(line, ' ');
-    if (axes.empty()) {  // names of the columns
+    if (axes.empty()) {  // this line contains the names of the columns
       for (const std::string_view word : words)
         if (word.size() == 1 && kLinear.find(word[0]) != kLinear.npos)
           axes.push_back(kLinear.find(word[0]));
@@ -192,7 +192,7 @@ Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files) {
     }
     t.command_m[k] = places_of(std::move(places));
   }
-  // The controller's mode GRID accepts only complete grids.
+  // In the mode GRID the controller accepts only complete grids.
   if (rows.empty() || t.nodes() != rows.size())
     return bad_input(file->name + ": the rows do not form a complete grid of positions");
   resize_to_grid(t);
@@ -211,7 +211,8 @@ Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files) {
 
 namespace {
 
-// The step has more digits than a position, because KMotion multiplies it by the number of the row.
+// A length in inches. 12 decimals are necessary for a step, because KMotion multiplies it by the
+// number of the row.
 std::string inches(double m, int decimals = 12) {
   return fixed(m / kInch_m, decimals);
 }
@@ -238,7 +239,8 @@ Result<Export> write_dynomotion(const VolumetricTable& t, const ExportOptions& o
               inches(t.command_m[0][column] + c[0]) + "," + inches(t.command_m[1][row] + c[1]) +
               "," + inches(c[2]) + "\n";
     }
-  // KMotion reads the number of rows in the first line and ignores everything after them.
+  // KMotion reads as many rows as the first line states, and ignores the rest of the file. The
+  // comments are therefore at the end.
   text +=
       commented(head_of(t, options,
                         "columns: row number, column number, corrected command of X, corrected "

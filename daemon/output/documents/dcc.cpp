@@ -189,8 +189,7 @@ Result<std::string> dcc_xml(const Report& report) {
         "a certificate must name the country of the laboratory (ISO 3166-1, such as DE)",
         Remedy::state_in_report, "country");
   MDOF_TRY(const Days days, days_of(report));
-  // The identifier depends on the whole content, so that different documents have different
-  // identifiers.
+  // The identifier is a hash of the whole document; different documents have different identifiers.
   const std::string all = document(report, days, "mdof");
   return document(report, days, "mdof-" + sha256_hex(all));
 }

@@ -1,4 +1,4 @@
-// The results of a DCC: points as lists, figures as quantities, and information for readers.
+// Writes the results of a DCC: points as lists, figures as quantities, and texts for readers.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -43,7 +43,8 @@ std::string list_of(std::size_t rows, const ByRow& value) {
   return text;
 }
 
-// A quantity by row; `U` and `k` if the uncertainty is known.
+// Writes a list with the value of a quantity in each row, and with `U` and `k` if the uncertainty
+// is known.
 void write_list(Xml& xml, std::string_view type, std::string_view name, const char* unit,
                 std::size_t rows, const ByRow& value, const ByRow& U = {}, const ByRow& k = {}) {
   xml.open("dcc:quantity", {{"refType", type}});
@@ -188,7 +189,7 @@ void write_equipment(Xml& xml, const Rig& rig) {
 void write_decisions(Xml& xml, const std::vector<report::Decided>& decided) {
   for (const auto& [figure, decision] : decided) {
     const charts::Key key = charts::split_key(figure);
-    const auto shown = [&](double si) {  // for people; the figure itself is above
+    const auto shown = [&](double si) {  // a text for readers; the quantity was written above
       return charts::number_text(to_key_unit(si), 4) + " " + key.unit;
     };
     xml.open("dcc:metaData");

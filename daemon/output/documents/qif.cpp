@@ -35,7 +35,7 @@ bool is_stated(double u) {
   return std::isfinite(u) && u > 0;
 }
 
-// A measured characteristic of a run: a figure, or an error at a target from one side.
+// A measured characteristic of a run: a figure, or one error at one target with one approach.
 struct Characteristic {
   std::string key;  // "EYX_straightness_um", "EYX_um"
   std::string where;
@@ -52,7 +52,7 @@ struct Characteristic {
 
 struct Measured {
   std::size_t characteristic;
-  std::optional<double> value;  // unit of the key; also for the members below
+  std::optional<double> value;  // this and the following members are in the unit of the key
   double u, U, k;
   std::vector<std::pair<std::string, double>> attributes;
   std::string reason, status = "NOT_ANALYZED";
@@ -103,7 +103,7 @@ void add_points(Document& document, MeasuredRun& measured) {
   const Run& run = measured.run->results.run;
   const auto& known = measured.run->results.uncertainty.points;
   const auto& names = error_names(run.header.axis);
-  std::map<std::string, std::size_t> at;  // index of the characteristic by its name
+  std::map<std::string, std::size_t> at;  // [name] index of the characteristic
   for (std::size_t row = 0; row < run.points.size(); ++row) {
     const MeasuredPoint& p = run.points[row];
     const Errors5 errors = named_from_local(run.header.moving(), p.errors.local);
@@ -142,7 +142,7 @@ Document document_of(const Report& report) {
   for (const auto& pair : report.squareness) {
     if (!pair.results) continue;
     const Squareness& s = pair.results->squareness;
-    // Squareness belongs to two runs; it is written with the last one.
+    // The squareness is a result of two runs; the document states it with the last run.
     add_figure(document, document.runs.back(), pair.results->budget,
                {pair.results->budget.figure,
                 "of runs " + std::to_string(s.run_a) + " and " + std::to_string(s.run_b),
@@ -153,7 +153,8 @@ Document document_of(const Report& report) {
   return document;
 }
 
-// Ids: 1 is the standard; then three for each characteristic; then the runs and their measurements.
+// Ids in the document: 1 is the standard. Then each characteristic has three ids (Aspect). Then the
+// runs and their measurements have ids.
 constexpr std::size_t kStandard = 1, kFirst = 2;
 enum class Aspect : std::size_t { definition, nominal, item };
 std::string id_of(std::size_t characteristic, Aspect aspect) {
@@ -379,7 +380,7 @@ Result<std::string> qif_xml(const Report& report) {
   for (const ReportRun& run : report.runs)
     MDOF_CHECK(check_measured(run.results.run.header, "a QIF document"));
   const Document document = document_of(report);
-  // The UUID depends on the whole content, so that different documents have different UUIDs.
+  // The UUID is made from a hash of the whole document; different documents have different UUIDs.
   const std::string hash = sha256_hex(with_id(report, document, ""));
   return with_id(report, document,
                  hash.substr(0, 8) + "-" + hash.substr(8, 4) + "-" + hash.substr(12, 4) + "-" +

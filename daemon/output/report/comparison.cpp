@@ -1,4 +1,4 @@
-// The section of a report on two runs of an axis, before and after an action on the axis.
+// Writes the section of a report on two runs of an axis, before and after a change of the axis.
 #include "daemon/output/report/numbers.h"
 #include "daemon/output/report/sections.h"
 #include "daemon/words/words.h"
@@ -19,7 +19,7 @@ Phrase effect_phrase(daemon::Effect effect) {
                                                : Phrase::effect_not_shown;
 }
 
-// Text in the unit of the figure's key.
+// Value and uncertainty of a budget in the unit of the figure's key.
 std::string uncertain_text(const Budget& budget, const std::string& figure) {
   const bool angle = figure.ends_with("_urad");
   const auto shown = [&](double x) { return angle ? to_urad(x) : to_um(x); };

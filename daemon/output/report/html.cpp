@@ -63,7 +63,7 @@ void Html::element(std::string_view tag, std::string_view text, std::string_view
   text_ += '<' + name;
   if (!css_class.empty()) text_ += " class=\"" + std::string(css_class) + '"';
   text_ += '>';
-  if (tag == "pre") {  // keeps its line breaks
+  if (tag == "pre") {  // in the element "pre", line ends are kept
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = std::min(text.find('\n', at), text.size());
       text_ += xml_escaped(text.substr(at, end - at)) + (end < text.size() ? "\n" : "");

@@ -23,13 +23,13 @@ std::string option(const char* name, double value) {
   return std::string(" ") + name + " " + charts::exact_text(value);
 }
 
-// All options are written, even with default values, because a recording contains options that
-// would otherwise apply.
+// Writes all options, including those with default values. Otherwise the options in the recording
+// would apply.
 std::string options_of(const daemon::PipelineOptions& o) {
   std::string text = std::string(" --model ") + to_string(o.model) +
                      option("--max-gap-s", o.align.max_gap_s) +
                      option("--lag-bound-s", o.align.lag_bound_s);
-  if (!o.on_the_fly)  // a run on the fly has no stops
+  if (!o.on_the_fly)  // only a run with stops has these options
     text += option("--tolerance-um", to_um(o.dwell.tolerance_m)) +
             option("--settle-s", o.dwell.settle_s) + option("--min-length-s", o.dwell.min_length_s);
   if (!o.sequence.targets_m.empty()) {
@@ -40,7 +40,7 @@ std::string options_of(const daemon::PipelineOptions& o) {
   if (o.remove_drift) text += " --remove-drift";
   if (!o.on_the_fly) return text;
   text += " --on-the-fly";
-  // 0: the interval follows from the given targets or from the travel.
+  // If the interval is 0, mdof calculates it from the targets or from the travel.
   if (o.on_the_fly->interval_mm > 0) text += option("--interval-mm", o.on_the_fly->interval_mm);
   if (o.on_the_fly->bin_mm > 0) text += option("--bin-mm", o.on_the_fly->bin_mm);
   if (o.on_the_fly->from_mm) text += " --from-mm " + charts::exact_text(*o.on_the_fly->from_mm);
@@ -54,7 +54,7 @@ std::string import_options(const Run& run) {
   const double u = run.points.empty() ? std::nan("") : deviation_uncertainty(run.points.front());
   if (std::isfinite(u))
     text += option(imported_run_error(h).angle ? "--u-urad" : "--u-um", to_key_unit(u));
-  constexpr std::string_view kKind = "imported ";  // followed by the format
+  constexpr std::string_view kKind = "imported ";  // the name of the format follows
   if (h.provenance.recording_kind.starts_with(kKind))
     text += " --format " + h.provenance.recording_kind.substr(kKind.size());
   const RunOptions options = run_options(h);

@@ -24,7 +24,7 @@ std::string name_of_run(const ReportRun& run, Language language) {
   return phrase(Phrase::run_axis, language, {std::to_string(h.id), std::string(1, letter(h.axis))});
 }
 
-// Warnings that a reader must not miss come first.
+// Writes the warnings that a reader must see first.
 void write_alarms(Html& html, const Report& report) {
   for (const ReportRun& run : report.runs) {
     const bool noise_only = run.results.uncertainty.noise_only;

@@ -79,7 +79,8 @@ std::vector<std::string> point_row(const ReportRun& run, std::size_t row) {
   return cells;
 }
 
-// Conditions of an imported run: the instrument's measurement and the information in its file.
+// The conditions of an imported run: facts on the measurement by the other instrument, and the
+// information in its file.
 std::vector<std::pair<std::string, std::string>> conditions_of_imported(const Run& run,
                                                                         const std::string& state,
                                                                         Language language) {
@@ -141,8 +142,8 @@ void write_conditions(Html& html, const ReportRun& run, Language language) {
   if (run.superseded_by)
     state += ", " + phrase(Phrase::superseded, language, {std::to_string(*run.superseded_by)});
   if (is_imported(h)) return html.facts(conditions_of_imported(run.results.run, state, language));
-  const bool is_evaluation = h.provenance.recording_kind == "csv";  // the time of its start is
-                                                                    // unknown
+  const bool is_evaluation =
+      h.provenance.recording_kind == "csv";  // start of the measurement unknown
   html.facts({{of(is_evaluation ? Phrase::evaluated : Phrase::started), h.started_utc},
               {of(Phrase::state), state},
               {of(Phrase::temperature), temperature_of(h, language)},

@@ -1,4 +1,4 @@
-// Changes between two runs of an axis, target by target.
+// The chart of the changes between two runs of an axis, at each target.
 #include <array>
 #include <cmath>
 

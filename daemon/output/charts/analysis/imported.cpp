@@ -1,5 +1,5 @@
-// An imported run: the readings of another instrument, with the means of ISO 230-2 where the
-// readings give them.
+// The chart of an imported run: the readings of another instrument, and the means of ISO 230-2 if
+// there are enough readings.
 #include "algo/iso230/positioning/positioning.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/analysis/analysis_charts.h"
@@ -15,7 +15,8 @@ using output::phrase;
 
 namespace {
 
-// Keys as in JSON and CSV. Without them the chart would not show its sign convention.
+// The sign convention of the readings, with the keys of JSON and CSV. Without this text the chart
+// would not state its sign convention.
 std::string sense_of(const RunHeader& run) {
   if (run.provenance.model != positioning_name(run.axis)) return "";
   const ImportedSense stated = run_options(run).imported;

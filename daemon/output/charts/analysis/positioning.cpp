@@ -1,4 +1,5 @@
-// A test to ISO 230-2: every reading, the means of both approaches and their ± 2 s.
+// The chart of a test to ISO 230-2: every reading, the mean of each approach, and ± 2 s of each
+// approach.
 #include <array>
 
 #include "daemon/output/charts/analysis/analysis_charts.h"

@@ -1,4 +1,5 @@
-// Deviations with the three reference lines of ISO 230-1, and about the least-squares line.
+// The chart of deviations from straightness: the deviations with the three reference lines of ISO
+// 230-1, and the residuals from the least-squares line.
 #include <algorithm>
 #include <array>
 

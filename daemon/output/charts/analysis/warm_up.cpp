@@ -1,4 +1,4 @@
-// Drift rate of each reading of a parked axis, window by window.
+// The chart of a parked axis: the drift rate of each reading in each time window.
 #include <cmath>
 
 #include "daemon/output/charts/analysis/analysis_charts.h"

@@ -19,9 +19,10 @@ using output::Phrase;
 using output::phrase;
 
 constexpr double kCellsLongestPx = 600, kCellsLeftPx = 60, kScalePx = 16, kScaleTextPx = 64;
-constexpr int kShades = 10;  // classes height-0 (lowest) to height-9 of style.h
+constexpr int kShades = 10;  // CSS classes height-0 (lowest) to height-9 in style.cpp
 
-// Groups of neighbouring pixels, with equal columns and rows in all cells except the last.
+// The cells of the chart. Each cell contains `pixels` × `pixels` pixels; the last cells of a row or
+// column may contain fewer.
 struct Cells {
   std::size_t pixels = 1;  // along one side of a cell
   std::size_t nx = 0, ny = 0;
@@ -88,7 +89,7 @@ void draw_cells(Svg& svg, const Panel& panel, const SurfaceMap& map, const Cells
     }
 }
 
-// The heights of the shades, with the lowest at the bottom.
+// Draws the colour scale with its heights; the lowest height is at the bottom.
 void draw_scale(Svg& svg, const Panel& panel, const Shades& shades) {
   const double x = panel.corner.x + panel.width + 20,
                step = std::min(panel.height, 200.0) / kShades;

@@ -22,7 +22,7 @@ std::string in_um(Phrase name, Language language) {
   return std::string(phrase(name, language)) + "_um";
 }
 
-// One turn, closed by its first point.
+// Draws the wall along one turn. The first point is repeated at the end of the turn.
 void draw_turn(Svg& svg, const Panel& panel, const char* name, const char* mark,
                const algo::WallLine& line, double turn_m) {
   const std::size_t n = line.outward_m.size();
@@ -34,7 +34,7 @@ void draw_turn(Svg& svg, const Panel& panel, const char* name, const char* mark,
   svg.polyline(mark, places);
 }
 
-// The mean at a height, and a line across from the minimum to the maximum of the turn.
+// Draws the mean at one height, and a line from the minimum to the maximum at this height.
 void draw_mean(Svg& svg, const Panel& panel, const algo::WallLine& line, std::size_t row) {
   const auto [least, most] = std::minmax_element(line.outward_m.begin(), line.outward_m.end());
   const double x = to_um(line.height_m), y = to_um(line.mean_m()), low = to_um(*least),

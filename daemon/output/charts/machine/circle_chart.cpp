@@ -21,7 +21,7 @@ using output::phrase;
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kCircleLegendPx = 44, kOutsidePx = 150, kBasePx = 95;
-constexpr int kDivisions = 3;  // at most, on each side of the nominal circle
+constexpr int kDivisions = 3;  // largest number of scale circles on each side of the nominal circle
 
 struct PolarScale {
   Place centre;

@@ -17,8 +17,10 @@ using output::Phrase;
 using output::phrase;
 
 constexpr double kViewPx = 280, kArrowPx = 34, kViewTopPx = 104;
-constexpr double kDimensionPx = 12,
-                 kTickLengthPx = 4;  // dimension lines from the panel, and their ends
+constexpr double
+    kDimensionPx = 12,
+    kTickLengthPx =
+        4;  // distance of a dimension line from the panel; length of the lines at its ends
 
 double longest_span_mm(const Rig& rig) {
   double longest = 1;
@@ -30,7 +32,7 @@ double longest_span_mm(const Rig& rig) {
   return longest;
 }
 
-// All views have the same scale and space for the arrows.
+// The range of one view along `axis`. All views have the same scale, and space for the arrows.
 Range range_in_view(const Rig& rig, std::size_t axis, double span_mm) {
   Range range;
   for (const Probe& probe : rig.probes) range.include(to_mm(probe.position_m[axis]));
@@ -40,7 +42,8 @@ Range range_in_view(const Rig& rig, std::size_t axis, double span_mm) {
   return range;
 }
 
-constexpr double kNamePx = 14;  // names of probes one behind the other are written in a row
+constexpr double kNamePx =
+    14;  // if a probe covers another one in a view, their names are written side by side
 
 Place place_of(const Panel& panel, const Probe& probe, std::size_t up) {
   return panel.at(to_mm(probe.position_m[0]), to_mm(probe.position_m[up]));
@@ -79,7 +82,7 @@ void draw_probe(Svg& svg, const Panel& panel, const Rig& rig, std::size_t k, std
   svg.end_group();
 }
 
-// Positions of the probes along `axis`, without repetition.
+// The positions of the probes along `axis`; each position once.
 std::vector<double> places_mm(const Rig& rig, std::size_t axis) {
   constexpr double kSamePlace_mm = 1e-6;
   std::vector<double> places;
@@ -90,8 +93,9 @@ std::vector<double> places_mm(const Rig& rig, std::size_t axis) {
   return places;
 }
 
-// Dimension lines between neighbouring probe positions: above the panel for x, at its right for y.
-// If a number does not fit, it is left out; the table of probes has it.
+// Draws dimension lines between neighbouring probe positions: above the panel for horizontal
+// distances, to the right of the panel for vertical distances. If a number does not fit, it is
+// omitted; the table of probes contains it.
 void draw_dimensions(Svg& svg, const Panel& panel, const Rig& rig, std::size_t axis) {
   const bool level = axis == 0;
   const double line =

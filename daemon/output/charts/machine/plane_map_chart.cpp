@@ -34,7 +34,8 @@ double largest_um(const algo::PlaneMap& map) {
   return largest;
 }
 
-// The longest arrow is about as long as the distance of neighbouring points.
+// The factor by which the arrows are enlarged: the longest arrow is about as long as the distance
+// between neighbouring points.
 double arrow_enlargement(const algo::PlaneMap& map, double largest) {
   const auto step = [](const std::vector<double>& at) {
     return at.size() > 1 ? at[1] - at[0] : 1e-2;

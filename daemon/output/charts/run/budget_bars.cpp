@@ -1,4 +1,4 @@
-// The uncertainty budget of a figure: bars of the contributions to u.
+// The chart of the uncertainty budget of a figure: a bar for each contribution to u.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -23,13 +23,13 @@ constexpr std::size_t kMostContributors = 12, kLongestContributor = 44;
 
 struct Bar {
   std::string name;
-  double value = 0;  // size of the contribution, in the unit of the figure
+  double value = 0;  // absolute value of the contribution, in the unit of the figure
   double share = 0;
-  double contribution = 0;  // with its sign
+  double contribution = 0;  // with sign
   const char* mark = "blue-dot";
 };
 
-// The largest contributions, then the sum of the others, then the total: u.
+// The bars: the largest contributions, then the sum of the other contributions, then u.
 std::vector<Bar> contributor_bars(const Budget& budget, Language language) {
   std::vector<Bar> bars;
   double rest = 0, share = 0;

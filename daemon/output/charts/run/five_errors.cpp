@@ -1,4 +1,5 @@
-// The five errors of a run by position: all points, U, and the mean of each approach.
+// The chart of the five errors of a run against the position: all points, U, and the mean of each
+// approach.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -41,7 +42,8 @@ void draw_means(Svg& svg, const Panel& panel, const ApproachMeans& of, std::size
   if (places.size() > 1) svg.polyline(line_of(of.direction), places);
 }
 
-// "U = 0.0078–0.0081 µm (k = 2.05, 95 %)", because a band may be narrower than its markers.
+// "U = 0.0078–0.0081 µm (k = 2.05, 95 %)". The chart states U as text, because the band of U may be
+// narrower than the symbols.
 std::string U_line(const StatedResults& results, std::size_t named, Language language) {
   const std::string unit = split_key(error_names(results.run.header.axis)[named].key).unit;
   Range U, k;

@@ -1,5 +1,6 @@
-// Differences between the visits of a target: each error minus the mean of its target and approach,
-// over the position (repeatability) and over the time of the run (drift).
+// The charts of the differences between the visits of a target. A difference is the error at one
+// visit minus the mean error of this target and approach. One chart shows it against the position
+// (repeatability), the other against the time of the run (drift).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,18 +25,18 @@ using output::Phrase;
 using output::phrase;
 
 constexpr double kScatterLegendPx = 44;
-using Visited = std::pair<int, int>;  // target, direction
+using Visited = std::pair<int, int>;  // target number, direction of the approach
 
 struct Visits {
-  double sum = 0, squares = 0;  // sums over the differences
+  double sum = 0, squares = 0;  // sum of the errors; sum of the squared differences
   std::size_t n = 0;
 };
 
-// Scatter of points with errors whose target was visited again from the same side.
+// The differences of all solved points whose target was visited several times from the same side.
 struct Scatter {
   std::array<std::vector<Mark>, kErrorCount> marks;
-  std::array<double, kErrorCount> largest_s{};  // largest s of a target and approach, n - 1; in the
-                                                // unit of the key
+  std::array<double, kErrorCount> largest_s{};  // largest standard deviation of a target and
+                                                // approach (divisor n - 1), in the unit of the key
 };
 
 bool is_visit(const Mark& mark) {
@@ -58,7 +59,7 @@ Scatter scatter_of(const StatedResults& results) {
       Visits& visits = targets[{mark.target, mark.direction}];
       if (visits.n < 2) continue;
       mark.y -= visits.sum / static_cast<double>(visits.n);
-      mark.U = std::nan("");  // U belongs to the error, not to the difference between visits
+      mark.U = std::nan("");  // U is the uncertainty of the error, not of this difference
       visits.squares += mark.y * mark.y;
       scatter.marks[k].push_back(std::move(mark));
     }
@@ -70,7 +71,8 @@ Scatter scatter_of(const StatedResults& results) {
   return scatter;
 }
 
-// Sets x to the time in s from the first stop to the middle of each stop.
+// Sets x of each symbol to the time in s from the beginning of the first stop to the middle of its
+// own stop.
 void place_in_time(Scatter& scatter, const Run& run) {
   const std::int64_t first_ns = run.points.front().point.begin_ns;
   for (auto& marks : scatter.marks)
@@ -82,7 +84,7 @@ void place_in_time(Scatter& scatter, const Run& run) {
 
 struct ScatterChart {
   Phrase title, note;
-  const char* x_key;    // key of the data
+  const char* x_key;    // name of the data-… attribute
   std::string x_label;  // label of the axis
 };
 

@@ -13,13 +13,13 @@ namespace {
 using output::Phrase;
 using output::phrase;
 
-constexpr double kMarkPx = 3.6;  // half the size of a marker
-constexpr double kDiscPx = 2.3;  // smaller, so that a disc is visible inside a square at the same
-                                 // place
+constexpr double kMarkPx = 3.6;  // half the width of a symbol
+constexpr double kDiscPx = 2.3;  // radius of a disc; it is smaller than kMarkPx so that it is
+                                 // visible inside a square at the same place
 constexpr double kNoteLinePx = 17;
-constexpr double kMarksLinePx = 18;  // line height of a mark in the head
+constexpr double kMarksLinePx = 18;  // line height of a warning below the title
 constexpr std::size_t kMostHeadMarks = 3, kLongestMark = 118;
-constexpr std::array kDirections = {0, -1, 1};  // discs last
+constexpr std::array kDirections = {0, -1, 1};  // order of drawing: discs (1) last
 
 const char* name_of(int direction) {
   return direction > 0 ? "forward" : direction < 0 ? "reverse" : "unknown";
@@ -85,7 +85,7 @@ void draw_columns(Svg& svg, const Panel& panel, const std::vector<Mark>& marks, 
   }
 }
 
-// Breaks at blanks; a word longer than a line is cut.
+// Divides a text into lines at blanks. A word that is longer than a line is cut.
 std::vector<std::string> lines_within(const std::string& text, double room_px) {
   std::vector<std::string> lines;
   std::string line;
@@ -123,8 +123,8 @@ void draw_band_of(Svg& svg, const Panel& panel, const std::vector<Mark>& marks, 
                    [](const Column& a, const Column& b) { return a.x < b.x; });
   if (band.empty()) return;
   std::vector<Place> outline;
-  const double wing = band.size() == 1 ? 2 * kMarkPx : 0;  // with one target the band would have no
-                                                           // width
+  const double wing =
+      band.size() == 1 ? 2 * kMarkPx : 0;  // the band of a single target needs a width
   for (const Column& c : band) {
     const Place at = panel.at(c.x, c.high);
     if (wing > 0) outline.push_back({at.x - wing, at.y});

@@ -1,4 +1,4 @@
-// The squareness of two axes: both axes relative to the square, with enlarged errors.
+// The chart of the squareness of two axes: both axes relative to the square, with enlarged errors.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -21,10 +21,11 @@ using output::Phrase;
 using output::phrase;
 
 constexpr double kPicturePx = 430, kPictureLegendPx = 62;
-constexpr double kErrorShare = 0.25;  // share of an axis length that the largest error gets
+constexpr double kErrorShare =
+    0.25;  // length of the largest error in the chart / length of an axis
 
-// One axis over the travel of its moving body: positions, errors towards + of the other axis, and
-// the line through them, which begins at 0.
+// One axis along the travel of its moving body: positions, errors (positive towards + of the other
+// axis), and the line through the errors, which begins at 0.
 struct AxisPath {
   std::vector<double> along_mm, across_um;
   double from_mm = 0, to_mm = 0, slope_um_per_mm = 0;
@@ -45,7 +46,7 @@ AxisPath path_of(const Run& run, std::size_t named, double slope_rad, double tur
   path.from_mm = to_mm(along(means.front()));
   path.to_mm = to_mm(along(means.back()));
   path.slope_um_per_mm = (slope_rad + turned_rad) * 1e3;
-  double mean_left = 0;  // mean residual about the slope; the points are shifted so that it is 0
+  double mean_left = 0;  // mean residual from the line; it is subtracted from all points
   for (const algo::TargetMean& m : means) {
     path.along_mm.push_back(to_mm(along(m)));
     path.across_um.push_back(to_um(m.named[named] + turned_rad * along(m)));
@@ -56,7 +57,8 @@ AxisPath path_of(const Run& run, std::size_t named, double slope_rad, double tur
   return path;
 }
 
-// A round factor that enlarges the largest error to a share of an axis.
+// The factor by which the errors are enlarged. It is a round number, and the largest error becomes
+// about kErrorShare of an axis.
 double enlargement(const AxisPath& x, const AxisPath& y) {
   double largest_um = 0;
   for (const AxisPath* path : {&x, &y}) {
@@ -71,7 +73,8 @@ double enlargement(const AxisPath& x, const AxisPath& y) {
 struct Picture {
   Panel panel;
   double factor = 1, x0_mm = 0, y0_mm = 0;
-  // X is along the panel's x from 0; a positive error in Y's direction points upwards.
+  // A point of the axis X, which is horizontal and begins at 0. A positive error (towards + of Y)
+  // points upwards.
   Place on_x(double along_mm, double across_um) const {
     return panel.at(along_mm - x0_mm, across_um * factor / 1e3);
   }
@@ -91,7 +94,7 @@ Picture picture_of(const AxisPath& x, const AxisPath& y, double top) {
     range->include(-0.35 * length);
     range->include(1.1 * length);
   }
-  picture.panel.width = picture.panel.height = kPicturePx;  // true to scale
+  picture.panel.width = picture.panel.height = kPicturePx;  // the same scale for both axes
   picture.panel.corner = {kMarginPx + 40, top};
   picture.panel.x = horizontal_axis(across, kPicturePx);
   picture.panel.y = vertical_axis(up, kPicturePx);
@@ -123,7 +126,7 @@ void draw_path(Svg& svg, const AxisPath& path, On on, int direction, const char*
 std::string squareness_svg(const SquarenessResults& results, Language language) {
   const Squareness& s = results.squareness;
   const Budget& b = results.budget;
-  // The angle of the square rotates the readings against its second face.
+  // The readings against the second face of the square are turned by the angle error of the square.
   const std::string name = squareness_name(s.axes);
   const std::string a(1, letter(s.axes.a)), b_axis(1, letter(s.axes.b));
   const AxisPath x =

@@ -1,5 +1,5 @@
-// Straightness of a run: target means with their reference lines, and their residuals about the
-// least-squares line (ISO 230-1).
+// The chart of the straightness of a run: the mean error at each target with the reference lines,
+// and the residuals from the least-squares line (ISO 230-1).
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -25,11 +25,12 @@ using output::phrase;
 constexpr double kLinesLegendPx = 64;
 constexpr const char* kMeanLine = "ink thin";
 
-// The means of one approach with their reference lines; direction 0: the mean of both approaches.
+// The means of one approach, with their reference lines. `direction` 0: the means of both
+// approaches together.
 struct ApproachSeries {
   int direction = 0;
-  std::vector<Mark> means;      // µm over mm
-  std::vector<double> left_um;  // residuals about the least-squares line
+  std::vector<Mark> means;      // y in µm, x in mm
+  std::vector<double> left_um;  // residuals from the least-squares line
   const ReferenceLines* lines = nullptr;
 };
 
@@ -50,7 +51,8 @@ const ReferenceLines* lines_through(const StatedResults& results, const std::str
   return nullptr;
 }
 
-// The value of the line at the encoder's position; lines are over the body's own travel in M.
+// The value of a reference line at an encoder position. The line is a function of the travel of the
+// moving body in M.
 double at_position_m(const ReferenceLine& line, const Sides& sides, double position_m) {
   return line.intercept_m + line.slope_rad * sides.moving_body_travel_m(position_m);
 }
@@ -96,7 +98,7 @@ std::vector<StraightnessOfError> all_straightness(const StatedResults& results) 
 
 struct DrawnLine {
   const char* mark;
-  const char* name;  // as in the result documents
+  const char* name;  // name in the result documents
   Phrase words;
   ReferenceLine ReferenceLines::*line;
 };
@@ -131,7 +133,8 @@ void draw_line_through(Svg& svg, const Panel& panel, const char* mark,
   if (line.size() > 1 && line.size() <= kMostMarks) svg.polyline(mark, line);
 }
 
-// The mean of both approaches gets markers only if there are no separate approaches.
+// Whether the means of a series are drawn as symbols. The mean of both approaches is drawn only if
+// the run has no separate approaches.
 bool is_drawn(const StraightnessOfError& error, const ApproachSeries& series) {
   return series.direction != 0 || error.approaches.size() == 1;
 }
@@ -167,7 +170,7 @@ void draw_left(Svg& svg, const Panel& panel, const StraightnessOfError& error) {
   draw_marks(svg, panel, drawn);
 }
 
-// All three figures of an error; the first one has its U.
+// A line with the three straightness figures of an error; the first figure has its U.
 std::string figure_line(const StatedResults& results, const StraightnessOfError& error,
                         Language language) {
   const ApproachSeries* both = error.both();

@@ -1,4 +1,5 @@
-// A compensation table: its errors by position, with separate forward and reverse values.
+// The chart of a compensation table: the errors against the position, with separate forward and
+// reverse values.
 #include <cmath>
 #include <vector>
 
@@ -24,10 +25,10 @@ constexpr double kTableLegendPx = 44;
 struct TableSeries {
   std::string key;  // "EYX_um"
   std::vector<Mark> marks;
-  std::string correction;  // how the error is corrected, or why it is not
+  std::string correction;  // how the error is corrected, or why it is not corrected
 };
 
-// Marks with the standard uncertainty, because a table has no k.
+// Adds symbols with the standard uncertainty u, because a table contains no coverage factor k.
 void add_marks(std::vector<Mark>& marks, const CompensationTable& table, int direction,
                const std::vector<double>& values, const std::vector<double>& u) {
   for (std::size_t i = 0; i < table.position_m.size(); ++i) {
@@ -106,7 +107,8 @@ std::string table_svg(const CompensationTable& table, const std::vector<std::str
   const std::string about = phrase(Phrase::table_sense, language, {table.sides.moves()}) +
                             ", SHA-256 " + table.sha256.substr(0, 16) + "…";
   std::vector<std::string> notes;
-  for (std::size_t i = 0; i < all.size();) {  // series with the same text share a note
+  for (std::size_t i = 0;
+       i < all.size();) {  // neighbouring series with the same text get one common note
     std::string names;
     const std::string& words = all[i].correction;
     for (; i < all.size() && all[i].correction == words; ++i)

@@ -1,5 +1,5 @@
-// Each output against the binned quantity (usually the travel): mean, spread and extremes of each
-// bin.
+// The plot of each output against the binned quantity, which is usually the travel: mean, coverage
+// interval and extremes of each bin.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,14 +15,15 @@ namespace mdof::charts {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-// Extremes beyond this number of intervals are cut off, because they would hide everything else.
+// The plot shows extremes up to this distance from the intervals, in multiples of the range of all
+// intervals. If it showed all extremes, the intervals could be too small to be visible.
 constexpr double kFarthest = 4;
 
 struct BinnedOutput {
   std::string key;
   std::vector<Step> mean, sd, interval, minimum, maximum;
   Range y;
-  bool cut = false;  // an extreme is outside y
+  bool cut = false;  // true: an extreme is outside the range y
 };
 
 const OutputSummary* find(const StudyBin& bin, const std::string& key) {
@@ -31,7 +32,7 @@ const OutputSummary* find(const StudyBin& bin, const std::string& key) {
   return found == bin.outputs.end() || found->n == 0 ? nullptr : &*found;
 }
 
-// A bin without a solved trial becomes a gap.
+// Adds one bin. A bin without a solved trial makes a gap.
 void add_bin(BinnedOutput& out, const StudyBin& bin) {
   const auto add = [&](std::vector<Step>& steps, double low, double high) {
     steps.push_back({bin.from, bin.to, low, high});

@@ -1,5 +1,5 @@
-// Convergence of the figures of each output: the difference from the last value against the number
-// of trials.
+// The plot of the convergence of each output: the difference of its figures from their last values,
+// against the number of trials.
 #include <algorithm>
 #include <array>
 #include <cmath>

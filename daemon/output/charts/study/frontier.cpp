@@ -1,5 +1,5 @@
-// The frontier of an allocation: for each value of the first tolerance, the largest second
-// tolerance for which both together satisfy the limit.
+// The plot of an allocation of two tolerances. The frontier shows, for each value of the first
+// tolerance, the largest second tolerance at which the output is still within its limit.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -18,7 +18,8 @@ struct Point {
   double first = 0;
   AllocatedTolerance second;
 };
-// One allocation and one pair of tolerances; points in ascending order of the first.
+// One pair of tolerances of an allocation. The points are in ascending order of the first
+// tolerance.
 struct Frontier {
   const Allocation* allocation = nullptr;
   std::string first_key, second_key;
@@ -41,7 +42,8 @@ void add_point(std::vector<Frontier>& all, const Allocation& allocation,
   at->points.push_back({pair[0].value, pair[1]});
 }
 
-// If the second tolerance has no influence, its value is infinite and no point is drawn.
+// Whether points are not drawn. If the second tolerance has no influence, its value is infinite,
+// and the point is not drawn.
 bool leaves_some_out(const StudyResult& result) {
   const auto left_out = [](const Allocation& a) {
     return std::any_of(a.frontier.begin(), a.frontier.end(),
@@ -87,7 +89,7 @@ Range second_range(const Frontier& f) {
   return y;
 }
 
-// All points on and below the line satisfy the limit.
+// Draws the area below the frontier. At all points in this area the output is within its limit.
 void draw_allowed(Svg& svg, const Panel& panel, const Frontier& f) {
   std::vector<Place> line;
   for (const Point& p : f.points) line.push_back(panel.at(p.first, p.second.value));

@@ -1,4 +1,5 @@
-// The distribution of one output: bars, and above them the mean and coverage intervals to scale.
+// The plot of the distribution of one output: the histogram, and above it the mean and the coverage
+// intervals on the same axis.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,11 +15,11 @@ namespace {
 
 constexpr double kIntervalPx = 22, kBarsPx = 250, kLeftPx = 132;
 
-// An interval above the bars: its name at the left, its figures at the right.
+// An interval above the histogram. Its name is at the left, its figures are at the right.
 struct Row {
   std::string name, figures;
-  const char* mark;   // mark of the interval's line
-  const char* guide;  // mark of the lines down through the bars
+  const char* mark;   // CSS class of the line of the interval
+  const char* guide;  // CSS class of the vertical lines from its ends through the histogram
   double low, high;
 };
 
@@ -36,8 +37,8 @@ std::array<Row, 3> rows_of(const OutputSummary& o) {
             o.shortest.high}}};
 }
 
-// Bars with a share in % of the solved trials. A bar of zero width (a constant) becomes as wide as
-// the surrounding range allows.
+// The bars of the histogram, with their share of the solved trials in %. If all values are equal,
+// the only bar has no width; it then gets the width of the axis around the value.
 std::vector<Step> bars_of(const OutputSummary& o) {
   const Histogram& h = o.histogram;
   const bool flat = !(h.width > 0) || !std::isfinite(h.width);
@@ -98,7 +99,7 @@ std::string extremes_line(const OutputSummary& o) {
   return line;
 }
 
-// Trials that the bars do not show; "" if they show all trials.
+// A text with the number of trials that the histogram does not show; "" if it shows all trials.
 std::string missing_line(const OutputSummary& o) {
   std::string line;
   if (o.histogram.below + o.histogram.above > 0)
@@ -115,7 +116,7 @@ std::string in_words(const StudyResult& result, const OutputSummary& o) {
   return words + extremes_line(o) + ". " + missing_line(o);
 }
 
-// The right margin fits the figures of the rows.
+// The right margin is wide enough for the figures of the intervals.
 Panel panel_of(const OutputSummary& o, const std::vector<Step>& bars) {
   double right = 0;
   for (const Row& row : rows_of(o)) right = std::max(right, text_width(row.figures, kTextPx));

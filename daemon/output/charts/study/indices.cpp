@@ -1,4 +1,5 @@
-// Causes of the scatter of each output: bars of the first-order and total index of every cause.
+// The plot of the sensitivity indices of each output: bars of the first-order index and of the
+// total index of every cause.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace mdof::charts {
 namespace {
 
 constexpr double kCausePx = 30, kBarPx = 9, kAboveCausesPx = 40, kBelowCausesPx = 52;
-constexpr double kFiguresPx = 128;  // a column of figures at the right
+constexpr double kFiguresPx = 128;  // width of the column of figures at the right
 constexpr std::size_t kMostCauses = 20, kLongestName = 36;
 
 std::size_t shown(const OutputIndices& output) {
@@ -28,7 +29,7 @@ std::string with_se(double index, double se) {
   return fixed_text(index, 3) + " ± " + fixed_text(se, 3);
 }
 
-// 0 to 1, extended if estimates scatter beyond this range.
+// The axis of the indices: 0 to 1, or wider if an estimate is outside this range.
 Axis index_axis(const StudyResult& result, double length_px) {
   Range range;
   range.include(0);

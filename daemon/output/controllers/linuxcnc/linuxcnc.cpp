@@ -42,7 +42,8 @@ std::vector<int> joints_of(char axis, const ExportOptions& options) {
   return numbers;
 }
 
-// The constant that makes the trim 0 at home. If home is unknown, a note states the trim at 0.
+// The constant that must be subtracted to make the trim 0 at home. If home is unknown, the constant
+// is 0, and a note states the trim at the position 0.
 double zero_of(const Series& s, const ExportOptions& options, Export& out) {
   const std::optional<double> home_m = options.home_m(s.along);
   const double there = s.factor * mean_error_at(s, home_m.value_or(0.0));
@@ -131,7 +132,7 @@ Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int t
   return read;
 }
 
-// Ini lines of one joint.
+// The values in the ini lines of one joint.
 struct JointLines {
   std::string file;
   int type = 0;  // LinuxCNC's default
@@ -210,7 +211,8 @@ Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<Controlle
     const ControllerFile* file = find_file(files, joints[j].file);
     if (!file)
       return bad_input(joints[j].file + ": the file is missing, so LinuxCNC would not start");
-    // The axis follows from the file name, because joints have no axis.
+    // The first letter of the file name is the axis, because the ini file does not state the axis
+    // of a joint.
     const std::size_t axis = std::string_view(kAxes).find(joints[j].file.front());
     if (axis == std::string_view::npos)
       return bad_input(joints[j].file +

@@ -44,7 +44,8 @@ void note_ramp(const Series& s, const ExportOptions::Ramp& ramp, Export& out) {
                       um_text(held.above_m) + " and up to " + um_text(held.up_to_m) + kRampRemedy);
 }
 
-// The MAX_ACCELERATION for which a step is not applied is proportional to the step.
+// Adds a note on values of MAX_ACCELERATION for which a step is not applied. These values are
+// proportional to the step.
 void note_unknown_ramp(const Series& s, Export& out) {
   double least = INFINITY, most = 0;
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {
@@ -54,7 +55,8 @@ void note_unknown_ramp(const Series& s, Export& out) {
     most = std::max(most, reversal);
   }
   if (!(most > 0)) return;
-  const double up_to_m = unapplied_steps({s.along, 1.0, kLinuxCncPeriod_s}).up_to_m;  // at 1 m/s²
+  const double up_to_m =
+      unapplied_steps({s.along, 1.0, kLinuxCncPeriod_s}).up_to_m;  // if MAX_ACCELERATION is 1 m/s²
   out.notes.push_back(
       s.error +
       ": MAX_ACCELERATION of the joint is unknown. At some positions, LinuxCNC does not apply the "

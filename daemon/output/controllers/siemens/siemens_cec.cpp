@@ -20,17 +20,18 @@ constexpr double kSamePlace_m = 1e-10;
 constexpr const char* kFile = "NC_CEC.INI";
 constexpr const char* kHead = "%_N_NC_CEC_INI";
 
-// One table of the control.
+// One CEC table of the control.
 struct CecTable {
   char input = 'X', output = 'X';
   int direction = 0;  // direction of the input axis: 1 positive, -1 negative, 0 both
   double first_m = 0, step_m = 0;
-  std::vector<double> correction_m;  // correction, or one factor of a product
-  std::size_t multiply_by = 0;       // index + 1 of the table with the other factor
+  std::vector<double> correction_m;  // the correction, or one factor of a product
+  std::size_t multiply_by = 0;       // index + 1 of the table with the other factor; 0: no product
 };
 
-constexpr int kDecimalsOfAxis = 6;    // mm
-constexpr int kDecimalsOfVolume = 9;  // about ten tables add up
+constexpr int kDecimalsOfAxis = 6;  // mm
+constexpr int kDecimalsOfVolume =
+    9;  // mm; more decimals, because the control adds about ten tables
 
 std::string cec_text(std::size_t t, const CecTable& table, const std::string& error,
                      int decimals = kDecimalsOfAxis) {
@@ -57,7 +58,7 @@ CecTable table_of(const Series& s, const EqualSteps& e, const std::vector<double
   return table;
 }
 
-// Writes the errors of one table of mdof; `t` is the next table number of the control.
+// Writes the errors of one compensation table. `t` is the number of the next CEC table.
 Status add_errors(const CompensationTable& table, const ExportOptions& options, Export& out,
                   std::string& text, std::size_t& t) {
   const std::string of_table = " of table " + std::to_string(table.id) + ": ";
@@ -146,8 +147,8 @@ AppliedCorrection applied_by(const CecTable& table) {
   return applied;
 }
 
-// Adds up tables of the same output axis, as the control does. Tables of one error have the same
-// positions.
+// Adds `more` to the correction of the same error, if there is one, as the control does. All tables
+// of one error have the same positions.
 bool add_to(std::vector<AppliedCorrection>& all, const AppliedCorrection& more) {
   for (AppliedCorrection& one : all) {
     if (one.error != more.error) continue;
@@ -192,8 +193,8 @@ std::string file_text(const std::string& head, const std::string& tables) {
          kMetricOnly + "CHANDATA(1)\n" + tables + "M17\n";
 }
 
-// Compares the number of tables with the given limit of the control; without one, a note states
-// that of an 828D.
+// Error: the number of tables exceeds the limit that the user stated for the control. If the user
+// stated no limit, adds a note with the limit of an 828D.
 Status check_count(std::size_t tables, const ExportOptions& options, Export& out) {
   const std::string count = std::to_string(tables) + " CEC tables are needed, but ";
   if (options.siemens_tables > 0 && tables > options.siemens_tables)
@@ -205,7 +206,7 @@ Status check_count(std::size_t tables, const ExportOptions& options, Export& out
   return {};
 }
 
-// Errors that were left out must be stated in the file itself.
+// Comment lines with the omitted errors; the file itself must state them.
 std::string left_out_lines(const Export& out) {
   std::string text;
   for (const std::string& left : out.left_out)
@@ -255,9 +256,10 @@ Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile
 namespace {
 
 constexpr std::string_view kLinearAxes = "XYZ";
-constexpr double kProductAccuracy_m = 2e-9;  // accuracy of the common effect of two axes
+constexpr double kProductAccuracy_m =
+    2e-9;  // accuracy with which the sum represents the common effect of two axes
 
-// Converts a factor in √m to the written number, so that the product of two numbers is in mm.
+// Converts factors in √m to the numbers in the file. The product of two such numbers is in mm.
 std::vector<double> factor_numbers(std::vector<double> factor) {
   for (double& x : factor) x *= std::sqrt(1e-3);
   return factor;
@@ -271,7 +273,7 @@ double largest_factor(const std::vector<CecTable>& tables) {
   return most;
 }
 
-// Adds the tables of one output axis.
+// Adds the CEC tables of one output axis.
 void add_correction(const VolumetricTable& t, const std::array<double, 3>& step_m, char output,
                     const algo::SeparableCorrection& sum, std::vector<CecTable>& tables) {
   const auto add = [&](std::size_t axis, const std::vector<double>& values, bool multiply) {
@@ -286,8 +288,8 @@ void add_correction(const VolumetricTable& t, const std::array<double, 3>& step_
   }
 }
 
-// The commands of the nodes along an axis, from its tables. All of its tables have the same
-// commands.
+// The positions of the nodes along an axis. All CEC tables with this input axis have the same
+// positions.
 Result<std::vector<double>> node_commands(const std::vector<CecTable>& tables, char axis) {
   std::vector<double> commands;
   for (const CecTable& table : tables) {
@@ -304,8 +306,8 @@ Result<std::vector<double>> node_commands(const std::vector<CecTable>& tables, c
   return commands;
 }
 
-// The value that the control adds at a node: the sum of its tables and products. The second factor
-// of a product is not added as a table.
+// The correction that the control applies at a node: the sum of all tables and products. A table
+// that is the second factor of a product is not a summand itself.
 Vec3 sum_at(const std::vector<CecTable>& tables, const std::array<std::size_t, 3>& index) {
   const auto value = [&](const CecTable& table) {
     return table.correction_m[index[kLinearAxes.find(table.input)]];
@@ -317,7 +319,7 @@ Vec3 sum_at(const std::vector<CecTable>& tables, const std::array<std::size_t, 3
   for (std::size_t t = 0; t < tables.size(); ++t) {
     if (is_factor[t]) continue;
     const std::size_t by = tables[t].multiply_by;
-    // Factors are numbers in mm, so that the product is in mm, too.
+    // In the file, the product of the two numbers is in mm.
     const double factor = by > 0 ? to_mm(value(tables[by - 1])) : 1;
     sum[kLinearAxes.find(tables[t].output)] += value(tables[t]) * factor;
   }

@@ -13,17 +13,17 @@ namespace mdof::controllers {
 namespace {
 
 constexpr const char* kLecHead = "%_N_AX_EEC_INI";
-constexpr double kStepOfLec_m = 2e-9;  // step and rounding of the numbers
+constexpr double kStepOfLec_m = 2e-9;  // step of the numbers in the file, with rounding
 
-// ENC_COMP has one value for both approaches.
+// The series with the mean of both approaches, because ENC_COMP has one value for both.
 Series mean_of_approaches(Series s) {
   for (std::size_t i = 0; i < s.position_m.size(); ++i)
     s.forward[i] = s.reverse[i] = 0.5 * (s.forward[i] + s.reverse[i]);
   return s;
 }
 
-// Error: the residual of the mean is larger than the self-test accepts, and the user did not allow
-// it.
+// Error: the mean of both approaches leaves a larger error than the self-test accepts, and the user
+// did not set ExportOptions::one_approach.
 Status check_reversal(const CompensationTable& table, const Series& s, const ExportOptions& options,
                       Export& out) {
   const double largest = largest_error_m(s);
@@ -47,7 +47,8 @@ Status check_reversal(const CompensationTable& table, const Series& s, const Exp
                    "backlash compensation of the control (MD32450 BACKLASH)");
 }
 
-// The control activates ENC_COMP when the axis is referenced; a value there would be a jump.
+// Subtracts the correction at home from all values. The control activates ENC_COMP when the axis is
+// referenced; if the value at this position were not 0, the axis would jump.
 Series zeroed_at_home(Series s, const ExportOptions& options, Export& out) {
   const std::optional<double> home_m = options.home_m(s.along);
   const double there = mean_error_at(s, home_m.value_or(0.0));
@@ -90,7 +91,7 @@ std::string lec_text(const CompensationTable& table, const Series& s, const Equa
          "\n$AA_ENC_COMP_IS_MODULO" + of + "0\nM17\n";
 }
 
-// The number of a line "$KEY[...]=number", or nullopt if the line begins otherwise.
+// The number in a line "$KEY[...]=number"; nullopt if the line does not begin with `to`.
 std::optional<double> assigned(std::string_view line, const std::string& to) {
   if (!line.starts_with(to + "=")) return std::nullopt;
   return decimal_from(line.substr(to.size() + 1));
@@ -142,7 +143,7 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
   MDOF_CHECK(check_one_table_an_axis(tables));
   Export out;
   ExportOptions as_measured = without_tolerance(options, out);
-  as_measured.homes.clear();  // zeroed_at_home() takes the home into account
+  as_measured.homes.clear();  // zeroed_at_home() has already subtracted the value at home
   for (const CompensationTable& table : tables) {
     MDOF_TRY(const Series s,
              positioning_of(table, kResamplingPointLimit, as_measured, "ENC_COMP", out));

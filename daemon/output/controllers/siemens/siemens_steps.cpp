@@ -10,8 +10,7 @@ namespace mdof::controllers {
 namespace {
 
 constexpr double kSameStep_m = 1e-9;
-constexpr double kPermittedLoss = 0.01;  // share of the largest error, if the steps do not match
-                                         // the targets
+constexpr double kPermittedLoss = 0.01;  // largest change by resampling / largest error
 
 double value_at(const EqualSteps& e, const std::vector<double>& values, double at_m) {
   const double place =
@@ -20,7 +19,7 @@ double value_at(const EqualSteps& e, const std::vector<double>& values, double a
   return values[i] + (values[i + 1] - values[i]) * (place - static_cast<double>(i));
 }
 
-// Resamples one approach of `s` to `steps` + 1 values.
+// Resamples the errors of one approach to `steps` + 1 values. Updates e.loss_m.
 std::vector<double> resampled(const Series& s, const std::vector<double>& approach,
                               std::size_t steps, EqualSteps& e) {
   Series one = s;

@@ -17,7 +17,7 @@ namespace mdof::tools {
 struct StudyWork {
   std::uint64_t trials = 0;
   double elapsed_s = 0;
-  algo::StudyScale scale;  // Origin and unit of the sums in `statistics`.
+  algo::StudyScale scale;  // Scale of the histogram of each output.
   algo::StudyStatistics statistics;
   std::vector<Convergence> convergence;
   // [block][output] figures of the blocks that the adaptive rule has received, in this order.

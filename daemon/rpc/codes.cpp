@@ -10,7 +10,7 @@ struct Row {
   int code;
 };
 
-// The first row of an ErrorCode gives the code that is sent.
+// The server sends the code in the first row of an ErrorCode.
 constexpr std::array<Row, 13> kTable{{
     {ErrorCode::usage, kInvalidParams},
     {ErrorCode::changed, kChanged},

@@ -71,7 +71,7 @@ void append_notification(std::string& out, std::string_view method, std::string_
   out += '}';
 }
 
-// The name of a topic contains no quotes.
+// The function searches for quotes, because the name of a topic contains none.
 Notification parse_notification(std::string_view message) {
   assert(message.starts_with(kBeforeMethod) && message.ends_with('}'));
   message.remove_prefix(kBeforeMethod.size() + 1);

@@ -12,12 +12,13 @@ namespace mdof::rpc {
 namespace {
 
 constexpr std::size_t kEnvelopeBytes =
-    512;  // size of the JSON-RPC reply around the document, including the id
-constexpr std::size_t kEndBytes = 64;  // text after the methods
+    512;                               // size of a JSON-RPC reply without the document, with the id
+constexpr std::size_t kEndBytes = 64;  // size of the text after the methods
 constexpr const char* kLeftOut =
     R"({"description":"the schema does not fit into max_bytes; give a larger max_bytes"})";
 
-// Bounds in the names of JSON Schema; a text has at least as many bytes as characters.
+// Writes the bounds with the names of JSON Schema. "maxLength" counts characters; a text never has
+// more characters than bytes.
 void write_bounds(JsonWriter& json, const Param& param) {
   const Bounds none;
   const bool numeric = param.type == ParamType::number || param.type == ParamType::integer;
@@ -40,7 +41,8 @@ std::string describe(const Param& param) {
   return json.take();
 }
 
-// "x-example-params", because an OpenRPC example pairing needs a result, which depends on the data.
+// The example is in "x-example-params", because an example of OpenRPC must contain a result, and
+// the result depends on the data.
 std::string describe(const Method& method, const std::string& schema) {
   JsonWriter json;
   json.begin_object().field("name", method.name).field("summary", method.summary);
@@ -54,7 +56,7 @@ std::string describe(const Method& method, const std::string& schema) {
   return json.take();
 }
 
-// The error codes in the form of OpenRPC.
+// Writes the error codes as components of OpenRPC.
 void write_components(JsonWriter& json) {
   json.key("components").begin_object().key("errors").begin_object();
   for (const CodeMeaning& each : code_meanings())
@@ -125,7 +127,7 @@ const Method* MethodTable::find(std::string_view name) const {
 }
 
 std::string MethodTable::nearest(std::string_view name) const {
-  if (name.size() > 64) return {};  // the distance of long texts takes long and is useless
+  if (name.size() > 64) return {};  // comparing long texts takes long and is useless
   std::vector<std::string> names;
   for (const auto& [known, method] : methods_) names.push_back(known);
   return nearest_candidate(name, names);

@@ -10,7 +10,7 @@ using MaybeElement = std::optional<element>;
 
 struct Members {
   MaybeElement jsonrpc, method, params, id;
-  std::string_view twice;  // a repeated member; empty: none
+  std::string_view twice;  // name of a repeated member; empty: none
   bool id_twice = false;
 };
 
@@ -30,7 +30,8 @@ Members members_of(const simdjson::dom::object& message) {
   return out;
 }
 
-// Reads the line again with the parser that keeps the text of numbers; empty if it is not found.
+// The text of the id if it is a number. Reads the line again, with a parser that keeps the text of
+// numbers. Empty: the id was not found.
 std::string number_text(const Source& source) {
   using namespace simdjson;
   ondemand::parser parser;
@@ -62,9 +63,11 @@ bool may_be_id(const element& id) {
   return id.is_string() || id.is_number() || id.is_null();
 }
 
-// If the specification shows an error object, this object is sent unchanged, without a reason.
+// Why the message is not a valid request; nullopt: it is valid. The text is empty if the JSON-RPC
+// specification shows the error object for this case; the server then sends exactly this object.
 std::optional<std::string> fault_of(const Members& members) {
-  // Another reader of the line (a log, a filter) may use the other value.
+  // A repeated member is an error, because another reader of the line (a log, a filter) could use
+  // the other value.
   if (!members.twice.empty()) return "member \"" + std::string(members.twice) + "\" is given twice";
   if (!members.method || !members.method->is_string()) return "";
   std::string_view version;

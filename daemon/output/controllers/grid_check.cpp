@@ -13,9 +13,8 @@ constexpr std::string_view kCommands = "XYZ";
 // Largest errors of one axis: without the correction, with it, and with deliberate mistakes in it.
 struct Residuals {
   double before = 0, with = 0, wrong_sign = 0;
-  std::optional<double>
-      exchanged;        // error with X and Y exchanged; nullopt: this mistake is not possible
-  double exchange = 0;  // largest change of the correction by this mistake
+  std::optional<double> exchanged;  // X and Y exchanged; nullopt: impossible
+  double exchange = 0;              // largest change of the correction by this mistake
 };
 
 // Errors that remain because of the table itself; no file can correct them.

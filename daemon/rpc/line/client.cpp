@@ -20,8 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The group of the socket; "mdof" if the socket cannot be found or belongs to the group of root,
-// because users must not join that group.
+// The group that a message asks the user to join: the group of the socket, or "mdof" if the socket
+// does not exist or its group is root. A user must not join the group root.
 std::string group_of(const std::string& path) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0 || info.st_gid == 0) return "mdof";
@@ -29,7 +29,7 @@ std::string group_of(const std::string& path) {
   return entry != nullptr ? std::string(entry->gr_name) : std::to_string(info.st_gid);
 }
 
-// A daemon that root started manually has a socket of root.
+// A text for the message about a socket that root owns, because root started mdofd manually.
 std::string whose(const std::string& path) {
   struct stat info {};
   const bool roots = ::stat(path.c_str(), &info) == 0 && info.st_gid == 0;
@@ -52,7 +52,7 @@ tl::unexpected<Error> cannot_connect(const std::string& path, int number) {
   return io_error(path + ": " + system_error_text(number));
 }
 
-// Returns false on a timeout.
+// Waits for an event of the socket. False: timeout.
 bool wait_for(int socket, short what, Clock::time_point end) {
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
@@ -63,7 +63,7 @@ bool wait_for(int socket, short what, Clock::time_point end) {
   }
 }
 
-// The parts of a server's line that a client uses.
+// The members of a received message that a client uses.
 struct Message {
   std::optional<std::int64_t> id;
   bool notification = false;
@@ -118,7 +118,8 @@ Status Client::send_line(std::string_view line, Clock::time_point end) {
           "mdofd did not accept the request in time; try again, or check mdofd with \"systemctl "
           "status mdofd\"");
     const ssize_t n = ::send(socket_.get(), line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-    if (n < 0 && errno == EPIPE) return {};  // closed; mdofd may have sent the reason
+    if (n < 0 && errno == EPIPE)
+      return {};  // mdofd has closed the connection and may have sent the reason
     if (n < 0 && errno != EAGAIN && errno != EINTR)
       return io_error("mdofd closed the connection: " + system_error_text(errno));
     if (n > 0) line.remove_prefix(static_cast<std::size_t>(n));
@@ -164,7 +165,7 @@ Result<std::string> Client::call(std::string_view method, std::string_view param
       notifications_.push_back(std::move(line));
       continue;
     }
-    if (message.id && *message.id != id) continue;  // the reply to an earlier call that timed out
+    if (message.id && *message.id != id) continue;  // a late reply to an earlier call
     if (message.error) return tl::unexpected(std::move(*message.error));
     if (!message.result) return io_error("mdofd sent neither a result nor an error");
     return std::move(*message.result);

@@ -12,8 +12,9 @@
 namespace mdof::rpc {
 namespace {
 
-// Whether the line is an HTTP request line or header. A page in a browser can send such lines
-// followed by lines of its own, which must not be run. No valid request begins like this.
+// Whether the line is a request line or a header field of HTTP. A page in a browser can send HTTP
+// and then lines of its own; these lines must not be handled as requests. No valid request begins
+// in this way.
 bool is_http(std::string_view line) {
   constexpr std::string_view kToken =
       "!#$%&'*+-.^_`|~0123456789"
@@ -67,7 +68,8 @@ void Connection::send_all() {
   wait();
 }
 
-// Runs at least one request or batch member, so that there is progress in the shortest turn.
+// Handles requests until the turn ends, but at least one request, so that even the shortest turn
+// makes progress.
 void Connection::run_lines() {
   const auto until = Clock::now() + server_.service.options().turn;
   while (is_open() && session_->has_room() && next_line()) {
@@ -91,13 +93,14 @@ void Connection::take_line(Clock::time_point until) {
     return refuse(
         "this port accepts JSON-RPC lines, not HTTP; for HTTP use the address of the web page "
         "([http] of mdofd.toml)");
-  if (line.text.empty()) return;      // an additional line end
-  std::string& out = output_.text();  // contains complete lines
+  if (line.text.empty()) return;      // an empty line
+  std::string& out = output_.text();  // output_ contains complete lines only
   if (!session_->handle(line.text, out, until)) line_ = line;
   if (!out.empty() && out.back() != '\n') out += '\n';
 }
 
-// Sends while the client takes the data; the rest waits for the socket or for its time.
+// Sends due notifications as long as the socket accepts them. The others wait until the socket can
+// be written, or until they are due.
 void Connection::send_due() {
   while (is_open() && output_.unsent() == 0 && session_->has_subscriptions()) {
     const auto next = session_->send_due(Clock::now());
@@ -107,7 +110,7 @@ void Connection::send_due() {
   }
 }
 
-// Exactly one of these follows: writing, another turn, the end, or reading.
+// Decides what the connection waits for: writing, another turn, its end, or reading.
 void Connection::wait() {
   if (closed_) return;
   if (output_.unsent() > 0) wait_writable();
@@ -116,15 +119,17 @@ void Connection::wait() {
     return wait_readable();
   }
   if (!session_->has_room())
-    return line_since_.reset();  // the line waits for the client, so its time does not count
+    return line_since_.reset();  // the line waits until the client has read its replies; this is
+                                 // not limited by request_timeout
   if (line_ || input_.has_line()) return go_on();
   if (finished()) return close();
   if (input_.partial() && !line_since_) line_since_ = Clock::now();
   wait_readable();
 }
 
-// A client that has closed both directions takes no reply. Its last messages (notifications) have
-// had one turn; messages that did not fit into this turn are not run.
+// Continues after a turn. A client that has closed both directions reads no reply, and its
+// connection is closed. Its last messages (notifications) have had one turn; messages that did not
+// fit into this turn are not handled.
 void Connection::go_on() {
   hung_up() ? close() : wake();
 }
@@ -133,13 +138,13 @@ bool Connection::finished() {
   return input_ended_ && output_.unsent() == 0 && session_->has_nothing_pending();
 }
 
-// Call it only if no complete line waits, because it invalidates the result of next() and may move
-// the data.
+// Call it only if no complete line is in the buffer, because receiving makes the result of
+// LineBuffer::next() invalid.
 void Connection::receive() {
   if (draining_since_) input_.discard();
   const auto space = input_.space();
   const ssize_t got = ::recv(socket_.native_handle(), space.data(), space.size(), MSG_DONTWAIT);
-  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;  // waits again
+  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;  // no data now
   if (got < 0) return close();
   input_.received(static_cast<std::size_t>(got));
   if (got == 0) input_ended();
@@ -155,8 +160,9 @@ void Connection::input_ended() {
   send(message);
 }
 
-// Sends the reason, lets the client read it, and closes. Input is discarded meanwhile, because
-// closing a socket with unread bytes would also discard the reply.
+// Sends the reason, waits until the client has read it, and closes the connection. During this time
+// input is discarded, because the kernel also discards unsent output when a socket with unread
+// input is closed.
 void Connection::refuse(std::string_view why) {
   session_->refuse(why);
   server_.service.log(session_->name() + " refused: " + std::string(why));

@@ -17,7 +17,8 @@ void ServerCore::adopt(int socket) {
   const auto connection = std::make_shared<Connection>(*this, socket);
   auto session = service.admit(peer_of(socket), *connection);
   if (!session) return connection->reject_connection(session.error().message);
-  // Charges a turn, so that a client that reconnects repeatedly is not served before the others.
+  // Adds the duration of a turn to the used time of a new client. Otherwise a client that connects
+  // again and again would be served before the others.
   order_.charge(connection->share(), service.options().turn);
   connection->start(std::move(*session));
   begin(connection);
@@ -25,7 +26,7 @@ void ServerCore::adopt(int socket) {
 
 void ServerCore::request_turn(std::shared_ptr<Connection> connection) {
   if (connection.get() == in_turn_) {
-    again_ = true;  // after its turn has been charged
+    again_ = true;  // give_turn() adds it to the queue at the end of this turn
     return;
   }
   const FairShare share = connection->share();

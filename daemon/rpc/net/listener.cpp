@@ -40,14 +40,15 @@ void Listener::accept_some() {
     if (fd < 0 && (errno == ECONNABORTED || errno == EINTR)) continue;
     if (fd < 0 && errno != EAGAIN) return pause_accepting(errno);
     if (fd < 0) break;
-    const int on = 1;  // fails on a Unix socket, which has no such delay
+    const int on = 1;  // TCP only: no delay; fails on a Unix socket, where it is not needed
     (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     adopt_(fd);
   }
   if (adopt_) start();
 }
 
-// Without free descriptors or memory, the waiting client would wake the loop again and again.
+// Pauses if there are no free descriptors or no memory. Without the pause, the waiting client would
+// wake the loop again and again.
 void Listener::pause_accepting(int why) {
   log_("cannot accept a client (mdofd tries again): " + system_error_text(why));
   pause_.emplace(socket_.get_executor(), kPause);

@@ -7,7 +7,8 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::size_t kKeepCapacity = 128 * 1024;  // a larger empty buffer is released
+constexpr std::size_t kKeepCapacity =
+    128 * 1024;  // bytes; a larger buffer is released when it is empty
 
 }  // namespace
 

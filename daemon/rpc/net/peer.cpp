@@ -20,11 +20,12 @@ bool is_unix(int socket) {
   return ::getsockopt(socket, SOL_SOCKET, SO_DOMAIN, &domain, &bytes) == 0 && domain == AF_UNIX;
 }
 
-// Also empty if the kernel does not report them.
+// The groups of the client besides its primary group. Empty also if the kernel does not report
+// them.
 std::vector<gid_t> further_groups(int socket) {
   socklen_t bytes = 0;
   (void)::getsockopt(socket, SOL_SOCKET, SO_PEERGROUPS, nullptr,
-                     &bytes);  // returns their size
+                     &bytes);  // returns the size of the list
   std::vector<gid_t> groups(bytes / sizeof(gid_t));
   if (groups.empty() || ::getsockopt(socket, SOL_SOCKET, SO_PEERGROUPS, groups.data(), &bytes) != 0)
     return {};
@@ -85,8 +86,9 @@ OwnerQuestion question_about(const Endpoint& client, const Endpoint& server) {
   return ask;
 }
 
-// The client's end of the connection is also a socket of this machine. The request names exactly
-// this socket, so that it takes the same time for any number of sockets.
+// Asks the kernel for the owner of the client's socket, which is a socket of this machine. The
+// request contains the addresses of this socket; the answer therefore takes the same time for any
+// number of sockets.
 std::optional<uid_t> owner_of_client(int socket) {
   const Endpoint client = endpoint(socket, ::getpeername), server = endpoint(socket, ::getsockname);
   if (client.family != AF_INET && client.family != AF_INET6) return std::nullopt;

@@ -18,7 +18,7 @@ namespace {
 constexpr int kBacklog = 64;
 constexpr mode_t kMode = 0660;
 
-// Casts an address for the socket calls.
+// Casts an address to the type of the socket functions.
 template <class Address>
 sockaddr* as_sockaddr(Address& address) {
   return reinterpret_cast<sockaddr*>(&address);
@@ -35,7 +35,8 @@ tl::unexpected<Error> cannot(const std::string& what, int number) {
   return io_error(what + ": " + system_error_text(number));
 }
 
-// Removes an old socket file before bind(). Error: the file is not a socket, or a process answers.
+// Removes an old socket file before bind(). Errors: the file is not a socket; a process answers on
+// it.
 Status remove_stale(const std::string& path) {
   struct stat info {};
   if (::lstat(path.c_str(), &info) != 0) return {};
@@ -102,8 +103,8 @@ Result<Descriptor> listen_on_unix(const std::string& path) {
   MDOF_CHECK(remove_stale(path));
   Descriptor fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (fd.get() < 0) return cannot(path, errno);
-  // The file gets the descriptor's mode without the bits of the umask, so that at no time more
-  // clients can connect than intended.
+  // bind() creates the file with the mode of the descriptor, minus the umask. Setting the mode
+  // before bind() ensures that other users cannot connect at any time.
   if (::fchmod(fd.get(), kMode) != 0)
     return cannot(path + ": cannot set the mode of the socket file", errno);
   sockaddr_un address = unix_address(path);
@@ -145,7 +146,7 @@ Status check_listening(int fd) {
 }
 
 std::uint16_t port_of(int socket) {
-  sockaddr_in6 address{};  // also has space for IPv4, whose port is at the same offset
+  sockaddr_in6 address{};  // large enough for IPv4, too; the port has the same offset
   socklen_t size = sizeof address;
   if (::getsockname(socket, as_sockaddr(address), &size) != 0) return 0;
   const bool tcp = address.sin6_family == AF_INET || address.sin6_family == AF_INET6;

@@ -32,7 +32,8 @@ const char* kind(const element& value) {
   }
 }
 
-// 3.0 is an integer, as in JSON Schema; beyond 2^53 a double is not exact.
+// Whether the value is an integer. 3.0 is an integer, as in JSON Schema. Doubles above 2^53 are not
+// exact and not accepted.
 bool is_integer(const element& value) {
   if (value.is_int64()) return true;
   double x = 0;
@@ -73,7 +74,7 @@ std::optional<std::size_t> index_of(const Method& method, std::string_view name)
 tl::unexpected<Error> unknown_name(const Method& method, std::string_view name) {
   std::vector<std::string> known;
   for (const Param& param : method.params) known.push_back(param.name);
-  const bool sane = name.size() <= 64;  // the distance of long texts takes long and is useless
+  const bool sane = name.size() <= 64;  // comparing long texts takes long and is useless
   const std::string near = sane ? nearest_candidate(name, known) : "";
   return usage("unknown parameter " + in_quotes(name) +
                (near.empty() ? "; the parameters of " + method.name + " are: " + names(method)
@@ -93,7 +94,7 @@ Status check_number(const Param& param, const element& value) {
 }
 
 Status check_array(const Param& param, const simdjson::dom::array& items) {
-  std::size_t count = 0;  // array.size() saturates at 2^24
+  std::size_t count = 0;  // array.size() is limited to 2^24
   for (const element item : items) {
     if (++count > param.bounds.items)
       return usage("parameter " + in_quotes(param.name) + " may have at most " +

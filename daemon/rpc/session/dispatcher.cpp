@@ -19,7 +19,7 @@ struct Dispatcher::Parser {
   Parser(std::shared_ptr<Executor> loop, const MethodTable& methods, const ServerOptions& limits)
       : executor(std::move(loop)), table(methods), options(limits) {}
 
-  // The data of one message for the calls below.
+  // The arguments of handle() for one message.
   struct Message {
     std::string_view text;
     Caller& caller;
@@ -35,7 +35,8 @@ struct Dispatcher::Parser {
   bool begin_batch(const Message& message, std::size_t members) const;
   void call_member(const Message& message, const Request& request,
                    const std::shared_ptr<Exchange>& exchange);
-  // The method and its checked parameters (in `values`), or the fault of the request.
+  // Finds the method and checks its parameters (result in `values`), or returns the error of the
+  // request.
   struct Refusal {
     int code;
     std::string message, data;
@@ -123,7 +124,7 @@ tl::expected<const Method*, Dispatcher::Parser::Refusal> Dispatcher::Parser::pre
   return method;
 }
 
-// Handles almost every call; it needs no allocation of its own.
+// Handles a message with one request, the usual case. This function allocates no memory itself.
 Handled Dispatcher::Parser::handle_single(const Message& message,
                                           const simdjson::dom::element& parsed) {
   const Request request = read_request(parsed, {message.text, std::nullopt}, options.max_id_bytes);

@@ -25,7 +25,7 @@ void append_reply(std::string& out, std::string_view id, const Result<std::strin
   if (!result) return append_error(out, id, result.error());
   const std::size_t begin = out.size();
   append_result(out, id, *result);
-  if (out.size() - begin < max_bytes) return;  // less than max_bytes, because of the line end
+  if (out.size() - begin < max_bytes) return;  // "<", because a line end follows
   out.resize(begin);
   append_error(out, id, kReplyTooLarge, too_large(result->size(), max_bytes));
 }
@@ -53,7 +53,9 @@ void Exchange::answer_error(std::string_view id, int code, std::string_view mess
   member_done();
 }
 
-// Space is reserved for a short error for every member without an answer, so that each gets one.
+// Adds the answer to one request of a batch. Reserves space for a short error message for each
+// request that has no answer yet; each request can therefore be answered. An answer that does not
+// fit is replaced by such an error message.
 void Exchange::take(std::string_view id, const std::string& message) {
   constexpr std::size_t kBrackets = 3;  // [ ] and a line end
   const std::size_t kept = (open_ - 1) * (kReserveBytes + limits_.max_id_bytes) + kBrackets;
@@ -90,7 +92,7 @@ Reply::Reply(std::unique_ptr<Slot> slot) : slot_(std::move(slot)) {}
 Reply::Reply(Reply&&) noexcept = default;
 
 Reply& Reply::operator=(Reply&& other) noexcept {
-  std::swap(slot_, other.slot_);  // the previous slot is answered when `other` is destroyed
+  std::swap(slot_, other.slot_);  // the destructor of `other` answers the call of the previous slot
   return *this;
 }
 

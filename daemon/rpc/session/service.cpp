@@ -9,9 +9,9 @@
 namespace mdof::rpc {
 namespace {
 
-// Changes contradictory limits to possible ones.
+// Increases limits that are too small to work together.
 ServerOptions consistent(ServerOptions o) {
-  constexpr std::size_t kLeastReply = 16 * 1024;  // fits the longest error
+  constexpr std::size_t kLeastReply = 16 * 1024;  // enough for the longest error message
   o.max_reply_bytes = std::max(o.max_reply_bytes, kLeastReply);
   o.max_unsent_bytes = std::max(o.max_unsent_bytes, 2 * o.max_reply_bytes);
   o.max_id_bytes = std::clamp<std::size_t>(o.max_id_bytes, 32, 1024);
@@ -47,8 +47,9 @@ Service::Service(std::shared_ptr<Executor> loop, const MethodTable& table, Serve
       dispatcher_(std::move(loop), table, options_),
       topics_(options_) {}
 
-// The reserved place is given only if no ordinary place is free. Browsers have separate places,
-// limited by their transport, so that they cannot exclude the machine's control.
+// Which of the limits counts for a new client. A client in the group kept_for_group gets the
+// reserved place only if all ordinary places are in use. Browsers do not use these places, so that
+// they cannot exclude the machine's control; HttpServer limits their number.
 Result<Service::Place> Service::place_for(const Peer& peer) const {
   if (peer.http != Peer::Http::no) return Place::http;
   std::size_t of_user = 0, ordinary = 0, kept = 0;

@@ -72,7 +72,8 @@ void Session::refuse(std::string_view why) {
   end_with(kInvalidRequest, "Invalid Request", why);
 }
 
-// The place becomes free; a client that uses the connection again sees the reason.
+// Another client can then connect. If the client uses the closed connection again, it reads the
+// reason.
 void Session::end_idle() {
   end_with(kBusy,
            "the connection was idle for " +

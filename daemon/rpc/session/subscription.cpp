@@ -9,7 +9,8 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::chrono::milliseconds kOld{50};  // a value made every 20 ms is never that old
+constexpr std::chrono::milliseconds kOld{
+    50};  // age at which a value is old; values that are made every 20 ms are never old
 
 }  // namespace
 

@@ -11,7 +11,8 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::size_t kEnvelopeBytes = 128;  // around a value, without the topic's name
+constexpr std::size_t kEnvelopeBytes =
+    128;  // length of a message without its value and the name of the topic
 
 }  // namespace
 

@@ -31,7 +31,7 @@ void HttpConnection::reject_connection() {
   close();
 }
 
-// Takes a late reply. A stream converts messages to events.
+// Receives a reply that comes later, or, on a stream, a notification, which becomes an event.
 void HttpConnection::send(std::string_view message) {
   if (!is(State::streaming)) {
     reply_ = message;
@@ -63,7 +63,7 @@ void HttpConnection::take_request() {
   if (input_.size() - body_at_ >= head_->body_bytes) answer();
 }
 
-// False: the head is incomplete or was rejected.
+// Reads the head of a request. False: the head is incomplete or was rejected.
 bool HttpConnection::take_head() {
   const auto& options = server_.service.options();
   const auto end = head_length(input_, scanned_, options.max_http_head_bytes);
@@ -125,7 +125,7 @@ void HttpConnection::begin_rpc() {
   calling_ = true;
 }
 
-// Calls a batch in parts, one for each turn.
+// Continues a call. A batch may need several turns.
 void HttpConnection::continue_rpc() {
   if (calling_) {
     std::string out;
@@ -142,7 +142,7 @@ void HttpConnection::continue_rpc() {
     return reply(
         {.type = "application/json", .body = text, .fields = "Cache-Control: no-store\r\n"});
   }
-  if (session_->has_nothing_pending()) reply({.status = 204});  // only notifications
+  if (session_->has_nothing_pending()) reply({.status = 204});  // all requests are notifications
 }
 
 void HttpConnection::begin_stream() {
@@ -153,7 +153,8 @@ void HttpConnection::begin_stream() {
   if (const auto error = subscribe_all()) return refuse(*error);
   const auto resumed = server_.kept.resume(head_->last_event_id);
   seen_ = resumed.after;
-  const int bytes = 128 * 1024;  // keeps little data in the kernel, where it becomes old
+  const int bytes =
+      128 * 1024;  // limits the data that waits in the kernel, because it becomes old there
   (void)::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes);
   append_stream_head(output_.text());
   output_.text() += "retry: 2000\nid: " + std::to_string(seen_) + "\n\n";
@@ -201,7 +202,8 @@ void HttpConnection::reply(const HttpReply& reply) {
   request_ends(head_->keep_alive);
 }
 
-// Sends the reason, lets the client read it, and closes. Input is discarded meanwhile.
+// Sends the reason, waits until the client has read it, and closes the connection. During this time
+// input is discarded.
 void HttpConnection::refuse(const HttpError& error, std::string fields) {
   append_refusal(output_.text(), error, std::move(fields));
   request_ends(false);
@@ -241,7 +243,8 @@ void HttpConnection::send_events() {
   }
 }
 
-// Sends while the browser takes the data; the rest waits for the socket or for its time.
+// Sends events and due values as long as the socket accepts them. The others wait until the socket
+// can be written, or until they are due.
 void HttpConnection::send_stream() {
   while (is(State::streaming) && output_.unsent() == 0) {
     send_events();
@@ -257,11 +260,12 @@ void HttpConnection::wait() {
   if (closed_) return;
   if (output_.unsent() > 0) wait_writable();
   if (is(State::draining) && output_.unsent() == 0) end_output();
-  if (is(State::answering)) return;  // until there is a reply
+  if (is(State::answering)) return;  // the reply is not known yet
   if (is(State::reading)) {
     if (output_.unsent() > 0) return;
     if (input_ended_) return close();
-    if (!input_.empty() && !head_ && scanned_ == 0) return wake();  // a further request
+    if (!input_.empty() && !head_ && scanned_ == 0)
+      return wake();  // the next request was received already
   }
   wait_readable();
 }
@@ -269,14 +273,15 @@ void HttpConnection::wait() {
 void HttpConnection::receive() {
   char bytes[kReceiveBytes];
   const ssize_t got = ::recv(socket_.native_handle(), bytes, sizeof bytes, MSG_DONTWAIT);
-  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;  // waits again
+  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;  // no data now
   if (got < 0) return close();
   if (got == 0) {
     input_ended_ = true;
     if (is(State::draining) || is(State::streaming)) close();
     return;
   }
-  if (is(State::draining) || is(State::streaming)) return;  // no input is expected
+  if (is(State::draining) || is(State::streaming))
+    return;  // the connection expects no input; discard it
   if (input_.empty()) since_ = Clock::now();
   input_.append(bytes, static_cast<std::size_t>(got));
 }

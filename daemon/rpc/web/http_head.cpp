@@ -24,8 +24,8 @@ std::string field(const Fields& fields, Name name) {
   return {value.data(), value.size()};
 }
 
-// Fields that determine the destination or the end of a request must not be repeated, because
-// another reader may use the other value.
+// The fields that determine the destination or the length of a request must not be repeated,
+// because a proxy could use the other value.
 tl::expected<void, HttpError> check_single(const Fields& fields) {
   for (const auto name : {http::field::host, http::field::content_length, http::field::content_type,
                           http::field::origin, http::field::authorization}) {
@@ -52,7 +52,7 @@ tl::expected<std::size_t, HttpError> body_bytes_of(const Fields& fields, std::si
   return static_cast<std::size_t>(bytes);
 }
 
-// Accepts only "/path?query": no absolute form, no fragment.
+// Reads the target of the request. Accepts only "/path?query", no absolute URL and no fragment.
 tl::expected<void, HttpError> take_target(std::string_view target, HttpHead& out) {
   if (target.empty() || target.front() != '/' || target.find('#') != target.npos)
     return refused(400, "the target of the request must be a path, such as /index.html");

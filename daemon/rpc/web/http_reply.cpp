@@ -27,8 +27,8 @@ constexpr std::array<std::pair<int, std::string_view>, 17> kReasons{{
     {505, "HTTP Version Not Supported"},
 }};
 
-// A page of mdofd runs only its own files, cannot be embedded in other pages, and cannot be read by
-// them.
+// These header fields have the effect that mdofd's page runs only scripts of mdofd, and that other
+// pages can neither embed nor read it.
 constexpr std::string_view kSecurity =
     "Content-Security-Policy: default-src 'self'; style-src 'self'; object-src 'none'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n"

@@ -30,7 +30,8 @@ void HttpServerCore::adopt(int socket) {
   begin(connection);
 }
 
-// Closes the connection that has been idle longest between two requests, as browsers expect.
+// Closes the connection that has waited longest for its next request. Browsers expect that a server
+// does this.
 bool HttpServerCore::make_room() {
   std::shared_ptr<HttpConnection> oldest;
   for (const auto& connection : connections)

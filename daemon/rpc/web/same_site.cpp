@@ -14,7 +14,7 @@ std::string lower_case(std::string_view text) {
   return out;
 }
 
-// The host without the port: "[::1]:8080" becomes "[::1]".
+// The name of the host without the port: "[::1]:8080" becomes "[::1]".
 std::string_view name_of(std::string_view host) {
   const auto colon = host.rfind(':');
   if (colon == host.npos || host.ends_with(']')) return host;

@@ -30,7 +30,7 @@ std::string_view type_of(std::string_view name) {
   return "application/octet-stream";
 }
 
-// gzip without a time or name; empty if it would not be shorter.
+// The text compressed by gzip, without a time or file name; empty if it would not be shorter.
 std::string compressed(std::string_view text) {
   constexpr int kGzip = 15 + 16, kMemory = 9;
   z_stream stream{};

@@ -17,10 +17,8 @@ using output::Phrase;
 using output::phrase;
 
 constexpr double kViewPx = 280, kArrowPx = 34, kViewTopPx = 104;
-constexpr double
-    kDimensionPx = 12,
-    kTickLengthPx =
-        4;  // distance of a dimension line from the panel; length of the lines at its ends
+constexpr double kDimensionPx = 12,
+                 kTickLengthPx = 4;  // dimension lines
 
 double longest_span_mm(const Rig& rig) {
   double longest = 1;
@@ -42,8 +40,7 @@ Range range_in_view(const Rig& rig, std::size_t axis, double span_mm) {
   return range;
 }
 
-constexpr double kNamePx =
-    14;  // if a probe covers another one in a view, their names are written side by side
+constexpr double kNamePx = 14;  // side by side, if one probe covers another
 
 Place place_of(const Panel& panel, const Probe& probe, std::size_t up) {
   return panel.at(to_mm(probe.position_m[0]), to_mm(probe.position_m[up]));

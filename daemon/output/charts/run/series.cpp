@@ -123,8 +123,7 @@ void draw_band_of(Svg& svg, const Panel& panel, const std::vector<Mark>& marks, 
                    [](const Column& a, const Column& b) { return a.x < b.x; });
   if (band.empty()) return;
   std::vector<Place> outline;
-  const double wing =
-      band.size() == 1 ? 2 * kMarkPx : 0;  // the band of a single target needs a width
+  const double wing = band.size() == 1 ? 2 * kMarkPx : 0;  // one target
   for (const Column& c : band) {
     const Place at = panel.at(c.x, c.high);
     if (wing > 0) outline.push_back({at.x - wing, at.y});

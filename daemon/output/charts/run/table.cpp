@@ -107,8 +107,7 @@ std::string table_svg(const CompensationTable& table, const std::vector<std::str
   const std::string about = phrase(Phrase::table_sense, language, {table.sides.moves()}) +
                             ", SHA-256 " + table.sha256.substr(0, 16) + "…";
   std::vector<std::string> notes;
-  for (std::size_t i = 0;
-       i < all.size();) {  // neighbouring series with the same text get one common note
+  for (std::size_t i = 0; i < all.size();) {  // one note for equal texts
     std::string names;
     const std::string& words = all[i].correction;
     for (; i < all.size() && all[i].correction == words; ++i)

@@ -1,4 +1,5 @@
-// The page: views selected by the address after "#", the banner, the token.
+// The page. The text after "#" in the address selects the view. The page also has a banner with
+// warnings, and a button for the token.
 import {h, setText} from "./dom.js";
 import * as live from "./live.js";
 import * as machine from "./machine.js";
@@ -9,7 +10,7 @@ const kViews = [
 ];
 const main = document.getElementById("main");
 let close = null;  // closes the present view
-let shown = 0;     // counts views, so that a slow view does not replace a newer one
+let shown = 0;     // number of the present view; a view that loads slowly must not replace a newer view
 
 const links = kViews.map(([name, title]) => h("a", {href: `#${name}`}, title));
 document.getElementById("tabs").append(...links.map((link) => h("li", {}, link)));
@@ -18,7 +19,7 @@ document.getElementById("token").addEventListener("click", () => askToken());
 // "#runs/2/with/1" -> view "runs", rest ["2", "with", "1"].
 async function show() {
   const [name, ...rest] = location.hash.slice(1).split("/");
-  if (name === "main") return;  // the link for keyboard users
+  if (name === "main") return;  // "#main" is the target of the link for keyboard users, not a view
   const number = ++shown;
   const [view, title] = kViews.find(([known]) => known === name) ?? kViews[0];
   links.forEach((link, i) => kViews[i][0] === view

@@ -1,5 +1,5 @@
-// Charts with dygraphs: errors over position, each approach with its band ± U. Loaded with the
-// first chart.
+// Charts with dygraphs: errors against the position, with a band ± U for each approach. dygraphs is
+// loaded when the page shows the first chart.
 import {fixed, h, isNumber, nameOf, unitOf} from "./dom.js";
 
 const kHeight_px = 240;
@@ -16,8 +16,8 @@ function load() {
   });
 }
 
-// The legend of dygraphs sets inline styles, which the page's security policy forbids; this legend
-// is a line below the chart.
+// The legend of dygraphs is not used, because it sets inline styles, which the security policy of
+// the page forbids. The legend here is a line below the chart.
 function withoutLegend() {
   Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 }
@@ -25,11 +25,11 @@ function withoutLegend() {
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 const kDash = [6, 3];
 
-// series: [{label, name, colour, dash, wide, line, marks, points: [[x, low, value, high]]}]. The
-// legend shows name; wide is visible below another series; line has no marks and no band; marks
-// have no line; envelope is a range with its mean. Points may have any order of x. place: the name
-// of a position on the x axis. Rows for dygraphs with a column for each series; a position that a
-// series lacks stays empty.
+// series: a list of {label, name, colour, dash, wide, line, marks, envelope, points}. - name: text
+// in the legend - wide: a wide line, visible below another series - line: a line without symbols
+// and band - marks: symbols without a line - envelope: the band is a range, and the line is the
+// mean - points: [x, low, value, high] in any order of x Returns the rows for dygraphs, with a
+// column for each series. If a series has no value at a position, its cell is empty.
 export function rowsOf(series) {
   const rows = new Map();
   series.forEach((one, i) => one.points.forEach(([x, low, value, high]) => {
@@ -42,8 +42,9 @@ export function rowsOf(series) {
 }
 
 export class Chart {
-  // title: the shown quantity with its unit; summary: the same in words, for users who cannot see
-  // the chart.
+  // title: the quantity with its unit. place: a function that returns the text of a position on the
+  // x axis. The argument summary of set() describes the chart in words, for users who cannot see
+  // it.
   constructor(title, unit, {height_px = kHeight_px, xlabel = "position/mm", place = (x) => `${fixed(x, 3)} mm`} = {}) {
     this.unit = unit;
     this.place = place;
@@ -98,24 +99,24 @@ export class Chart {
   }
 }
 
-const kMostPasses = 4;  // each with its own line and band; the older passes share one
+const kMostPasses = 4;  // passes with their own line and band; all older passes have one common band
 
 export const approach = (direction) => direction > 0 ? {name: "forward", colour: "blue", dash: false}
   : direction < 0 ? {name: "reverse", colour: "orange", dash: true} : {name: "approach unknown", colour: "text", dash: false};
 const sign = (direction) => direction > 0 ? "+" : direction < 0 ? "−" : "?";
-// Values without U as points of a series.
+// Converts a map x -> value to points of a series without U.
 export const plain = (map) => [...map].map(([x, y]) => [x, y, y, y]);
 
-// Points of run.points -> a series with ± U for each of the newest passes and approaches. All older
-// passes of an approach give one series before them: their mean, and the range from the smallest to
-// the largest value, so that outliers stay visible.
+// Converts points from run.points to series. The newest passes have one series for each pass and
+// approach, with ± U. Before them there is one series for all older passes of an approach: their
+// mean, and the range from the smallest to the largest value, so that outliers stay visible.
 export function passes(points, key, most = kMostPasses) {
   const last = points.reduce((most_so_far, p) => Math.max(most_so_far, p.run), 0);
   const older = new Map(), newest = new Map(), times = new Map();
   for (const p of points) {
     const is_new = p.run > last - most, found = is_new ? newest : older, U = p.U?.[key] ?? 0, x = p.target_mm ?? p.position_mm;
     let id = `${is_new ? p.run : "older "}${sign(p.direction)}`;
-    if (is_new) {  // a series has one value at each position; a second one needs another series
+    if (is_new) {  // a series can have only one value at a position; a second value is in another series
       const here = `${id} ${x}`;
       times.set(here, (times.get(here) ?? 0) + 1);
       if (times.get(here) > 1) id += ` (${times.get(here)})`;
@@ -133,8 +134,8 @@ export function passes(points, key, most = kMostPasses) {
   return [...older.values(), ...newest.values()];
 }
 
-// Mean over all passes of one approach (or of both, direction 0) at each target: Map target_mm ->
-// value. A reading without an approach counts for both.
+// The mean of all passes of one approach at each target, as a map target_mm -> value. direction 0:
+// the mean of both approaches. A reading without an approach counts for both approaches.
 export function means(points, key, direction = 0) {
   const sums = new Map();
   for (const p of points) {

@@ -1,7 +1,8 @@
 // Elements, numbers with units and tables for all views.
 
-// h("button", {class: "main", onclick: f}, "Start"): an element. Properties that begin with "on" are listeners;
-// null, undefined and false are left out, true is an attribute without value.
+// Makes an element: h("button", {class: "main", onclick: f}, "Start"). Properties that begin with
+// "on" are listeners. Properties with null, undefined or false are omitted; true makes an attribute
+// without a value.
 export function h(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -23,28 +24,28 @@ export function s(tag, attributes = {}, ...children) {
   return element;
 }
 
-// Sets a text only if it has changed, so that unchanged values change nothing on the page.
+// Sets the text of an element, but only if it differs from the present text.
 export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-// null from the daemon is shown as a missing number, not as 0.
+// False for null: the page shows null from mdofd as a missing number, not as 0.
 export const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
 
-// With a true minus sign, so that columns of numbers keep their width.
+// A number with fixed decimals and a true minus sign, which is as wide as a digit.
 export function fixed(x, digits) {
   if (!isNumber(x)) return "–";
   const text = x.toFixed(digits);
   return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
 }
 
-// Two significant digits of U determine the number of decimals of a value (GUM 7.2.6).
+// The number of decimals of a value: U then has two significant digits (GUM 7.2.6).
 export function decimals(U, otherwise = 3) {
   if (!isNumber(U) || U <= 0) return otherwise;
   return Math.min(Math.max(1 - Math.floor(Math.log10(U)), 0), 6);
 }
 
-// A value without U has three significant digits.
+// The text of a value without U: three significant digits.
 export const short = (x) => fixed(x, isNumber(x) && x !== 0 ? Math.min(Math.max(2 - Math.floor(Math.log10(Math.abs(x))), 0), 6) : 3);
 
 export const unitOf = (key) => key.endsWith("_urad") ? "µrad" : key.endsWith("_um") ? "µm" : "";
@@ -53,7 +54,7 @@ export const nameOf = (key) => key.replace(/_(urad|um)$/, "");
 // "EYX straightness" from "EYX_straightness_um".
 export const titleOf = (key) => nameOf(key).replaceAll("_", " ");
 
-// "1.830 µm, U = 0.089 µm (k = 2.0)"; states if U is unknown.
+// "1.830 µm, U = 0.089 µm (k = 2.0)". If U is unknown, the text states this.
 export function measured(figure, unit, {with_k = true} = {}) {
   const U = isNumber(figure?.U) ? figure.U : null;
   const digits = decimals(U);
@@ -62,7 +63,7 @@ export function measured(figure, unit, {with_k = true} = {}) {
   return `${value}, U = ${fixed(U, digits)} ${unit}` + (with_k && isNumber(figure.k) ? ` (k = ${fixed(figure.k, 2)})` : "");
 }
 
-// What U contains; shown with every U.
+// A text with the sources that U contains. The page shows it with every U.
 export function covers(of) {
   const missing = of.not_declared ?? [];
   if (!of.u_covers && missing.length === 0) return null;
@@ -94,7 +95,7 @@ export function setRows(element, rows) {
 
 const kShapes = {invalid: "■", doubtful: "▲", information: "●"};
 
-// A text of the daemon, with a shape and a word for its severity.
+// Notices from mdofd, each with a shape and a word for its severity.
 export function notices(list, title = "Notices") {
   if (!list || list.length === 0) return null;
   return h("section", {class: "notices"}, h("h3", {}, `${title} (${list.length})`),
@@ -121,7 +122,7 @@ export function age(seconds) {
   return seconds < 7200 ? `${Math.round(seconds / 60)} min` : `${Math.round(seconds / 3600)} h`;
 }
 
-// Shows the result of a promise, or its error in the same place.
+// Shows the result of a promise in the element, or the error if it fails.
 export function fill(element, promise) {
   element.replaceChildren(h("p", {class: "quiet"}, "Loading …"));
   return promise.then((content) => element.replaceChildren(...[content].flat().filter(Boolean)),

@@ -1,19 +1,21 @@
-// Live values and events over ONE stream for each browser. A browser opens at most six connections
-// to a server for all its tabs. The tab that has a lock has the stream and sends everything to the
-// other tabs; when it is closed, another tab gets the lock.
+// Live values and events. All tabs of a browser use one common stream, because a browser opens at
+// most six connections to a server. The tab that has the lock opens the stream and sends all
+// messages to the other tabs. When this tab is closed, another tab gets the lock.
 const kTopics = ["live.update", "run.event"];
 const kInterval_ms = Number(new URLSearchParams(location.search).get("interval_ms")) || 50;
-const kReopen_ms = 2000;  // after an HTTP error the browser does not retry by itself
+const kReopen_ms = 2000;  // wait before opening the stream again after an HTTP error
 const kSay_ms = 1000;     // interval at which the tab with the stream reports its state
 
 const listeners = new Map();  // name -> set of functions
 // Without locks (no secure context) each tab has its own stream.
 const channel = navigator.locks && "BroadcastChannel" in window ? new BroadcastChannel("mdof-live") : null;
 let connected = false;
-let saidAt = -Infinity;  // performance.now() of the last report of the tab with the stream
+let saidAt = -Infinity;  // performance.now() at the last message from the tab with the stream
 
-// Names: the topics; "connected" (true, false); "gap": events may be missing, so read the data
-// again.
+// Calls the listener with each message of this name. Names:
+// - the topics
+// - "connected": true or false
+// - "gap": events may be missing; the listener must read its data again
 export function on(name, listener) {
   if (!listeners.has(name)) listeners.set(name, new Set());
   listeners.get(name).add(listener);
@@ -63,7 +65,7 @@ export function start() {
   const hold = () => {
     open();
     setInterval(() => send("connected", connected), kSay_ms);
-    return new Promise(() => {});  // until the tab is closed
+    return new Promise(() => {});  // keeps the lock until the tab is closed
   };
   channel ? navigator.locks.request("mdof-live", hold) : hold();
 }

@@ -1,12 +1,12 @@
-// State that all views share: axes, the newest value of each, fixtures, and the warnings that every
-// view shows.
+// Data that all views use: the axes, the newest live value of each axis, the rigs, and the warnings
+// that every view shows.
 import {age} from "./dom.js";
 import * as live from "./live.js";
 import {call} from "./rpc.js";
 
-const kStale_s = 2;          // without a new value
-const kFirst_ms = 3000;      // before this time a silent stream is no fault
-const kRefresh_ms = 10_000;  // server.info also changes without an event (storage)
+const kStale_s = 2;          // an axis is stale after this time without a new value
+const kFirst_ms = 3000;      // after the start of the page, a stream without messages is no fault before this time
+const kRefresh_ms = 10_000;  // server.info is read at this interval, because some members (storage) change without an event
 
 export const state = {
   info: null,         // server.info
@@ -16,7 +16,7 @@ export const state = {
 };
 const changed = new Set();
 
-// Called after server.info or a fixture was read again.
+// Calls the listener each time after server.info and the rigs were read.
 export function onChange(listener) {
   changed.add(listener);
   return () => changed.delete(listener);
@@ -42,8 +42,8 @@ export async function refresh() {
   for (const listener of changed) listener();
 }
 
-// [{kind, text, age}]: kind is the class of its line. The age changes all the time and is not read
-// aloud.
+// [{kind, text, age}]. kind: CSS class of the line. age: age of the values in s. Screen readers do
+// not read the age, because it changes all the time.
 export function warnings() {
   const found = [];
   const all = axes();

@@ -16,13 +16,13 @@ export function budgetBars(budget, unit) {
       isNumber(c.value) ? `${c.key ?? ""} ${c.value} ${c.unit ?? ""}` : "–"]));
 }
 
-const kShown_deg = 8;  // the angle is always drawn with this size
+const kShown_deg = 8;  // the picture always shows the error with this size
 
-// The angle from the first axis to the second is 90° + this sign times the error: EB0Z turns X
-// towards -Z (ISO 230-1).
+// The angle from the first axis to the second axis is 90° + sign * error. The sign is -1 for X and
+// Z, because a positive EB0Z turns X towards -Z (ISO 230-1).
 export const squarenessSign = (first, second) => first === "X" && second === "Z" ? -1 : 1;
 
-// Axes in the order X, Y, Z; the error by its name: EC0Y, EB0Z, EA0Z.
+// first, second: axes in the order X, Y, Z. error_urad: EC0Y, EB0Z or EA0Z.
 export function squarenessPicture(first, second, error_urad) {
   const beyond_urad = squarenessSign(first, second) * error_urad, sign = Math.sign(beyond_urad);
   const angle = (90 + kShown_deg * sign) * Math.PI / 180, length = 130;

@@ -1,5 +1,5 @@
-// Calls the daemon's methods by POST /rpc. The token is kept only in this tab and sent only as a
-// header.
+// Calls methods of mdofd by POST /rpc. The token is stored only in this tab, and sent only in a
+// header field.
 import {ask, field, h} from "./dom.js";
 
 const kForbidden = -32003;
@@ -50,8 +50,8 @@ export async function askToken(reason) {
   return true;
 }
 
-// Returns the result; throws RpcError with the daemon's message. Without a valid token it asks once
-// for it.
+// Returns the result. Throws RpcError with the message of mdofd. If the method needs a token and
+// the tab has no valid token, asks the user for it once.
 export async function call(method, params = {}) {
   try {
     return await post(method, params);
@@ -61,7 +61,7 @@ export async function call(method, params = {}) {
   }
 }
 
-// All items of a method that lists in pages.
+// All items of a method that returns its list in pages.
 export async function pages(method, params, key, most = 100_000) {
   const items = [];
   for (;;) {

@@ -1,4 +1,4 @@
-// Capture: the request for a run, then the five errors point by point during the run.
+// The view Capture: a form that starts a run, then the five errors at each point during the run.
 import {ErrorCharts, errorKeys} from "../charts.js";
 import {ask, covers, field, fixed, h, notices, problem, select, setText} from "../dom.js";
 import * as live from "../live.js";
@@ -8,7 +8,8 @@ import {kResumable} from "./run_detail.js";
 
 const number = (form, key) => form.get(key) === "" || form.get(key) === null ? undefined : Number(form.get(key));
 
-// A comma between digits is a decimal sign for some readers and a separator for others.
+// Reads a list of targets. A comma between digits is an error, because it can be a decimal sign or
+// a separator.
 export function targetsFrom(text) {
   return text.split(/[\s;]+/).map((word) => word.replace(/,$/, "")).filter(Boolean).map((word) => {
     if (word.includes(",")) throw new Error(`target "${word}" may be one number or several; write a point in decimals and a space between targets`);
@@ -17,8 +18,8 @@ export function targetsFrom(text) {
   });
 }
 
-// The parameters of run.start from the form, without empty fields. Throws if the targets are
-// ambiguous.
+// The parameters of run.start from the form; empty fields are omitted. Throws an error if the
+// targets are ambiguous.
 export function request(form) {
   const params = {axis: form.get("axis"), note: form.get("note") || undefined, repeats: number(form, "repeats"),
     scale_period_um: number(form, "scale_period_um")};
@@ -30,7 +31,8 @@ export function request(form) {
   return params;
 }
 
-// Fields that the selected kind of targets needs; without them the run would have no targets.
+// The fields that the user must fill in for each kind of targets. Without them the run would have
+// no targets.
 const kNeeded = {even: [["from_mm", "From/mm"], ["to_mm", "To/mm"], ["interval_mm", "Interval/mm"]], list: [["targets_mm", "Targets/mm"]], free: []};
 export const emptyFields = (form) => kNeeded[form.get("kind")].filter(([key]) => !form.get(key)?.trim()).map(([, label]) => label);
 
@@ -128,7 +130,7 @@ class Progress {
       const page = await pages("run.points", {run: this.run}, "points");
       this.points = page.points;
       this.draw(page);
-      // A restarted daemon sends no event for the end.
+      // If mdofd restarts, it sends no event for the end of the run.
       const {state} = await call("run.get", {run: this.run});
       if (state === "ended") setText(this.where, `Run ${this.run} has ended; mdofd has not stored the end of the run yet, because the storage is not available`);
       else if (state !== "open" && !this.over) this.ended({state, run: this.run});
@@ -151,7 +153,7 @@ class Progress {
   }
   event(e) {
     if (e.type === "trouble" && e.axis === this.axis) this.tell(`${e.device ? `${e.device}: ` : ""}${e.kind}: ${e.text}`);
-    // The id may differ: it is then the id of the superseding run.
+    // e.run can be another run: the one that supersedes this run.
     if (e.type === "ended" && e.axis === this.axis && !this.over) return this.ended(e);
     if (e.type === "storage" && !this.over) this.read();
     if (e.run !== this.run) return;
@@ -163,7 +165,7 @@ class Progress {
     }
     if (e.type === "progress") this.progress(e);
   }
-  // Only the newest; the notices of the run contain all.
+  // Shows only the newest problems. The notices of the run contain all problems.
   tell(problem) {
     this.trouble.append(h("p", {class: "notice doubtful"}, `▲ ${problem}`));
     while (this.trouble.childElementCount > kMostProblems) this.trouble.firstElementChild.remove();

@@ -1,5 +1,5 @@
-// Compensation: the active tables, the stored tables, their difference, and the change from one to
-// another.
+// The view Compensation: the active tables, the stored tables, the differences between tables, and
+// the activation of a table.
 import {change} from "../activation.js";
 import {Chart, errorKeys} from "../charts.js";
 import {covers, decimals, fixed, h, isNumber, nameOf, notices, problem, setRows, table, time, unitOf} from "../dom.js";
@@ -11,7 +11,8 @@ import {openVolume} from "./volume.js";
 
 const rows = (id) => pages("compensation.table", {table: id}, "points");
 
-// The values of one approach of a table as points of a series, with the band ± U for k = 2.
+// Converts the values of one approach of a table to points of a series, with the band ± U for k =
+// 2.
 const kCoverage = 2;
 function sideOf(points, side, key) {
   return points.filter((p) => isNumber(p[side]?.[key])).map((p) => {
@@ -20,8 +21,8 @@ function sideOf(points, side, key) {
   });
 }
 
-// The value at x between the points of a table; null outside, because there is no extrapolation
-// here.
+// The value at x, interpolated between the points of a table. null if x is outside the table,
+// because this function does not extrapolate.
 export function valueAt(points, side, key, x) {
   const i = points.findIndex((p) => p.position_mm >= x - 1e-3);
   if (i < 0 || (i === 0 && points[0].position_mm > x + 1e-3)) return null;
@@ -34,8 +35,8 @@ export function valueAt(points, side, key, x) {
 const kSides = [["forward", false], ["reverse", true]];
 const factorOf = (t, key) => t.correction?.[key]?.factor ?? null;
 
-// The difference of the corrections (factor times error) of two tables at the points of the first:
-// [x, difference]. null: one of them does not correct this error.
+// The difference of the corrections of two tables at the points of the first table: [x,
+// difference]. A correction is factor * error. null: one of the tables does not correct this error.
 export function changeOfCorrection(shown, other, side, key) {
   const [a, b] = [shown, other].map((t) => factorOf(t, key));
   if (a === null || b === null || shown.correction[key].command !== other.correction[key].command) return null;
@@ -43,7 +44,7 @@ export function changeOfCorrection(shown, other, side, key) {
     .filter(([, mine, theirs]) => isNumber(mine) && isNumber(theirs)).map(([x, mine, theirs]) => [x, a * mine - b * theirs]);
 }
 
-// Statements in which two tables differ besides their values.
+// The facts, other than values, in which two tables differ.
 export function statedDifferently(t, other) {
   const text = (x) => typeof x === "object" && x !== null ? JSON.stringify(x) : String(x ?? "not stated");
   const found = [["reference", "reference point"], ["reference_mm", "reference point in mm"], ["straightness_reference", "straightness"], ["moves", "moving body"], ["travel", "travel"], ["chain", "chain"], ["chain_travel", "travel of each axis of the chain"]]
@@ -147,7 +148,7 @@ class AxisPanel {
         h("button", {"aria-label": `Show table ${t.table}`, onclick: () => this.show(t.table)}, "Show"),
         t.active ? "" : h("button", {"aria-label": `${newest ? "Activate" : "Roll back to"} table ${t.table}`, onclick: () => this.activate(t.table)}, newest ? "Activate …" : "Roll back …"))];
   }
-  // The runs stay selected while the lists are read again.
+  // Builds the lists again. Selected runs stay selected.
   build(runs) {
     const chosen = new Set([...this.builder.querySelectorAll("input:checked")].map((box) => Number(box.value)));
     const result = this.result ??= h("div", {role: "status"});
@@ -174,7 +175,7 @@ class AxisPanel {
     this.openId = id;
     try {
       const [shown, active] = await Promise.all([rows(id), this.now ? rows(this.now.table) : null]);
-      if (mine !== this.shows) return;  // another table was requested meanwhile
+      if (mine !== this.shows) return;  // the user has selected another table since
       this.opened?.close();
       this.opened = new TablePicture(shown, active);
       this.shown.replaceChildren(h("section", {class: "panel", "aria-label": `Table ${id}`}, h("h2", {}, `Table ${id}${shown.active ? ", active" : active ? `, compared with the active table ${active.table}` : ", not active"}`),

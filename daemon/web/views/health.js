@@ -1,5 +1,5 @@
-// Health: devices, clocks, queues, free disk space, calibrations, connected clients, and reasons
-// for missing functions.
+// The view Health: devices, clocks, queues, free disk space, calibrations, connected clients, and
+// the reasons why functions are not available.
 import {age, fixed, h, isNumber, problem, setRows, table, time} from "../dom.js";
 import * as live from "../live.js";
 import * as machine from "../machine.js";
@@ -9,7 +9,8 @@ import {facts} from "./run_detail.js";
 const kRead_ms = 3000;
 const GB = (bytes) => isNumber(bytes) ? `${fixed(bytes / 1e9, 1)} GB` : "not known";
 
-// Why something does not work, in the daemon's words. Each entry: [place, text].
+// The reasons why functions are not available, in the words of mdofd. Each element is [place,
+// text].
 export function reasons(info, devices, compensation) {
   const found = [];
   if (info.storage !== "ok") found.push(["storage", `${info.storage}: ${info.storage_reason}`]);
@@ -33,7 +34,8 @@ export function reasons(info, devices, compensation) {
   return found;
 }
 
-// Time until the disk is full, for continuous recording at the rate of the newest run.
+// Time in hours until the disk is full, if mdofd records without interruption at the data rate of
+// the newest run.
 export function hoursLeft(health, run) {
   const rate_hz = run?.plausibility?.rate_hz, bytes = health.newest_recording?.bytes;
   if (!isNumber(rate_hz) || !isNumber(bytes) || !isNumber(health.free_bytes) || !(run.scans > 0)) return null;
@@ -63,7 +65,7 @@ export function open(place) {
     h("div", {class: "columns"}, h("section", {class: "panel"}, h("h2", {}, "mdofd"), server), h("section", {class: "panel"}, h("h2", {}, "Storage"), storage),
       h("section", {class: "panel"}, h("h2", {}, "Connected clients"), clients)),
     h("section", {}, h("h2", {}, "Devices"), t.devices), h("section", {}, h("h2", {}, "Clocks"), t.clocks), h("section", {}, h("h2", {}, "Calibrations"), t.calibrations));
-  let sized = null;  // the newest recorded run, whose rate is known
+  let sized = null;  // the newest run with a recording; its data rate is known
   async function read() {
     if (document.hidden) return;
     try {

@@ -1,5 +1,5 @@
-// All data of one run: description, errors, straightness with its reference line, angles, budgets,
-// history.
+// Shows all data of one run: description, errors, straightness with the reference line, angles,
+// uncertainty budgets, history.
 import {Chart, ErrorCharts, approach, errorKeys, means, plain} from "../charts.js";
 import {covers, decimals, field, fixed, h, isNumber, measured, nameOf, notices, problem, select, table, time, titleOf, unitOf} from "../dom.js";
 import {budgetBars} from "../pictures.js";
@@ -30,8 +30,8 @@ function head(run) {
     ["Recording", run.recording.path], ["SHA-256 of the recording", run.recording.sha256]]);
 }
 
-// The line of mdofd at these encoder positions. Its slope is over the travel of the moving body,
-// which is opposite to the encoder if the rig has travel "-".
+// Values of a reference line from mdofd at encoder positions. The slope refers to the travel of the
+// moving body. If the rig has travel "-", this travel is opposite to the encoder.
 export function lineAt(line, travel, places_mm) {
   if (!line || !isNumber(line.slope_um_per_m)) return [];
   return places_mm.map((x) => [x, line.intercept_um + line.slope_um_per_m * (travel === "-" ? -x : x) / 1000]);
@@ -68,7 +68,7 @@ class Straightness {
 function angles(run) {
   return table("Angles: range over the travel, mean of both approaches", [["error"], ["range", "w"], ["at start/µrad", "n"], ["smallest/µrad", "n"], ["largest/µrad", "n"]],
     Object.entries(run.angles ?? {}).map(([key, {mean}]) => [nameOf(key), measured(run.uncertainty?.[key.replace("_urad", "_range_urad")] ?? {value: mean.range_urad}, "µrad"),
-      // stored relative to the start
+      // min_urad and max_urad are relative to start_urad
       fixed(mean.start_urad, 3), fixed(mean.start_urad + mean.min_urad, 3), fixed(mean.start_urad + mean.max_urad, 3)]));
 }
 
@@ -84,7 +84,7 @@ class Budget {
     const turn = this.turn = (this.turn ?? 0) + 1;
     try {
       const reply = await call("run.budget", {run, figure});
-      if (turn !== this.turn) return;  // another result was selected meanwhile
+      if (turn !== this.turn) return;  // the user has selected another result since
       const budget = reply.figures[figure], unit = unitOf(figure);
       this.place.replaceChildren(h("p", {class: "result"}, `${titleOf(figure)}: ${measured(budget, unit)}; u = ${fixed(budget.u, decimals(budget.u))} ${unit}`),
         budgetBars(budget, unit), covers(budget) ?? "");
@@ -94,7 +94,7 @@ class Budget {
   }
 }
 
-// All numbers of the charts, for users who cannot see the charts or want the numbers.
+// A table with all numbers of the charts, for users who cannot see the charts or need the numbers.
 export function pointsTable(points) {
   const keys = errorKeys(points.find((p) => errorKeys(p).length));
   return h("details", {}, h("summary", {}, `All ${points.length} points with U`), table("Points in the order of measurement",
@@ -106,7 +106,8 @@ export function pointsTable(points) {
 const deeds = (list) => list.length === 0 ? null : h("section", {}, h("h2", {}, "History"), h("ul", {},
   list.map((d) => h("li", {}, `${time(d.utc)}: ${d.deed} by ${d.user || `uid ${d.uid}`}${d.detail ? `: ${d.detail}` : ""}`))));
 
-// Runs that can be compared with this one or give a squareness with it.
+// The runs that can be compared with this run, or from which a squareness can be calculated with
+// it.
 function partners(run, runs) {
   const of = (test) => runs.filter((r) => r.run !== run.run && test(r)).map((r) => [r.run, `run ${r.run}, ${r.axis}, ${time(r.started_utc)} ${r.note ?? ""}`]);
   const pick = (label, options, how) => options.length === 0 ? null
@@ -137,7 +138,7 @@ function readings(points) {
     points.map((p) => [String(p.target), String(p.run), approach(p.direction).name, fixed(p.position_mm, 4), fixed(p[key], decimals(p.u[key], 4)), fixed(p.u[key], decimals(p.u[key]))])));
 }
 
-// One error at each reading, and the figures of positioning.
+// Shows an imported run: one error at each reading, and the positioning figures.
 function showImported(body, run, points, runs, opened) {
   const keys = errorKeys(points[0]), charts = new ErrorCharts(keys), figures = Object.entries(run.uncertainty ?? {});
   opened.push(charts);

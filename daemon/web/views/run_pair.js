@@ -1,13 +1,14 @@
-// Two runs: overlaid, with the difference of each element; the squareness of two axes.
+// Shows two runs of an axis in common charts, with the difference of each error; or the squareness
+// of two axes.
 import {Chart, errorKeys, means, plain} from "../charts.js";
 import {covers, h, measured, nameOf, notices, problem, short, table, time, titleOf, unitOf} from "../dom.js";
 import {budgetBars, squarenessPicture, squarenessSign} from "../pictures.js";
 import {call, pages} from "../rpc.js";
 import {isImported} from "./run_detail.js";
 
-const kSame_mm = 0.01;  // targets of two runs within this distance are the same
+const kSame_mm = 0.01;  // if two targets are closer than this, they are the same target
 
-// Map target -> a - b for the targets of both runs.
+// A map target -> a - b, for the targets that both runs have.
 export function difference(a, b) {
   const found = new Map();
   for (const [x, value] of a)
@@ -15,8 +16,8 @@ export function difference(a, b) {
   return found;
 }
 
-// Mean of the approaches that both runs have at a target, so that an additional approach of one run
-// does not add its reversal.
+// The difference of two runs at each target: the mean over the approaches that both runs have
+// there. An approach that only one run has is not used, because it would add the reversal error.
 export function differenceOfRuns(a, b, key) {
   const found = new Map();
   for (const d of [1, -1])
@@ -48,8 +49,8 @@ const figures = (found, first, second) => table(`Results of run ${first} (before
   Object.entries(found.figures).map(([key, f]) => [titleOf(key), measured(f.before, unitOf(key), {with_k: false}), measured(f.after, unitOf(key), {with_k: false}),
     measured(f.change, unitOf(key), {with_k: false}), effects[f.effect] ?? f.effect]));
 
-// Two imported runs may state their deviations in different senses; mdofd returns both in the same
-// sense.
+// Two imported runs may have opposite sign conventions. mdofd returns the values of both with the
+// same convention.
 function inOneSense({points}, after, before) {
   const of = (run, which) => ({run, points: points.flatMap((p) => [[1, "forward"], [-1, "reverse"]].map(([direction, side]) =>
     ({run: 1, direction, target_mm: p.position_mm, ...Object.fromEntries(Object.entries(p[side]).map(([key, of_key]) => [key, of_key[which]]))})))});

@@ -1,4 +1,4 @@
-// Figures of the stored runs over time, with control limits, from run.trend.
+// Shows figures of the stored runs against time, with control limits, from run.trend.
 import {Chart} from "../charts.js";
 import {covers, fixed, h, isNumber, field, notices, problem, select, short, table, time, titleOf, unitOf} from "../dom.js";
 import {call} from "../rpc.js";
@@ -6,8 +6,8 @@ import {call} from "../rpc.js";
 const kAxes = [["", "all, and squareness"], ["X", "X"], ["Y", "Y"], ["Z", "Z"]];
 const named = (runs) => `run${runs.length > 1 ? "s" : ""} ${runs.join(" and ")}`;
 
-// The series of a control chart: position i + 1 is value i. Limits are null if there are too few
-// values.
+// The series of a control chart. The value with the index i is at x = i + 1. If there are too few
+// values, the limits are null.
 export function controlSeries({values, centre}) {
   const line = (label, colour, dash, of) => ({label, colour, dash, line: true,
     points: values.map((v, i) => [i + 1, of(v), of(v), of(v)]).filter((p) => isNumber(p[2]))});
@@ -18,7 +18,7 @@ export function controlSeries({values, centre}) {
     line("centre", "text", false, () => centre), line("lower limit", "orange", true, (v) => v.low), line("upper limit", "orange", true, (v) => v.high)];
 }
 
-// The result of the chart in words.
+// A text with the result of the control chart.
 export function verdict(key, {moved, baseline, values}) {
   if (values.length === 0) return "No stored run has this result.";
   if (baseline === 0) return `● ${values.length} ${values.length === 1 ? "value is" : "values are"} too few for control limits.`;

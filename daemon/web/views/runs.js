@@ -1,4 +1,5 @@
-// Runs: the list, one run, two compared runs, the squareness of two runs, control charts.
+// The view Runs: the list of runs, one run, two compared runs, the squareness from two runs,
+// control charts.
 import {field, h, problem, select, setRows, table, time} from "../dom.js";
 import * as live from "../live.js";
 import {call} from "../rpc.js";

@@ -1,27 +1,28 @@
-// Set-up: each gap and its range, the required shims, the check of the signs, and the devices.
+// The view Set-up: the reading of each probe in its range, the necessary shims, the check of the
+// signs, and the devices.
 import {age, field, fixed, h, isNumber, problem, select, setRows, setText, table} from "../dom.js";
 import * as live from "../live.js";
 import * as machine from "../machine.js";
 import {call} from "../rpc.js";
 
-const kText_ms = 120;      // numbers must not change faster than they can be read
-const kNoise = 60;         // number of values at rest for the noise
+const kText_ms = 120;      // interval of new numbers, ms; a user must be able to read them
+const kNoise = 60;         // number of values at rest from which the noise is calculated
 const kLeastFreedom = 9;   // with fewer degrees of freedom the noise is not shown
-const kOffCentre = 0.5, kNearEnd = 0.8;  // shares of half the range
-const kCentred = 0.1;      // no shim within this share
+const kOffCentre = 0.5, kNearEnd = 0.8;  // limits as shares of half the range
+const kCentred = 0.1;      // a probe within this share of half the range needs no shim
 const kUsable = ["good", "simulated"];
 
-// "+Z", or the vector if it is not along an axis.
+// A direction as text: "+Z", or the vector if it is not along an axis.
 export function along(direction) {
   const k = direction.findIndex((x) => Math.abs(Math.abs(x) - 1) < 1e-6);
   return k < 0 ? `(${direction.map((x) => fixed(x, 3)).join(", ")})` : (direction[k] < 0 ? "−" : "+") + "XYZ"[k];
 }
 const opposite = (direction) => along(direction.map((x) => -x));
 
-// Standard deviation about the mean of each stop, pooled over the last stops. The motion between
-// two stops is not noise.
+// The noise: the standard deviation from the mean of each stop, pooled over the last stops. This
+// way the motion between stops does not count as noise.
 export class Noise {
-  values = [];  // of the present stop
+  values = [];  // values of the present stop
   stops = [];   // earlier stops: [degrees of freedom, sum of squares]
   add(x, still) {
     if (still && isNumber(x)) {
@@ -38,7 +39,7 @@ export class Noise {
     const {values, mean} = this;
     return [Math.max(values.length - 1, 0), values.reduce((a, x) => a + (x - mean) ** 2, 0)];
   }
-  // [s, degrees of freedom]; null: too few values.
+  // [standard deviation, degrees of freedom]; null: too few values.
   get pooled() {
     const parts = [...this.stops, this.now()];
     const freedom = parts.reduce((n, [f]) => n + f, 0);
@@ -46,7 +47,7 @@ export class Noise {
   }
 }
 
-// The state of a probe: class, shape, word.
+// The state of a probe: CSS class, shape, word.
 export function stateOf(um, quality, low, high, stale) {
   if (stale) return ["invalid", "✕", "stale"];
   if (!kUsable.includes(quality)) return ["invalid", "■", quality.replaceAll("_", " ")];
@@ -56,8 +57,9 @@ export function stateOf(um, quality, low, high, stale) {
   return share > kOffCentre ? ["doubtful", "◆", "off centre"] : ["good", "●", "in range"];
 }
 
-// Beyond its range the probe shows the end of the range, so the way back is longer by an unknown
-// distance.
+// A text with the necessary shim. If the target is outside the range of the probe, the reading is
+// the end of the range; the necessary shim is then larger than the text states by an unknown
+// amount, and the text says "at least".
 export function shimText(um, probe, quality = "good") {
   if (!isNumber(um) || !(kUsable.includes(quality) || quality === "over_range")) return "Shim: not known, because the probe has no usable reading";
   const off = um - (probe.low_um + probe.high_um) / 2, least = quality === "over_range" ? "at least " : "";
@@ -67,7 +69,8 @@ export function shimText(um, probe, quality = "good") {
   return `Shim ${least}${fixed(Math.abs(off), 1)} µm: move the probe towards ${probeTowards}, or the target towards ${targetTowards}`;
 }
 
-// Minimum and maximum reading of the last second; there are many readings between two updates.
+// A text with the minimum and maximum reading of the last second. They are useful because there are
+// many readings between two updates.
 export function rangeText(low_um, high_um) {
   return isNumber(low_um) && isNumber(high_um) ? `Last second: ${fixed(low_um, 2)} to ${fixed(high_um, 2)} µm` : "Last second: no reading";
 }
@@ -114,7 +117,8 @@ class ProbeCard {
   }
 }
 
-// Push the target and check that each probe changes in the direction that the rig declares.
+// The check of the signs: the user pushes the target, and the page checks that each reading changes
+// with the sign that the rig declares.
 class SignCheck {
   base = null;
   constructor(cards) {
@@ -211,7 +215,7 @@ export function open(place, [asked]) {
       devices.element),
     check.element);
 
-  const keys = new Map();  // error -> its <dd>
+  const keys = new Map();  // error -> its element <dd>
   function drawErrors(value) {
     for (const [name, x, unit] of errorsText(value)) {
       if (!keys.has(name)) {
@@ -260,7 +264,7 @@ export function open(place, [asked]) {
       draw(last.value);
     }, 300)];
   const off = live.on("live.update", take);
-  // mdofd was restarted with another rig, which has other directions, ranges or probes.
+  // After a restart, mdofd can have another rig, with other directions, ranges or probes.
   const offRig = machine.onChange(() => {
     const now = machine.state.rigs.get(axis);
     if (now && JSON.stringify(now) !== drawn_of) window.dispatchEvent(new HashChangeEvent("hashchange"));

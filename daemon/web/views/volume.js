@@ -1,5 +1,5 @@
-// The corrections over a plane or a volume: arrows and heat map, seen from the front of the
-// machine.
+// Shows the corrections of a volumetric table over a plane or a volume as arrows and as a heat map,
+// seen from the front of the machine.
 import {change} from "../activation.js";
 import {covers, decimals, field, fixed, h, isNumber, problem, s, select, table, time} from "../dom.js";
 import * as live from "../live.js";
@@ -7,15 +7,16 @@ import {call} from "../rpc.js";
 import {facts} from "./run_detail.js";
 
 const kAxes = "XYZ";
-// Index of the axis to the right, index of the upward axis, description of the view.
+// For each plane: index of the axis to the right, index of the upward axis, description of the
+// view.
 const kPlanes = {XY: [0, 1, "from above: X to the right, Y to the back"], XZ: [0, 2, "from the front: X to the right, Z up"],
   YZ: [1, 2, "from the right side: Y to the right, Z up"]};
 const kWidth = 760, kEdge = 60;
-const kMostRows = 1000;  // of the table of nodes
+const kMostRows = 1000;  // largest number of rows in the table of nodes
 
 const size = ([, , , x, y, z]) => Math.hypot(x, y, z);
 
-// The nodes of one layer, where the third axis is at `at_mm`.
+// The nodes of one layer: those whose third axis is at `at_mm`.
 export function layer(nodes, plane, at_mm) {
   const third = [0, 1, 2].find((k) => k !== kPlanes[plane][0] && k !== kPlanes[plane][1]);
   return nodes.filter((n) => Math.abs(n[third] - at_mm) < 1e-6);
@@ -29,8 +30,8 @@ function arrow(x, y, dx, dy) {
   return s("path", {class: "ink", d: `M${x} ${y}L${tx} ${ty}M${bx - head / 2 * uy} ${by + head / 2 * ux}L${tx} ${ty}L${bx + head / 2 * uy} ${by - head / 2 * ux}`});
 }
 
-// True to scale: a millimetre has the same length along both axes. The largest arrow is one grid
-// step.
+// The picture of one layer. A millimetre has the same length along both axes. The largest arrow is
+// as long as one step of the grid.
 export function planePicture(nodes, plane, largest_um) {
   const [a, b, view] = kPlanes[plane];
   const values = (k) => [...new Set(nodes.map((n) => n[k]))].sort((x, y) => x - y);
@@ -53,7 +54,8 @@ export function planePicture(nodes, plane, largest_um) {
   h("p", {class: "quiet"}, `Seen ${view}. Longest arrow: ${fixed(largestInPlane, 3)} µm in the plane. A stronger blue shows a larger correction in space (0 to ${fixed(largest_um, 3)} µm).`)];
 }
 
-// All pages must be of one generation: mdofd rejects a page of another one.
+// Reads the grid in pages. All pages must have the same generation; if the generation changes,
+// mdofd rejects the call.
 async function grid(generation) {
   const nodes = [];
   for (;;) {
@@ -105,8 +107,8 @@ function activeOf(volume, nodes) {
       nodes.slice(0, kMostRows).map((n) => n.slice(0, 9).map((x, i) => fixed(x, i < 3 ? 3 : 4)))))];
 }
 
-// mdofd rejects the activation of a volumetric table while a table of an axis is active, because
-// both would correct twice.
+// The stored tables, with buttons to activate them. While a table of an axis is active, mdofd
+// rejects the activation of a volumetric table, because both together would correct an error twice.
 function stored(tables, active, generation, done) {
   const act = async (method, params, question) => {
     try {

@@ -17,7 +17,8 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kReadTimeout{100}, kShown{100};
 
-// Mean and spread, updated with each value (Welford).
+// Mean, standard deviation and extremes of a channel, updated with each value (Welford's
+// algorithm).
 struct Running {
   Quality worst = Quality::good;
   double squares = 0;

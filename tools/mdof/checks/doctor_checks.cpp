@@ -28,7 +28,7 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-// 0: the file does not exist.
+// The hexadecimal number in a file; 0: the file does not exist.
 unsigned hex_in(const fs::path& file) {
   const std::string text = first_line(file);
   unsigned number = 0;
@@ -42,7 +42,7 @@ bool is_usb_device(const drivers::UsbDevice& usb, const fs::path& device) {
          (*usb.manufacturer == '\0' || first_line(device / "manufacturer") == usb.manufacturer);
 }
 
-// "/dev/bus/usb/001/007" for a device's folder in /sys.
+// The device node, such as "/dev/bus/usb/001/007", of a USB device with this folder in /sys.
 fs::path usb_node(const Machine& machine, const fs::path& device) {
   const auto three = [](const std::string& number) {
     return std::string(3 - std::min<std::size_t>(number.size(), 3), '0') + number;
@@ -108,7 +108,7 @@ Diagnosis check_class_device(const Machine& machine, const std::string& device,
   return {Level::bad, what + "no permission for " + node, of.remedy};
 }
 
-// The files in the device's folder that match the shell patterns of `of`.
+// The files in the folder of a device that match the shell patterns in `of`.
 std::vector<fs::path> files_of(const drivers::SysfsFile& of, const fs::path& device) {
   std::vector<fs::path> files;
   std::istringstream patterns(of.files);
@@ -121,7 +121,8 @@ std::vector<fs::path> files_of(const drivers::SysfsFile& of, const fs::path& dev
   return files;
 }
 
-// nullopt: another device, or a device without such files.
+// Checks the files of one device. nullopt: `of` is for another device, or the device has no such
+// files.
 std::optional<Diagnosis> check_sysfs_device(const fs::path& device, const drivers::SysfsFile& of,
                                             std::optional<gid_t> service) {
   const std::string name = first_line(device / "name"), names = std::string("|") + of.devices + "|";

@@ -71,7 +71,7 @@ std::vector<std::string> allowed_in(const fs::path& file) {
 }
 
 std::vector<std::string> allowed(const Machine& machine) {
-  std::vector<std::string> all = {"127.0.0.0/8", "::1"};  // from the unit itself
+  std::vector<std::string> all = {"127.0.0.0/8", "::1"};  // mdofd.service itself permits these
   for (const char* folder : kUnitFolders) {
     std::error_code ec;
     for (const auto& file : fs::directory_iterator(machine.at(folder) / "mdofd.service.d", ec))
@@ -87,7 +87,8 @@ bool may_reach(const std::vector<std::string>& allowed, const Block& one) {
   });
 }
 
-// "192.168.0.7" for the device "tcp 192.168.0.7:502 unit 1"; empty: not on a network.
+// The address of a device: "192.168.0.7" for "tcp 192.168.0.7:502 unit 1". Empty: the device is not
+// on a network.
 std::string address_of(const drivers::DriverSpec& device) {
   constexpr std::string_view kTcp = "tcp ";
   const std::string identity = device.identity ? device.identity() : "";

@@ -16,7 +16,7 @@
 namespace mdof::tools {
 namespace {
 
-// The default fixture.
+// The default fixture of the checks.
 constexpr const char* kRig = R"(
 name = "default fixture"
 axis = "X"
@@ -32,7 +32,7 @@ probe = [
 constexpr int kTrials = 10000;
 constexpr double kExact = 1e-9, kAngle_urad = 1.01, kStraightness_um = 0.11;
 
-// Uniform numbers that are the same with every standard library.
+// Uniformly distributed random numbers, which are the same with every standard library.
 class Random {
  public:
   double between(double low, double high) {
@@ -159,7 +159,7 @@ Result<Run> measure_synthetic_log(const Rig& rig) {
   return run;
 }
 
-// The constant errors of the carriage, transformed to the fixture to first order.
+// The errors at the fixture if the carriage has the errors kConstant, calculated to first order.
 Errors5 constant_at_fixture(double travel_m) {
   Errors5 e = kConstant;
   e[kDy] -= travel_m * e[kEz];
@@ -204,7 +204,8 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// Number of findings after writing, closing, reading back and verifying.
+// Writes the run, closes the database, reads and verifies it. Returns the number of differences and
+// faults.
 Result<double> store_and_read_back(const Run& run) {
   const TemporaryFolder folder;
   if (folder.path().empty())

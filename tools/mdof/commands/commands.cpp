@@ -16,7 +16,8 @@ namespace mdof::tools {
 
 namespace {
 
-// The first word of several commands. The help lists a group at the place of its first command.
+// A group: the word with which several commands begin, such as "device". The help lists the group
+// at the place of its first command.
 struct Group {
   std::string_view name;
   const char *summary, *footer;
@@ -60,7 +61,7 @@ CLI::App* add_command(CLI::App& app, const Command& row) {
       ->add_subcommand(name.substr(space + 1), row.summary);
 }
 
-// CLI11 accepts nan and inf as numbers, but no command does.
+// Makes all options reject nan and inf, which CLI11 accepts as numbers.
 void refuse_nan_and_inf(CLI::App& command) {
   for (CLI::Option* option : command.get_options())
     if (option->get_type_name().starts_with("FLOAT")) option->check(finite_number());
@@ -84,8 +85,8 @@ std::vector<Command> all_commands() {
 }
 
 void declare_commands(CLI::App& app, Action& chosen) {
-  // Options are declared only for the called command, because declaring all takes most of the start
-  // time.
+  // Only the called command declares its options, because declaring the options of all commands
+  // would take most of the start time.
   const auto options = std::make_shared<std::vector<std::function<void()>>>();
   for (const Command& row : all_commands()) {
     auto* command = add_command(app, row)->footer(row.footer);

@@ -1,5 +1,5 @@
-// mdof calibrate certificate DCC: reads the scale and linearity of a probe from a laboratory's
-// certificate.
+// mdof calibrate certificate DCC: writes a calibration record with the scale and the linearity that
+// a laboratory's certificate (DCC) states for a probe.
 #include <CLI/CLI.hpp>
 
 #include "algo/calibration/certified_probe.h"

@@ -1,5 +1,5 @@
-// mdof calibrate mounting CLAMPING...: finds the positions of a fixture's probes from a tilted
-// target.
+// mdof calibrate mounting CLAMPING...: calculates the positions of the probes in a fixture from
+// readings on a tilted target.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ struct Sources {
   std::string started_utc;  // start of the newest log
 };
 
-// +1 or -1: direction of the target along the axis for increasing encoder values.
+// The direction in which the target moves along the axis if the encoder value increases: +1 or -1.
 double target_sign(const MountingCommand& command, const Rig& rig, Axis axis) {
   const std::string name(1, letter(axis));
   const auto& all = command.reversed;
@@ -130,8 +130,8 @@ void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig
     record.probes.push_back(as_record(found.probes[k], rig.probes[k]));
 }
 
-// Found places would be used as nominal places, and their small u would prevent a new
-// determination.
+// Error: the rig already contains a mounting calibration. It would be used as the nominal mounting,
+// and with its small u the new calibration would have almost no effect.
 Status check_not_calibrated(const Rig& rig) {
   for (const CalibrationRecord& record : rig.records)
     if (record.kind == "mounting")

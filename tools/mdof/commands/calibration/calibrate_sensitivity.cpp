@@ -1,5 +1,5 @@
-// mdof calibrate sensitivity LOG: calibrates a probe against the encoder of the axis that
-// approaches it.
+// mdof calibrate sensitivity LOG: calibrates the sensitivity of a probe against the encoder of the
+// axis that moves the target towards the probe.
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -103,12 +103,12 @@ Status calibrate(const SensitivityCommand& command) {
     return fail(ErrorCode::usage, command.rig + ": the rig has no probe \"" + command.probe +
                                       "\"; the probes of the rig are " + probe_ids(rig));
   Calibration& calibration = rig.probes[*at].calibration;
-  calibration.linearity.clear();  // determined anew
+  calibration.linearity.clear();  // this command determines it
   calibration.polynomial_um.clear();
   MDOF_TRY(const Axis axis, algo::approaching_axis(rig, *at));
   MDOF_TRY(const auto log, daemon::read_stops(command.log, axis, rig));
   show_notices(log.notices, true);
-  if (log.units[*at] != Unit::volt) calibration.um_per_V.reset();  // not used for a length
+  if (log.units[*at] != Unit::volt) calibration.um_per_V.reset();  // only used for voltages
   const double own = axis == rig.axis ? rig.sides.target_travel_m(1) : 1;
   algo::Traverse traverse{axis, {}};
   for (const Point& stop : log.stops)

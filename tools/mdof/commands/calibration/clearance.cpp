@@ -1,5 +1,5 @@
-// mdof clearance RIG.toml: shows which motions drive the target into a probe, and after how much
-// travel.
+// mdof clearance RIG.toml: shows along which axes a motion would drive the target into a probe, and
+// after which travel.
 #include <CLI/CLI.hpp>
 
 #include "algo/model/clearance.h"

@@ -1,4 +1,4 @@
-// The check of an export as JSON and as text.
+// Writes the check of an export as JSON and as text.
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/run_json.h"
@@ -12,7 +12,7 @@ namespace {
 using controllers::CheckedError;
 using controllers::Control;
 
-constexpr double kShown = 5e-11;  // m or rad; smaller values are 0.0000 in the table
+constexpr double kShown = 5e-11;  // m or rad; the table shows smaller values as 0.0000
 
 void write_control(JsonWriter& json, const CheckedError& e, const Control& control) {
   json.begin_object().field("mistake", control.name);
@@ -24,7 +24,7 @@ void write_control(JsonWriter& json, const CheckedError& e, const Control& contr
   json.end_object();
 }
 
-// The part of the residual that no file of the table can correct.
+// A text that states the parts of the residual that no file of this format can correct.
 std::string causes_text(const CheckedError& e) {
   const std::string unit = e.angle ? " µrad" : " µm";
   std::string text;

@@ -22,7 +22,7 @@ namespace mdof::tools {
 namespace {
 
 struct BuildCommand {
-  // An empty reference means the tool point of the rig, otherwise the fixture.
+  // An empty `reference` is the tool point of the rig, or the fixture if the rig has no tool point.
   std::string database, socket, axis, reference;
   std::vector<std::string> words;  // the arguments RUN
   std::vector<std::int64_t> runs;
@@ -40,12 +40,13 @@ Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
                                daemon::action_now("compensation.build", daemon::this_process())};
   MDOF_TRY(request.limits, command.limits.limits());
   if (!command.reference.empty())
-    reference_from(command.reference, request.reference.emplace());  // always valid
+    reference_from(command.reference,
+                   request.reference.emplace());  // the option accepts only valid names
   return daemon::build_table(store, request);
 }
 
-// If mdofd holds the database, it builds and stores the table. This program then reads and shows
-// it.
+// If mdofd uses the database, mdofd builds and stores the table. This program then reads and shows
+// the table.
 Result<daemon::BuiltTable> build_in_daemon(rpc::Client& mdofd, const BuildCommand& command) {
   JsonWriter params;
   params.begin_object().key("runs").begin_array();
@@ -76,7 +77,7 @@ Status choose_runs(BuildCommand& command) {
   return {};
 }
 
-// Refuses options for tables of the other kind instead of ignoring them.
+// Error: an option is only for the other kind of table (axis or volume).
 Status check_kind(const BuildCommand& command) {
   if (!command.volume.asked()) {
     if (command.words.empty())

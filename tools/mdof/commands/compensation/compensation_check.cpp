@@ -1,4 +1,5 @@
-// mdof compensation check: checks whether the exported tables would cancel the error.
+// mdof compensation check: checks whether the exported files would correct the errors in the
+// tables.
 #include <CLI/CLI.hpp>
 
 #include "tools/mdof/commands/command.h"

@@ -69,12 +69,13 @@ std::string formats_text(std::size_t width) {
   return text;
 }
 
-// True for "EAX", false for "EXX".
+// Whether the error is an angle: true for "EAX", false for "EXX".
 bool is_angle(const std::string& error) {
   return error.size() > 1 && std::string_view("ABC").find(error[1]) != std::string_view::npos;
 }
 
-// Writes all files or none: files of two exports together would form another table.
+// Error: one of the files exists already. Files of two exports in one folder could together be a
+// wrong table.
 Status check_free(const std::vector<fs::path>& files) {
   std::error_code ec;
   for (const fs::path& file : files)
@@ -166,7 +167,8 @@ std::string exported_text(const ExportedTables& exported, const std::vector<std:
 Status export_tables(const ExportTablesCommand& command) {
   if (command.list)
     return command.json ? write_line(formats_json()) : write_out(formats_text(terminal_columns()));
-  // A format that mdof cannot write is refused first, because --out would not help.
+  // Checks the format before --out, because a format that mdof cannot write is an error with any
+  // --out.
   MDOF_CHECK(format_of(command.request));
   if (command.folder.empty()) return fail(ErrorCode::usage, "missing option --out FOLDER");
   MDOF_TRY(const ExportedTables exported, exported_tables(command.request));

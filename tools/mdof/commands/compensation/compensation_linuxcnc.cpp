@@ -14,7 +14,8 @@
 namespace mdof::tools {
 namespace {
 
-constexpr double kMostMargin_mm = 5;  // far more than any correction, but less than a typing error
+constexpr double kMostMargin_mm =
+    5;  // much larger than any correction; a larger value is probably a typing error
 
 struct LinuxCncCommand {
   std::string ini, folder;

@@ -28,8 +28,8 @@ struct ShowTableCommand {
   bool csv = false, json = false;
 };
 
-// The requested table; otherwise the active table (of the axis, if given); otherwise the newest
-// table. Considers tables of axes and of the volume.
+// The number of the table to show: the requested table, otherwise the active table, otherwise the
+// newest table. If the user stated an axis, only tables of this axis count.
 Result<std::int64_t> choose_table(store::Store& store, const ShowTableCommand& command) {
   if (command.table != 0) return command.table;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {

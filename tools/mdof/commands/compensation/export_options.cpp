@@ -1,4 +1,4 @@
-// The common options of mdof compensation export and check.
+// Declares the options that mdof compensation export and mdof compensation check share.
 #include <CLI/CLI.hpp>
 
 #include "tools/mdof/commands/compensation/exported.h"

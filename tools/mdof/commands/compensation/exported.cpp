@@ -23,7 +23,8 @@ namespace mdof::tools {
 namespace {
 
 constexpr double kMostTolerance_um = 100;
-// With larger limits, any file would pass as a correction.
+// Largest limits that the user may state. With larger limits, almost any file would pass the
+// self-test.
 constexpr double kMostResidual_um = 20, kMostResidual_percent = 50;
 
 Status check_request(const ExportRequest& request) {
@@ -43,7 +44,8 @@ Status check_request(const ExportRequest& request) {
   return {};
 }
 
-// Records changed limits in the files, so that the reader knows them.
+// If the user changed limits, adds a comment to the files, because a reader of the files must know
+// this.
 void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
                  std::vector<std::string>& marks) {
   std::string changed;
@@ -72,8 +74,8 @@ void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
   if (!changed.empty()) marks.push_back("LIMITS CHANGED: " + changed);
 }
 
-// Refuses data that must not be taken for a measured result, or marks them if the request accepts
-// them.
+// Error: the data are simulated or have warnings, and the request does not accept this. If it
+// accepts them, adds a warning to the files.
 Status judge(const daemon::Judged& judged, const ExportRequest& request, ExportedTables& out) {
   MDOF_CHECK(daemon::check_gate(judged, request.consent, "it is not exported"));
   auto& marks = out.options.marks;
@@ -102,7 +104,7 @@ Status judge_table(store::Store& store, const CompensationTable& table,
                      "from the same runs");
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
   MDOF_CHECK(judge(judged, request, out));
-  // A table with positioning is never active, because mdofd does not serve it.
+  // A table with positioning errors is never active, because mdofd does not apply such tables.
   if (table.has_positioning()) return {};
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   return judge_active(table.id, generation, request, out.options.marks);
@@ -150,7 +152,8 @@ Status read_joint_options(const ExportRequest& request, ExportedTables& out) {
   return {};
 }
 
-// Takes MAX_ACCELERATION from an option or from the ini file; without both it is unknown.
+// Reads MAX_ACCELERATION from the option or from the ini file. It is unknown if the user stated
+// neither.
 Status read_ramp_options(const ExportRequest& request, ExportedTables& out) {
   const bool given = request.max_acceleration_mm_s2.has_value();
   if (!given && request.ini.empty()) return {};
@@ -179,7 +182,8 @@ Status take_siemens_limits(const ExportRequest& request, ExportedTables& out) {
                   "siemens-lec and siemens-cec have these options");
 }
 
-// If requested, errors that were measured in one approach only apply to both approaches.
+// If the user requested it, uses errors that were measured in only one approach for both
+// approaches.
 Status apply_one_approach(CompensationTable& table, const ExportRequest& request,
                           ExportedTables& out) {
   const auto has = [](const std::vector<double>& x) {
@@ -204,8 +208,8 @@ Status apply_one_approach(CompensationTable& table, const ExportRequest& request
   return take(positioning_name(table.axis), table.positioning.forward, table.positioning.reverse);
 }
 
-// Both approaches of such a table have the same values, so the controller assumes a reversal error
-// of 0.
+// Adds a warning to the files if the approach of the readings is unknown. Both approaches of such a
+// table have the same values, and the controller therefore assumes a reversal error of 0.
 Status mark_unknown_approach(store::Store& store, const CompensationTable& table,
                              ExportedTables& out) {
   if (!table.has_positioning() || !out.format->both_approaches) return {};
@@ -262,7 +266,8 @@ Status export_axes(store::Store& store, const ExportRequest& request,
   return {};
 }
 
-// Some formats hold both kinds; the kind of the table then decides.
+// Whether a volumetric table is exported. If the format supports tables of axes and volumetric
+// tables, the kind of the stored table decides.
 Result<bool> exports_volume(store::Store& store, const controllers::Format& format,
                             const ExportRequest& request) {
   if (!format.volume.write || !format.axes.write) return format.volume.write != nullptr;

@@ -37,8 +37,8 @@ Status check_options(const VolumeOptions& o) {
   return {};
 }
 
-// Positions of the axes that are not in the grid. If three numbers are given, the numbers of the
-// axes in the grid must be 0.
+// The positions of the axes that are not in the grid, from --at. If the user stated three numbers,
+// the numbers of the axes in the grid must be 0.
 Result<algo::Command> fixed_axis_positions(const Machine& machine, const VolumeOptions& o) {
   MDOF_TRY(const algo::Command at, command_from(machine, o.at));
   const bool named = o.at.find('=') != std::string::npos;
@@ -78,8 +78,8 @@ Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
   return built;
 }
 
-// If mdofd holds the database, it builds and stores the table. This program then reads and shows
-// it.
+// If mdofd uses the database, mdofd builds and stores the table. This program then reads and shows
+// the table.
 Result<daemon::BuiltVolumetric> build_in_daemon(rpc::Client& mdofd, const VolumeBuild& command) {
   const VolumeOptions& o = command.options;
   MDOF_TRY(const std::string text, read_text_file(o.machine));

@@ -33,8 +33,8 @@ struct Clamped {
   std::optional<bool> is_elastic;
 };
 
-// The stress needs all data of the plate, and the verdict also the yield limit. A part of the data
-// is an error.
+// Error: the user stated only some of the data. The stress needs all data of the plate; the verdict
+// also needs the yield limit.
 Status check_plate(const FormClampCommand& o) {
   const std::pair<const char*, bool> plate[] = {{"--thickness-mm", o.thickness_mm.has_value()},
                                                 {"--young-GPa", o.young_GPa.has_value()},
@@ -65,7 +65,7 @@ Result<Clamped> clamped(const FormClampCommand& o) {
                          "the clamping deformation at the remaining pixels is unknown");
   if (!o.thickness_mm) return found;
   const algo::Plate plate{from_mm(*o.thickness_mm), *o.young_GPa * 1e9, *o.poisson};
-  // The elastic part carries the stress; the plastic part remains without a load.
+  // Only the elastic deformation causes stress. The plastic deformation remains without a load.
   auto stress = algo::plate_stress(found.clamping.elastic, plate, from_mm(o.smooth_mm));
   if (!stress) return in_context("--smooth-mm", std::move(stress.error()));
   found.stress = *stress;

@@ -33,11 +33,11 @@ algo::Register register_from(const std::string& name) {
 struct Compared {
   algo::Comparison found;
   std::size_t measured = 0;  // pixels of A
-  double pixel_m = 0;        // of A, the smaller step
+  double pixel_m = 0;        // of A: the smaller of its two steps
 };
 
-// Noise and small differences in form shift the best pose by a fraction of a pixel; no notice is
-// needed.
+// Limits for notices. Noise and small differences in form shift the best pose by less than a pixel;
+// such a shift needs no notice.
 constexpr double kPixelsMoved = 1, kMuchLeft = 0.5;
 
 Notices notices_of(const Compared& compared, const FormCompareCommand& o) {

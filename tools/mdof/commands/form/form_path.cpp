@@ -56,7 +56,7 @@ CLI::Validator whole_number_in(double least, double most) {
       "");
 }
 
-// Largest acceleration from second differences, and the extreme positions.
+// The extreme positions of a path, and its largest acceleration from second differences.
 class Motion {
  public:
   void add(double z_m) {
@@ -75,7 +75,8 @@ class Motion {
   std::size_t count_ = 0;
 };
 
-// Distance of the farthest measured pixel, if the map shows that the part ends there.
+// The distance from the centre to the farthest measured pixel. Error: the map does not show that
+// the part ends there.
 Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, double y_centre_m) {
   const algo::FarthestPixel pixel = algo::farthest_pixel(map, x_centre_m, y_centre_m);
   if (!algo::is_edge_missing(map)) return pixel.radius_m;
@@ -93,7 +94,7 @@ Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, doubl
 
 Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMap& map) {
   algo::SpiralRequest request;
-  if (!scanned_run_number(o.map)) {  // a scan has the spindle axis at (0, 0)
+  if (!scanned_run_number(o.map)) {  // in a scan, the spindle axis is at (0, 0)
     const algo::MapMiddle middle = algo::middle_of(map);
     request.x_centre_m = middle.x_m;
     request.y_centre_m = middle.y_m;
@@ -160,15 +161,15 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   return found;
 }
 
-// nullopt if the feed leaves a ring between two turns.
+// The roughness by the feed; nullopt if the tool does not cut a ring between two turns.
 std::optional<algo::FeedRoughness> feed_roughness_if_closed(const FoundPath& found) {
   const algo::SpiralRequest& request = found.request;
   if (!(request.feed_m < 2 * request.tool_radius_m)) return {};
   return algo::feed_roughness(request.tool_radius_m, request.feed_m);
 }
 
-// Limits for notices: a spiral around a long part leaves the part for most of each turn, and
-// bridges may rise a little above the part.
+// Limits for notices. If a part is long and narrow, the spiral is beside the part for most of each
+// turn. There the path bridges the gap, and it may be a little higher than the part.
 constexpr double kMostlyBridged = 0.9, kHigherBridged = 1.1;
 
 Notices notices_of(const FoundPath& found, const FormPathCommand& o) {

@@ -1,4 +1,5 @@
-// mdof form scan RUN...: builds a height map of a part on a spindle from a separate probe.
+// mdof form scan RUN...: builds a height map of a part on a spindle from runs in which a probe
+// scanned the part.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>

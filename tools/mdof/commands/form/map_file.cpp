@@ -20,15 +20,16 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{2} << 30;  // of a file read as a whole
+constexpr std::size_t kMostBytes = std::size_t{2}
+                                   << 30;  // largest size of a file that is read as a whole
 
 std::string_view without_byte_order_mark(std::string_view piece) {
   constexpr std::string_view kMark = "\xef\xbb\xbf";
   return piece.starts_with(kMark) ? piece.substr(kMark.size()) : piece;
 }
 
-// The first piece shows the format of the file. Text is read piece by piece, so that a large map is
-// not also in memory as text.
+// Reads a map in pieces. The first piece shows the format of the file. A text file is converted
+// piece by piece, so that a large map is not in memory as text.
 class MapReader {
  public:
   MapReader(std::string file, std::optional<XyzUnits> units)
@@ -81,7 +82,7 @@ std::optional<std::int64_t> scanned_run_number(const std::string& name) {
 }
 
 Status check_out(const std::string& out, const std::vector<std::string>& maps) {
-  std::error_code unknown;  // for a file that does not exist yet
+  std::error_code unknown;  // ignored: the file does not exist yet
   for (const std::string& map : maps)
     if (!out.empty() && !scanned_run_number(map) && std::filesystem::equivalent(out, map, unknown))
       return fail(ErrorCode::usage, "--out " + out + ": this is the file of the map " + map +

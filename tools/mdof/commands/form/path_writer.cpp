@@ -22,7 +22,7 @@ PathForm path_form(const std::string& file) {
   return PathForm::table;
 }
 
-// Writes fixed decimals through an integer, because a path may have a hundred million numbers.
+// Converts x through an integer, which is fast. A path may have a hundred million numbers.
 void PathWriter::word(const char* before, double x, int decimals) {
   text_ += before;
   static constexpr std::array<double, 10> kTens = {

@@ -23,7 +23,7 @@ constexpr const char* kNotKept =
     "source has u = 0";
 constexpr const char* kFactorRule = "all u are multiplied by the same factor";
 
-// Sorted by the contribution to u_x² + u_y² + u_z², largest first.
+// The indices of the causes, sorted by their contribution to u_x² + u_y² + u_z², the largest first.
 std::vector<std::size_t> causes_by_contribution(const algo::BudgetModel& model) {
   std::vector<std::size_t> order(model.causes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,5 +1,5 @@
-// mdof machine budget --preset co-planar | MACHINE.toml: calculates the error of the tool, its
-// causes, and the tolerances that keep the error within a target.
+// mdof machine budget --preset co-planar | MACHINE.toml: calculates the uncertainty of the tool
+// position, its causes, and the tolerances with which the error stays within a target.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -34,7 +34,7 @@ std::vector<std::string> beyond_tables(const algo::BudgetModel& model) {
   return names;
 }
 
-// Adds the runs as if the descriptions of their axes named them.
+// Adds the runs that the options name, as if the machine file named them for their axes.
 Status add_named_runs(Machine& machine, const MachineBudgetCommand& o) {
   if (o.runs.empty()) return {};
   MDOF_TRY(store::Store store, open_to_read(o.database));

@@ -38,19 +38,20 @@ struct MachineCircleCommand {
 
 // A predicted or measured circle with its figures.
 struct FoundCircle {
-  algo::CircularPath path;  // with the centre removed
+  algo::CircularPath path;  // deviations after the centre was subtracted
   algo::CircularFigures figures;
 };
 
-// The largest difference measured - predicted. U covers 95 % of the prediction from the u of the
-// errors there, k = 1.96; NaN: no u is declared. U does not include the ball bar.
+// The largest difference "measured - predicted" and its angle. U is the expanded uncertainty (95 %,
+// k = 1.96) of the prediction at this angle, from the u of the machine's errors. It does not
+// include the ball bar. NaN: no u is declared.
 struct LargestDifference {
   double value_m = 0, angle_rad = 0, U_m = NAN;
   bool clockwise = false;
 };
 
 struct FoundCircles {
-  const Machine* machine = nullptr;  // null: measured only
+  const Machine* machine = nullptr;  // null: there is only a measured circle
   std::vector<std::string> not_measured, beyond;
   bool simulated = false;
   std::optional<FoundCircle> predicted, measured;
@@ -64,7 +65,7 @@ Result<FoundCircle> evaluated(algo::CircularPath path) {
   return found;
 }
 
-// Refuses radial deviations that are too large for a machine, for example in another unit.
+// Error: a radial deviation is too large for a machine, for example because it is in another unit.
 Status check_deviations(const drivers::CsvTable& csv) {
   const double most_um = to_um(algo::TableLimits{}.length_m);
   for (const std::size_t column : {std::size_t{1}, std::size_t{2}})
@@ -99,7 +100,8 @@ Result<algo::CircularPath> read_path(const drivers::CsvTable& csv) {
   return path;
 }
 
-// A predicted deviation at an angle: values at equal angles from 0, linear between them.
+// The predicted deviation at an angle, interpolated linearly. `deviations`: values at equal steps
+// of the angle, beginning at 0.
 double predicted_at_angle(const std::vector<double>& deviations, double angle_rad) {
   const auto n = static_cast<double>(deviations.size());
   const double turns = angle_rad / (2 * std::numbers::pi);
@@ -124,7 +126,8 @@ LargestDifference largest_difference(const FoundCircle& measured, const FoundCir
   return largest;
 }
 
-// U of the radius from the u of the tool position there; the directions count as independent.
+// U of the predicted radius at an angle, from the u of the tool position at this point. The errors
+// along X, Y and Z count as independent.
 double radius_U_at(const Machine& machine, const algo::CircleRequest& request, double angle_rad) {
   algo::Command command = request.centre;
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);

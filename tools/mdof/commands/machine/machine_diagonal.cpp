@@ -1,5 +1,5 @@
-// mdof machine diagonal MACHINE.toml | FILE.csv: predicts the diagonals of the chain (ISO 230-6),
-// or finds the squareness of two axes from measured diagonals.
+// mdof machine diagonal MACHINE.toml | FILE.csv: predicts the deviations along the diagonals of the
+// machine (ISO 230-6), or calculates the squareness of two axes from measured diagonals.
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -25,7 +25,7 @@ struct MachineDiagonalCommand {
   bool json = false;
 };
 
-// The measurement along one of the predicted diagonals.
+// A measured diagonal, compared with its prediction.
 struct Compared {
   std::size_t readings = 0;
   double range_m = 0, largest_difference_m = 0;
@@ -40,7 +40,8 @@ double at_position(const algo::Diagonal& d, double at_m) {
   return d.deviation_m[i] + (d.deviation_m[i + 1] - d.deviation_m[i]) * part;
 }
 
-// Compares the readings of one diagonal; both series start at 0 at the first reading.
+// Compares the readings along one diagonal with the prediction. Both are set to 0 at the first
+// reading.
 Result<Compared> compared(const algo::Diagonal& d, std::size_t number,
                           const drivers::CsvTable& csv) {
   Compared c;

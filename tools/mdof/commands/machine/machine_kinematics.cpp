@@ -30,8 +30,8 @@ struct KinematicsCommand {
   bool json = false;
 };
 
-// One side of the drive: letters in the order of the arrays, and whether the last coordinate is an
-// angle.
+// The platform side or the screw side of the drive: letters of its coordinates, in the order of the
+// arrays, and whether the last coordinate is an angle.
 struct Side {
   const char* option;
   const char* letters;
@@ -85,9 +85,9 @@ struct Found {
   double platform_error_x_um, platform_error_y_um, platform_resolution_nm, spindle_resolution_nm;
   double tilt_error_x_um, tilt_error_y_um;
   Four rotation_resolution_deg{};
-  algo::ScrewMotion travel{};  // motion of the screws over kTravel
+  algo::ScrewMotion travel{};  // motion of the screws for the motion kTravel of the platform
   std::optional<FourMotions> motion;
-  const Side* side = nullptr;  // the side of `motion`
+  const Side* side = nullptr;  // the side that `motion` was stated for
 };
 
 Status check_options(const KinematicsCommand& o) {
@@ -126,7 +126,7 @@ Result<Found> find(const KinematicsCommand& o) {
     if (!step) return in_context("--arm-mm", std::move(step.error()));
     f.rotation_resolution_deg[i] = *step / kRadPerDeg;
   }
-  for (std::size_t i = 0; i < 4; ++i) {  // each axis alone; the rotation B uses screw A
+  for (std::size_t i = 0; i < 4; ++i) {  // moves one axis at a time; the rotation B uses screw A
     FourMotions platform{};
     platform[i].position = kTravel[i];
     MDOF_TRY(const auto screws, algo::screws_for(drive, platform));

@@ -50,8 +50,8 @@ std::string csv_header(const Machine& machine, const std::vector<FoundMap>& maps
          covers_text(machine, !first.no_u.empty()) + ".\n" + csv.take();
 }
 
-// Formats cells like CsvText, but for a million rows: converts many numbers at a time, and the
-// positions of an axis only once.
+// Writes the same text as CsvText, but faster, because a map may have a million rows. It converts
+// many numbers at a time, and each position of an axis only once.
 class MapRows {
  public:
   MapRows(const FoundMap& found, bool with_approach)
@@ -65,14 +65,14 @@ class MapRows {
       begins_[i] = Cell(approach + in_mm_17(map_.first_m[i]));
   }
 
-  // The rows at one position of the second axis; valid until the next call.
+  // The text of all rows at one position of the second axis. It is valid until the next call.
   std::string_view line(std::size_t j) {
     const std::size_t n = begins_.size();
     for (std::size_t i = 0; i < n; ++i) {
       const algo::PlanePoint& p = map_.points[j * n + i];
       for (std::size_t k = 0; k < 3; ++k) {
         const auto of = static_cast<Eigen::Index>(k);
-        values_[kValues * i + k] = to_um(p.error[of]) + 0.0;  // turns -0 into 0
+        values_[kValues * i + k] = to_um(p.error[of]) + 0.0;  // converts -0 to 0
         values_[kValues * i + 3 + k] = to_um(p.u[of]);
       }
     }
@@ -84,7 +84,7 @@ class MapRows {
       for (std::size_t k = kValues * i; k < kValues * (i + 1); ++k) {
         *out++ = ',';
         if (!std::isfinite(values_[k])) continue;
-        std::memcpy(out, texts_[k].text, kDouble17Size);  // a fixed size is faster
+        std::memcpy(out, texts_[k].text, kDouble17Size);  // copying a fixed size is faster
         out += texts_[k].size;
       }
       *out++ = '\n';
@@ -94,8 +94,8 @@ class MapRows {
 
  private:
   static constexpr std::size_t kValues = 6;
-  // An approach and a number, at most 33 characters. The whole buffer is copied, because a fixed
-  // size is faster.
+  // The text of the approach and of one position, at most 33 characters. The whole buffer is
+  // copied, because copying a fixed size is faster.
   struct Cell {
     Cell() = default;
     explicit Cell(const std::string& of) : size(std::min(of.size(), text.size())) {
@@ -112,7 +112,7 @@ class MapRows {
 
   const algo::PlaneMap& map_;
   std::vector<Cell> begins_;
-  std::vector<double> values_;  // of one line
+  std::vector<double> values_;  // values of one line
   std::vector<DoubleText> texts_;
   std::vector<char> line_;
 };

@@ -1,5 +1,5 @@
-// mdof machine perpendicularity FILE.csv: finds the tilt of a rotary table relative to the XY plane
-// from a circle on which X, Y and the table move together.
+// mdof machine perpendicularity FILE.csv: calculates the tilt of a rotary table relative to the XY
+// plane, from readings while X, Y and the table move together on a circle.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <numbers>

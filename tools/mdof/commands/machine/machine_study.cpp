@@ -1,4 +1,4 @@
-// mdof machine study: repeats the complete study of Hwang, Song and Park on a simulated machine.
+// mdof machine study: repeats the whole study of Hwang, Song and Park with a simulated machine.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -20,7 +20,7 @@
 namespace mdof::tools {
 namespace {
 
-// Figures printed in the paper, µm.
+// Results in the paper, µm.
 struct PaperFigures {
   double x_um, y_um, diagonal_um;
 };

@@ -20,7 +20,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr double kSecondsPerHour = 3600;
-constexpr double kPerHour = 3600e9;  // to nm/h
+constexpr double kPerHour = 3600e9;  // nm/h per m/s
 
 struct DriftCommand {
   std::string log, rig, plots;

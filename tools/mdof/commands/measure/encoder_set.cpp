@@ -1,4 +1,5 @@
-// mdof encoder set: sets the position of an axis with an incremental encoder in mdofd.
+// mdof encoder set: sets the present position of an axis in mdofd, for axes with an incremental
+// encoder.
 #include <CLI/CLI.hpp>
 
 #include "schema/base/json_writer.h"

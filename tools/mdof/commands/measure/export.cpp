@@ -30,7 +30,8 @@ struct ExportCommand {
   ReportRequest request;
 };
 
-// "OUT.csv"; with several devices "OUT-counter.csv".
+// The name of the output file for one device: "OUT.csv", or "OUT-counter.csv" if there are several
+// devices.
 std::string file_of(const std::string& file, const std::string& device) {
   const std::size_t slash = file.rfind('/'), dot = file.rfind('.');
   const bool ends = dot != file.npos && (slash == file.npos || dot > slash);
@@ -71,7 +72,7 @@ class Export {
     return file == kToStandardOutput ? write_out(text_) : files_.write(file, text_);
   }
 
-  // Starts text_ with the header if the file is new.
+  // The number of the output file for this device. If the file is new, sets text_ to its header.
   Result<std::size_t> file_for(const SampleBlock& block) {
     if (const auto found = file_of_.find(block.device); found != file_of_.end())
       return found->second;

@@ -1,4 +1,4 @@
-// mdof import FILE: stores the errors from another instrument as a run.
+// mdof import FILE: stores errors that another instrument measured as a run.
 #include <CLI/CLI.hpp>
 
 #include "daemon/history.h"
@@ -64,13 +64,13 @@ Status import(ImportCommand command) {
         " is read as actual minus commanded position in the coordinates of the controller (the "
         "default of the format). If the errors in the file are positive in the + direction of "
         "the machine axis, set --sense body");
-  // Other errors give no table, because their reference point is unknown.
+  // Only positioning errors can become a table. For other errors the reference point is unknown.
   say(std::string("stored; ") +
       (positioning ? "build a compensation table with: mdof compensation build "
                    : "show the run with: mdof show ") +
       std::to_string(run.header.id));
   if (command.json) return write_line(daemon::import_document(run.header, run.points.size()));
-  run.header.notices.clear();  // shown already
+  run.header.notices.clear();  // they were shown already
   return write_out(imported_text(run, {}, "", terminal_columns(), false));
 }
 

@@ -17,7 +17,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::chrono::seconds kPatience{10};
-constexpr std::chrono::milliseconds kTurn{100};  // longest delay of Ctrl-C
+constexpr std::chrono::milliseconds kTurn{100};  // largest delay after Ctrl-C
 
 struct LiveCommand {
   std::string socket, axis;
@@ -25,7 +25,8 @@ struct LiveCommand {
   bool json = false, ndjson = false;
 };
 
-// mdofd sends no updates for an unknown axis, and the command would wait forever.
+// Error: mdofd does not have this axis. The command would otherwise wait forever, because mdofd
+// sends no updates for it.
 Status check_axis(rpc::Client& client, const std::string& axis) {
   MDOF_TRY(const std::string info, client.call("server.info"));
   simdjson::dom::parser parser;
@@ -51,7 +52,8 @@ Result<rpc::Client> subscribe(const LiveCommand& command) {
   return client;
 }
 
-// Prints a fault at once; on a screen, the next update shows it.
+// Prints a fault of a device at once. If the screen is redrawn, prints nothing, because the next
+// update shows the fault.
 Status report(const std::string& notification, const LiveCommand& command) {
   const auto trouble = read_trouble(notification);
   if (!trouble || (!command.axis.empty() && trouble->axis != command.axis)) return {};
@@ -77,7 +79,7 @@ Result<LiveUpdate> next_update(rpc::Client& client, const LiveCommand& command) 
                   "; to see the state of the devices, use: mdof device list");
 }
 
-// Prints a finite document: one update, or --count updates.
+// Prints one JSON document with one update, or with --count updates.
 Status print_document(rpc::Client& client, const LiveCommand& command) {
   JsonWriter json;
   json.begin_object().key("updates").begin_array();

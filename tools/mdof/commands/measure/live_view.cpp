@@ -16,7 +16,7 @@ using simdjson::dom::element;
 using simdjson::dom::object;
 
 constexpr std::size_t kFewestBar = 11, kMostBar = 81;
-constexpr std::size_t kBesideBar = 43;  // columns for the rest of a probe's line
+constexpr std::size_t kBesideBar = 43;  // characters in the line of a probe besides its bar
 
 void read_probes(const element& value, LiveUpdate& update) {
   array probes;
@@ -42,7 +42,7 @@ std::string head_line(const LiveUpdate& u) {
   return line + (u.simulated ? ", SIMULATED" : "") + (u.stale ? ", STALE: no new values" : "");
 }
 
-// Joins the parts into lines; a part is not broken.
+// Joins the parts to lines of at most `columns` characters. A part is not divided.
 std::string packed(const std::vector<std::string>& parts, std::size_t columns) {
   std::string out, line;
   for (const auto& part : parts) {

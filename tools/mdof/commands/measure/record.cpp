@@ -1,6 +1,6 @@
 // mdof record: measures a run of an axis and shows its progress: point k of n, the next target.
-// mdofd measures; this command only requests and shows. Its end does not affect the run, unless the
-// user asks it to stop the run.
+// mdofd measures the run. This command only starts the run and shows it. If the command ends, the
+// run continues, unless the user requests its end.
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -25,8 +25,8 @@ using simdjson::dom::element;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kEventWait{200};      // longest delay of Ctrl-C
-constexpr milliseconds kEndPatience{30000};  // limit for the evaluation of a long run
+constexpr milliseconds kEventWait{200};      // largest delay after Ctrl-C
+constexpr milliseconds kEndPatience{30000};  // time limit for the evaluation of a run
 
 struct RecordCommand {
   std::string socket, axis, note;
@@ -69,8 +69,8 @@ void warn_wrapped(std::string_view words) {
   say(wrapped("warning: " + std::string(words), terminal_columns(), 2));
 }
 
-// "point 3 of 26, next 15.000 mm"; a run without targets or repeats shows less. The count
-// contains each requested point once, when it is solved. The line also reports further points.
+// "point 3 of 26, next 15.000 mm". If the run has no targets or no repeats, the text states less. A
+// requested point counts once, when it is solved. The text also states the number of other points.
 std::string progress_line(const auto& event) {
   const std::int64_t all = integer(event, "points").value_or(0);
   const std::int64_t points = integer(event, "done").value_or(all);
@@ -84,7 +84,8 @@ std::string progress_line(const auto& event) {
                                                 : line + ", next " + fixed(awaited_mm, 3) + " mm";
 }
 
-// Shows the event. Returns the run to read when the axis has ended its run.
+// Shows the event. If the run of the axis has ended, returns the number of the run that must be
+// shown.
 std::optional<std::int64_t> handle_event(std::string_view notification, std::int64_t run,
                                          const std::string& axis) {
   simdjson::dom::parser parser;
@@ -100,12 +101,12 @@ Status ask_to_stop(rpc::Client& client, std::int64_t run) {
   JsonWriter params;
   params.begin_object().field("run", run).end_object();
   const auto stopped = client.call("run.stop", params.text());
-  // If the run has ended by itself meanwhile, its event follows.
+  // not_found: the run has ended in the meantime, and its event follows.
   if (stopped || stopped.error().code == ErrorCode::not_found) return {};
   return tl::unexpected(stopped.error());
 }
 
-// Waits until the run has ended. Returns the run to read.
+// Waits until the run has ended. Returns the number of the run that must be shown.
 Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordCommand& command) {
   const auto begin = steady_clock::now();
   std::optional<steady_clock::time_point> stopped;
@@ -130,7 +131,7 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
   }
 }
 
-// Prints the run in the format of `mdof show`. Error: the run is not as requested.
+// Prints the run in the format of `mdof show`. Error: the run differs from the request.
 Status print_result(rpc::Client& client, std::int64_t run, const std::string& result,
                     bool as_json) {
   MDOF_CHECK(as_json ? write_line(result)

@@ -58,7 +58,7 @@ std::string params_of(const daemon::ReplayRequest& request) {
   return json.take();
 }
 
-// If mdofd holds the database, it reads the log, evaluates and stores.
+// If mdofd uses the database, mdofd reads the log, evaluates it, and stores the run.
 Result<Run> replay_in_daemon(rpc::Client& mdofd, const ReplayCommand& command) {
   const daemon::ReplayRequest& request = command.request;
   if (request.log == "-")
@@ -79,7 +79,8 @@ Result<Run> replay_and_store(const ReplayCommand& command) {
   MDOF_TRY(auto mdofd, writing_daemon(command.database, command.socket));
   if (mdofd) return replay_in_daemon(*mdofd, command);
   MDOF_TRY(Run run, replay_locally(command.request));
-  MDOF_CHECK(requested_reference(command, run));  // a run that cannot be shown is not stored
+  MDOF_CHECK(requested_reference(command,
+                                 run));  // before storing: a run that cannot be shown is not stored
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(run.header.id,
            store.add_run(run, daemon::action_now("run.replay", daemon::this_process()),
@@ -94,10 +95,10 @@ Status replay(ReplayCommand command) {
   }
   MDOF_TRY(Run run, command.keep_out ? replay_locally(command.request) : replay_and_store(command));
   MDOF_TRY(const StatedAt at, requested_reference(command, run));
-  run = algo::restate(std::move(run), at);  // the stored run is stated at the fixture
+  run = algo::restate(std::move(run), at);  // the errors in the database are stated at the fixture
   show_notices(run.header.notices, command.all_warnings);
   if (command.json) return write_line(daemon::replay_document(run, daemon::stated_run(run)));
-  run.header.notices.clear();  // shown already
+  run.header.notices.clear();  // they were shown already
   return write_out(run_text(run, daemon::stated_run(run), "", terminal_columns(),
                             command.all ? Extent::all : Extent::brief));
 }

@@ -1,6 +1,7 @@
 // mdof solve FRAMES.csv: calculates five errors for each row of positions and readings.
 //
-//   csv read -> here: parse, calibrate and solve -> write rows            (threads; bounded memory)
+//   thread "csv read" -> this thread: parse, calibrate and solve -> thread "write rows"
+//   The memory is limited.
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/replay/replay.h"
@@ -21,7 +22,7 @@ struct SolveCommand {
   bool csv = false, json = false;
 };
 
-// Each input row gives one output row, so no row may be skipped.
+// Options with which no row is skipped, because each input row must have one output row.
 drivers::CsvRowsOptions reading_options() {
   drivers::CsvRowsOptions options;
   options.kind = CsvKind::frames;

@@ -30,11 +30,11 @@ struct RunInProgress {
 // The reply of run.stop for one run.
 struct Stopped {
   std::string reply, axis, state;
-  std::int64_t run = 0;  // another run may have superseded it
+  std::int64_t run = 0;  // number of the stored run; it can be a run that superseded the ended run
   Notices notices;
 };
 
-// Error: mdofd does not have the requested axis.
+// The runs in progress, of `axis` if it is not empty. Error: mdofd does not have this axis.
 Result<std::vector<RunInProgress>> runs_in_progress(const std::string& info,
                                                     const std::string& axis) {
   simdjson::dom::parser parser;
@@ -88,7 +88,7 @@ std::string name_of(const Stopped& run) {
   return "run " + std::to_string(run.run) + " of axis " + run.axis;
 }
 
-// The failure with its reasons from the notices.
+// A text about a failed run, with the reasons from its notices.
 std::string failure_text(const Stopped& run) {
   std::string reasons;
   for (const Notice& each : run.notices)
@@ -97,7 +97,7 @@ std::string failure_text(const Stopped& run) {
   return name_of(run) + " failed" + reasons;
 }
 
-// Error (check): names the failed runs with their reasons.
+// Error (check): a run has failed. The message names all failed runs and the reasons.
 Status check_results(const std::vector<Stopped>& runs) {
   std::string failures;
   for (const Stopped& run : runs)
@@ -105,8 +105,8 @@ Status check_results(const std::vector<Stopped>& runs) {
   return failures.empty() ? Status() : fail(ErrorCode::check, failures);
 }
 
-// The option for the database in `info`, if the command that shows a run would read another
-// database by default.
+// The option --db with the database of mdofd, for a command that shows the run. Empty if this
+// command uses the same database by default.
 std::string database_option(const std::string& info) {
   simdjson::dom::parser parser;
   const std::string database = text(parser.parse(simdjson::padded_string(info)), "database");

@@ -32,7 +32,7 @@ struct MillingCommand {
   unsigned threads = default_threads();
 };
 
-// One model of a plan with its results.
+// A plan with one deflection model, and the results.
 struct MilledModel {
   MillingPlan plan;
   algo::MillingResult result;
@@ -122,8 +122,8 @@ void write_members(JsonWriter& json, const MilledModel& milled, const MillingCom
   if (milled.sensitivity) write_milling_sensitivity(json, request_of(o), *milled.sensitivity);
 }
 
-// The members of the first model are at the top level; each further model is under the name of its
-// deflection model.
+// The results of the first model are at the top level of the document. The results of another model
+// are in a member with the name of this deflection model.
 std::string milling_json(const std::vector<MilledModel>& all, const MillingCommand& o) {
   JsonWriter json;
   json.begin_object().field("name", all.front().plan.name);
@@ -233,7 +233,7 @@ Status milling(const MillingCommand& o) {
   std::vector<MilledModel> all;
   MDOF_TRY(const MilledModel first, mill(declared, o));
   all.push_back(first);
-  if (!o.preset.empty()) {  // the model of a steady cut in addition to the paper's model
+  if (!o.preset.empty()) {  // adds the model of a steady cut to the model of the paper
     declared.plan.deflection = DeflectionModel::steady;
     MDOF_TRY(const MilledModel steady, mill(declared, o));
     all.push_back(steady);

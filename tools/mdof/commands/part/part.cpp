@@ -33,7 +33,7 @@ struct PartCommand {
 struct FoundPart {
   LoadedPart part;
   algo::PartError error, left;
-  std::vector<std::size_t> layers, causes;  // the largest share first
+  std::vector<std::size_t> layers, causes;  // indices, the largest share first
 };
 
 std::vector<std::size_t> ranked(const std::vector<algo::PartShare>& shares) {
@@ -44,7 +44,8 @@ std::vector<std::size_t> ranked(const std::vector<algo::PartShare>& shares) {
   return order;
 }
 
-// If causes have no u, a U of 0 and a residual that consists of u only are unknown.
+// If a cause has no u, sets these figures to unknown (NaN): a U that would be 0, and a residual
+// that would contain nothing but u.
 void clear_unknown_figures(FoundPart& found) {
   if (found.part.no_u.empty()) return;
   const auto forget = [](double& x) {
@@ -66,7 +67,7 @@ void write_share(JsonWriter& json, const algo::PartShare& share) {
       .field("U_rms_um", to_um(share.U_rms_m));
 }
 
-// Number of path points at which the layer has no value and counts as 0.
+// Number of points of the path at which the layer has no value; the value 0 is used there.
 std::uint64_t uncovered_point_count(const LoadedPart& part, const std::string& layer) {
   for (const Notice& each : part.notices)
     if (each.code == NoticeCode::map_lacks_points && each.subject == layer)

@@ -53,7 +53,8 @@ Result<algo::PartPath> load_path(const std::string& file) {
 
 // ---- axes and budget ----
 
-// Adds the tables of the plan as if the machine file named them, with its checks and their senses.
+// Adds the tables that the plan names, as if the machine file named them. The same checks and sign
+// conventions apply.
 Status add_named_tables(LoadedPart& part, const PartLayer& layer, const std::string& database) {
   if (layer.from.empty()) return {};
   Machine& machine = part.machine;
@@ -83,7 +84,8 @@ Status add_named_tables(LoadedPart& part, const PartLayer& layer, const std::str
 
 // ---- form and milling ----
 
-// The part springs back by the elastic deformation, so the surface moves towards -z after the cut.
+// The error by clamping. After the cut the part springs back by the elastic deformation, and the
+// surface moves towards -z.
 Result<algo::PartCause> form_cause(LoadedPart& part, const PartLayer& layer,
                                    const std::string& file, const std::string& database) {
   MDOF_TRY(const SurfaceMap map, load_map(file, {{}, database}));
@@ -108,8 +110,9 @@ Result<algo::PartCause> form_cause(LoadedPart& part, const PartLayer& layer,
   return cause;
 }
 
-// Directions from the wall to the tool in the XY plane: from the normals, or across the path (down
-// cut: the tool is left of the edge of the wall; the spindle turns clockwise, M3).
+// Unit vectors from the wall to the tool in the XY plane, at each point of the path. They are the
+// normals of the path file, if it contains normals. Otherwise they are perpendicular to the path:
+// in a down cut with the spindle clockwise (M3), the tool is left of the edge of the wall.
 Field wall_normals(const algo::PartPath& path, bool is_up) {
   Field normals;
   const std::size_t n = path.at_m.size();
@@ -118,7 +121,7 @@ Field wall_normals(const algo::PartPath& path, bool is_up) {
     Eigen::Vector3d normal(-way(1), way(0), 0);
     if (is_up) normal = -normal;
     if (!path.normal.empty()) normal = {path.normal[k](0), path.normal[k](1), 0};
-    normals.push_back(normal.stableNormalized());  // 0 stays 0
+    normals.push_back(normal.stableNormalized());  // a zero vector stays zero
   }
   return normals;
 }
@@ -134,10 +137,10 @@ Result<std::vector<algo::PartCause>> milling_causes(const LoadedPart& part,
       algo::new_cause("tool deflection", part.path.at_m.size()),
       algo::new_cause("deflection over the depth", part.path.at_m.size())};
   for (std::size_t k = 0; k < normals.size(); ++k) {
-    // Outward means into the wall.
+    // A positive offset is directed into the wall, against the normal.
     causes[0].value_m[k] = -result.wall.offset_mean_m * normals[k];
     if (std::isfinite(offset.u_m)) causes[0].u_m[k] = offset.u_m * normals[k];
-    // A slope from tip to root: its standard deviation over the depth.
+    // The wall has a slope over the depth of cut. Its standard deviation is form / sqrt(12).
     causes[1].u_m[k] = result.wall.form_m / std::sqrt(12.0) * normals[k];
   }
   return causes;
@@ -145,7 +148,7 @@ Result<std::vector<algo::PartCause>> milling_causes(const LoadedPart& part,
 
 // ---- all layers ----
 
-// A compensation removes the value; its uncertainty remains.
+// A cause after its compensation: the value is 0, the uncertainty remains.
 algo::PartCause without_value(algo::PartCause cause) {
   for (Eigen::Vector3d& value : cause.value_m) value.setZero();
   return cause;

@@ -22,7 +22,8 @@ Interrupt::Interrupt() {
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  // SIGHUP: the terminal was closed. Under nohup the signal is ignored and must stay ignored.
+  // SIGHUP: the terminal was closed. If nohup started the program, the signal is ignored and must
+  // stay ignored.
   struct sigaction before = {};
   sigaction(SIGHUP, nullptr, &before);
   if (before.sa_handler == SIG_DFL) sigaction(SIGHUP, &action, nullptr);

@@ -39,8 +39,9 @@ void declare(CLI::App& app, Action& chosen) {
   app.set_version_flag("--version", daemon::kVersion, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   declare_commands(app, chosen);
-  app.require_subcommand(0, 1);  // a second word is no command: "mdof help replay"
-  app.footer(kExamples);         // last, because the commands have their own examples
+  app.require_subcommand(
+      0, 1);              // one command only: the second word of "mdof help replay" is no command
+  app.footer(kExamples);  // set after the commands, because they have their own examples
 }
 
 int run(int argc, char** argv) {
@@ -72,7 +73,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // write_out() sees EPIPE
+  std::signal(SIGPIPE, SIG_IGN);  // write_out() gets the error EPIPE
   try {
     return run(argc, argv);
   } catch (const std::filesystem::filesystem_error& error) {

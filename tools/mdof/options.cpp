@@ -14,7 +14,8 @@
 namespace mdof::tools {
 namespace {
 
-// `right` decides on a finite number; `must` is the message for other numbers.
+// A validator that accepts a finite number x if right(x) is true. `must`: the message for other
+// numbers. `in_help`: the text in the help.
 CLI::Validator number_validator(const std::function<bool(double)>& right, const std::string& must,
                                 const std::string& in_help) {
   return {[=](const std::string& word) {

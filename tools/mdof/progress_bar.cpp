@@ -11,7 +11,7 @@ namespace {
 constexpr std::chrono::milliseconds kPatience{1000}, kInterval{100};
 constexpr int kWidth = 30;
 
-// Three digits and an SI prefix, such as "145 M", "2.5 k", "12 ".
+// A number with up to three digits and an SI prefix, such as "145 M", "2.5 k", "12 ".
 std::string with_prefix(double x) {
   const char* prefix = "";
   for (const char* next : {"k", "M", "G"}) {

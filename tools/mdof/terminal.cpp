@@ -12,9 +12,10 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kFewestColumns = 40, kMostColumns = 10'000;  // the tables need the minimum
+constexpr std::size_t kFewestColumns = 40,
+                      kMostColumns = 10'000;  // tables need at least kFewestColumns
 
-// 0: COLUMNS is not set or invalid.
+// The value of the variable COLUMNS; 0: it is not set or invalid.
 std::size_t stated_columns() {
   const char* text = std::getenv("COLUMNS");
   const std::string_view digits = text ? text : "";

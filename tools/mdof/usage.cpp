@@ -8,7 +8,7 @@
 namespace mdof::tools {
 namespace {
 
-// The innermost subcommand on the command line.
+// The last (most specific) command on the command line.
 CLI::App* innermost(CLI::App* app) {
   while (!app->get_subcommands().empty()) app = app->get_subcommands().back();
   return app;

@@ -7,7 +7,8 @@
 
 namespace {
 
-// MPI counts in int, so a long message is sent in pieces, after its length.
+// Largest piece of a message. MPI counts bytes with int; therefore a message is sent as its length,
+// then in pieces.
 constexpr std::uint64_t kPiece = std::uint64_t{1} << 30;
 static_assert(kPiece <= std::numeric_limits<int>::max());
 constexpr int kLength = 1, kBytes = 2;

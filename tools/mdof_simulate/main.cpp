@@ -1,4 +1,4 @@
-// mdof-simulate: simulated devices on real sockets, all connected to one simulated machine.
+// mdof-simulate: runs simulated devices on real ports. All devices measure one simulated machine.
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>

@@ -28,8 +28,8 @@ Result<Served> read_device(TomlTable& table, const Wiring& wiring) {
   return served;
 }
 
-// These keys affect only the driver `simulator`. In mdof-simulate the machine moves without end,
-// and each device has its own rate and faults.
+// Error: the plan contains a key that has an effect only in the driver `simulator`. In
+// mdof-simulate the machine moves without end, and each device has its own rate and faults.
 void refuse_keys_of_driver(TomlTable& machine) {
   for (const char* key : {"repeats", "loop", "rate_hz", "packet_ms", "pace", "gap", "disconnect"})
     if (machine.has(key))

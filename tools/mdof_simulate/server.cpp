@@ -23,14 +23,14 @@ namespace mdof::simulate {
 namespace {
 
 constexpr int kTurn_ms = 1;
-constexpr std::size_t kMostUnsent = 1 << 20;  // above it, a client that does not read is dropped
+constexpr std::size_t kMostUnsent = 1 << 20;  // bytes; if more are unsent, the connection is closed
 
 std::int64_t now_ns() {
   const auto since = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
 }
 
-struct Held {  // waits until its due time
+struct Held {  // bytes that wait until their due time
   std::int64_t due_ns;
   std::string bytes;
 };
@@ -111,10 +111,10 @@ struct Server::Parts {
   std::vector<Descriptor> held_lines;
   std::vector<Plugged> plugged;
   int next_id = 1;
-  std::uint64_t sent = 0;  // packets; selects the random number for the jitter
+  std::uint64_t sent = 0;  // number of sent packets; selects the random number of the jitter
   std::int64_t start_ns = now_ns();
 
-  // Time of the device's own clock.
+  // The time of a device's clock, ns.
   std::int64_t device_ns(const Served& device) const {
     const auto passed = static_cast<double>(now_ns() - start_ns);
     return std::llround(passed * (1 + device.clock_ppm * 1e-6));
@@ -213,7 +213,8 @@ void Server::Parts::hold(Client& client, std::string bytes) {
                                static_cast<std::uint64_t>(served.seed));
   const double late_ns = served.jitter_ms * 1e6 * uniform(random[0], random[1]);
   std::int64_t due_ns = now_ns() + std::llround(late_ns);
-  if (!client.held.empty()) due_ns = std::max(due_ns, client.held.back().due_ns);  // in order
+  if (!client.held.empty())
+    due_ns = std::max(due_ns, client.held.back().due_ns);  // keeps the order of the packets
   client.held.push_back({due_ns, std::move(bytes)});
 }
 

@@ -21,7 +21,7 @@ struct HidPipes {
   std::uint8_t in = 0, out = 0;
 };
 
-// The first HID interface with one endpoint in each direction.
+// Finds the first HID interface that has an endpoint in each direction.
 std::optional<HidPipes> pipes_of(const std::string& configuration) {
   HidPipes pipes;
   bool hid = false;
@@ -89,7 +89,7 @@ class UhidPort final : public UsbPort {
   bool give(const uhid_event& event) const {
     return ::write(file_.get(), &event, sizeof event) == static_cast<ssize_t>(sizeof event);
   }
-  // A report without a number has a leading 0.
+  // Handles one event of the kernel. If a report has no number, its first byte is 0.
   void take(const uhid_event& event, std::int64_t now_ns) {
     if (event.type == UHID_OUTPUT && event.u.output.size > 1) {
       const auto* bytes = reinterpret_cast<const char*>(event.u.output.data);

@@ -13,7 +13,7 @@ using drivers::usb::Setup;
 
 enum Command : std::uint32_t { kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4 };
 constexpr std::size_t kHeader = 48;
-// Offsets in the header.
+// Offsets of the members in the header, bytes.
 constexpr std::size_t kCommandAt = 0, kNumberAt = 4, kDirectionAt = 12, kEndpointAt = 16;
 constexpr std::size_t kLengthAt = 24, kPacketsAt = 32, kSetupAt = 40;  // for kSubmit
 constexpr std::size_t kOtherAt = 20;                                   // for kUnlink: the number

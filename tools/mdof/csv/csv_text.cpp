@@ -15,7 +15,7 @@ CsvText& CsvText::cell(double x) {
   separate();
   if (!std::isfinite(x)) return *this;
   char digits[kDouble17Size];
-  text_.append(digits, write_double_17(digits, x + 0.0));  // turns -0 into 0
+  text_.append(digits, write_double_17(digits, x + 0.0));  // converts -0 to 0
   return *this;
 }
 

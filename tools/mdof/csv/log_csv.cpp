@@ -9,7 +9,7 @@
 namespace mdof::tools {
 namespace {
 
-// In a probe log the axis position is in mm, and no column is in metres.
+// The unit of a channel in a probe log: the position of the axis is in mm, other lengths are in µm.
 Unit unit_in_log(const Channel& channel) {
   const bool length = channel.unit == Unit::um || channel.unit == Unit::metre;
   if (channel.id == kEncoderChannel && length) return Unit::mm;

@@ -10,7 +10,7 @@
 namespace mdof::tools {
 namespace {
 
-// Noise of 0 means that no reading determined it: the cell stays empty.
+// A noise of 0 means that the noise is unknown; the cell is then empty.
 double known_noise(double u) {
   return u > 0 ? to_key_unit(u) : kNaN;
 }

@@ -19,12 +19,13 @@ double combined(double u_random, const std::vector<double>& declared, std::size_
   return declared.empty() ? u_random : std::hypot(u_random, declared[row]);
 }
 
-// One column for each error, and one for positioning if the table contains it.
+// The columns of one kind of value: one for each error, and one for the positioning error if the
+// table contains it.
 struct Columns {
   std::string prefix;
   const std::array<std::vector<double>, 5>& errors;
   const std::vector<double>& along;
-  bool combine = false;  // with the declared uncertainties
+  bool combine = false;  // combine the values with the declared uncertainties
 };
 
 double cell_of(const CompensationTable& t, const Columns& columns, std::size_t k, std::size_t row) {

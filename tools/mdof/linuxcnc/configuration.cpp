@@ -21,7 +21,8 @@ std::vector<std::string> joined_lines(const std::string& text) {
     at = end + 1;
     const bool continues = line.ends_with('\\');
     joined += continues ? std::string(line.substr(0, line.size() - 1)) + " " : std::string(line);
-    lines.emplace_back();  // empty for a continued line, so that line numbers do not change
+    lines.emplace_back();  // a line that continues on the next line becomes an empty line, so that
+                           // line numbers do not change
     if (!continues) std::swap(lines.back(), joined);
   }
   // The last line of the file ends with a backslash.

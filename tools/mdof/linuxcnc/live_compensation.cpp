@@ -14,9 +14,10 @@ namespace mdof::tools {
 namespace {
 
 constexpr double kSecondPerNs = 1e-9;
-// The drive lags by up to 10 periods; this may use a tenth of MIN_FERROR as following error.
+// The offset causes a following error, because the drive lags by up to 10 servo periods. This error
+// may be at most a tenth of MIN_FERROR.
 constexpr double kLaggingPeriods = 10, kShareOfFollowingError = 0.1;
-constexpr double kShareOfAxis = 0.05;  // of MAX_VELOCITY and MAX_ACCELERATION
+constexpr double kShareOfAxis = 0.05;  // share of MAX_VELOCITY and MAX_ACCELERATION for the offset
 constexpr double kMostVelocity_mm_s = 1, kMostAcceleration_mm_s2 = 50, kFade_mm_s = 0.04;
 
 class LiveLimits {
@@ -67,7 +68,8 @@ class LiveLimits {
     unit_ = live_.inch ? 1 / to_mm(kInch_m) : 1;
   }
 
-  // Only trivkins assigns each joint to one axis.
+  // Reads the joint of each axis. The kinematics must be trivkins, because other kinematics do not
+  // assign each joint to one axis.
   void read_joints() {
     const std::string text = ini_.value("KINS", "KINEMATICS");
     const auto words = words_of(text);
@@ -99,8 +101,9 @@ class LiveLimits {
     if (live_.joints.empty()) refuse("[KINS]KINEMATICS: the machine has no axis X, Y or Z");
   }
 
-  // Both joints get the same offset at the same position, in machine units. A motor that is mounted
-  // the other way round has the opposite sign in SCALE, which acts after the component.
+  // Checks that the two joints of an axis have the same settings, because they get the same offset
+  // in machine units. The sign of SCALE may differ: SCALE acts after the component, and is negative
+  // for a motor that is mounted in the opposite direction.
   void check_pair(const std::string& first, const std::string& second, char axis) {
     const auto differ = [&](const char* key, double of_first, double of_second) {
       if (of_first == of_second) return;
@@ -181,7 +184,8 @@ class LiveLimits {
     for (const LiveJoint& joint : live_.joints) check_headroom(section_of(joint));
   }
 
-  // A step generator without headroom causes a following error while cutting.
+  // Checks that the step generator may be faster than the joint. Otherwise the offset would cause a
+  // following error while cutting.
   void check_headroom(const std::string& section) {
     for (const auto& [drive, axis, more] :
          {std::tuple{"STEPGEN_MAXVEL", "MAX_VELOCITY", live_.max_velocity},
@@ -193,7 +197,8 @@ class LiveLimits {
     }
   }
 
-  // A pin can be in one signal only. If the user has netted the pin, its signal is used.
+  // Connects two pins. A pin can be connected to only one signal: if the user's files already
+  // connect `pin` to a signal, this signal is used.
   void net(const std::string& name, const std::string& pin, const std::string& to) {
     const std::string signal = wiring_.signal(pin, name);
     live_.hal +=

@@ -27,8 +27,8 @@ namespace {
 
 constexpr std::chrono::seconds kLongestPrint{120};
 
-// Returns the exit status. The output of the program is discarded: a missing file shows the
-// failure.
+// Runs a program and returns its exit status. The output of the program is discarded; a missing PDF
+// file shows that the program has failed.
 Result<int> run_program(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -86,7 +86,8 @@ Result<std::vector<std::string>> command_for(const fs::path& html, const fs::pat
                                       "--no-pdf-header-footer",
                                       "--print-to-pdf=" + fs::absolute(pdf).string(),
                                       file_url(html)};
-    // chromium refuses its sandbox to root. The page has no script and loads nothing.
+    // chromium does not run as root with its sandbox. The page needs no sandbox, because it
+    // contains no script and loads no other files.
     if (::geteuid() == 0) words.insert(words.begin() + 1, "--no-sandbox");
     return words;
   }
@@ -123,7 +124,8 @@ Status attach_to_pdf(const fs::path& pdf, const std::string& name, const std::st
     return {};
   }
   std::error_code ec;
-  // In the folder of the PDF, so that a rename replaces the PDF completely or not at all.
+  // The temporary folder is in the folder of the PDF; a rename then replaces the PDF completely or
+  // not at all.
   std::string folder = (fs::absolute(pdf).parent_path() / "mdof-pdf-XXXXXX").string();
   if (::mkdtemp(folder.data()) == nullptr)
     return io_error(folder + ": cannot be created: " + std::strerror(errno));

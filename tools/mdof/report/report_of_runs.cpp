@@ -33,8 +33,8 @@ Result<std::pair<std::string, std::string>> key_and_value(const std::string& tex
   return std::pair(text.substr(0, at), text.substr(at + 1));
 }
 
-// The facts in the rigs. Values from --set come first, so that they also replace contradictory
-// facts.
+// The facts for the report, from the rigs and from --set. A value from --set replaces the facts in
+// the rigs, also if the rigs contradict each other.
 Result<ReportFacts> facts_of(const std::vector<report::ReportRun>& runs,
                              const std::vector<std::string>& set) {
   ReportFacts given, facts;
@@ -53,7 +53,7 @@ Result<ReportFacts> facts_of(const std::vector<report::ReportRun>& runs,
   return joined(given, facts);
 }
 
-// Tolerances by figure, in the unit of the figure.
+// The tolerances from --tolerance: figure and value, in the unit of the figure.
 Result<std::vector<std::pair<std::string, double>>> parse_tolerances(
     const std::vector<std::string>& texts) {
   std::vector<std::pair<std::string, double>> found;
@@ -103,7 +103,8 @@ Result<std::vector<daemon::Comparison>> compare_pairs(store::Store& store,
   return found;
 }
 
-// The reason why no decision is possible for one of the two runs; empty: a decision is possible.
+// Why no decision is possible for the squareness, because of one of its two runs; empty: a decision
+// is possible.
 std::string undecided_reason(const report::Report& all, const Squareness& of) {
   for (const report::ReportRun& run : all.runs) {
     const std::int64_t id = run.results.run.header.id;
@@ -113,7 +114,8 @@ std::string undecided_reason(const report::Report& all, const Squareness& of) {
   return "";
 }
 
-// False: no pair of runs has this figure. If a pair has no result, `why` gets the reason.
+// Decides on the squareness with the name `figure`. False: no pair of runs has this figure. If its
+// result is unknown, `why` is the reason.
 bool decide_squareness(report::Report& all, const std::string& figure, double tolerance,
                        std::string& why) {
   for (const charts::SquarenessOfPair& pair : all.squareness) {
@@ -130,7 +132,7 @@ bool decide_squareness(report::Report& all, const std::string& figure, double to
   return false;
 }
 
-// Each tolerance must belong to a figure of a run or to a squareness. Otherwise it is an error.
+// Decides on all tolerances. Error: a tolerance is for no figure of a run and for no squareness.
 Status decide(report::Report& all, const std::vector<std::pair<std::string, double>>& tolerances) {
   for (const auto& [figure, tolerance] : tolerances) {
     std::string why =

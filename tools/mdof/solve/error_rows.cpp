@@ -16,7 +16,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kMaxKeyLength = 16;             // ,"EYX_um":
+constexpr std::size_t kMaxKeyLength = 16;             // length of ,"EYX_um":
 constexpr std::size_t kRowColumns = kErrorCount + 1;  // the position is last
 constexpr std::size_t kMaxRowLength = kRowColumns * (kDouble17Size + kMaxKeyLength) + 8;
 constexpr std::size_t kAtOnce = 8;
@@ -29,10 +29,11 @@ char* append(char* out, std::string_view text) {
 }
 
 double in_key_unit(const ErrorName& name, const SolvedRows& rows, std::size_t row) {
-  return to_key_unit(name.sign * rows.local[name.local][row]) + 0.0;  // turns -0 into 0
+  return to_key_unit(name.sign * rows.local[name.local][row]) + 0.0;  // converts -0 to 0
 }
 
-// Restores the number in the file: removes the rounding error of the conversion to metres.
+// The position in mm as it was written in the file: removes the rounding error of the conversion to
+// metres.
 double restore_written_mm(double encoder_m) {
   const double mm = to_mm(encoder_m), written = std::round(mm * 1e9) / 1e9;
   return (std::abs(written - mm) < 4e-16 * std::abs(mm) ? written : mm) + 0.0;
@@ -102,7 +103,8 @@ Status ErrorRows::write_all() {
   return form_ == RowForm::json ? write_commands("]}\n") : Status();
 }
 
-// The texts of up to kAtOnce rows, column by column. Errors are empty if the row is not solved.
+// The texts of up to kAtOnce rows, ordered by column. In an unsolved row the errors are empty
+// texts.
 struct ErrorRows::Texts {
   std::array<std::array<DoubleText, kAtOnce>, kRowColumns> of;
 
@@ -117,8 +119,8 @@ struct ErrorRows::Texts {
       for (std::size_t j = 0; j < n; ++j) of[k][j].size = std::isfinite(x[j]) ? of[k][j].size : 0;
     }
   }
-  // Copies the whole buffer, because a constant length is faster; the next text overwrites the
-  // excess.
+  // Appends a text. Copies the whole buffer, because copying a constant length is faster; the next
+  // text overwrites the rest.
   char* append(char* out, std::size_t k, std::size_t j) const {
     std::memcpy(out, of[k][j].text, kDouble17Size);
     return out + of[k][j].size;

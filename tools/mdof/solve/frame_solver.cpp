@@ -49,7 +49,8 @@ Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {
   return {};
 }
 
-// d of the models. Uses a separate column only if d differs from the encoder.
+// The travel d of the target in the models. It needs a separate column only if it differs from the
+// encoder position.
 const double* FrameSolver::travel(const std::vector<double>& encoder_m) {
   if (rig_.sides.target_travel_m(1.0) > 0) return encoder_m.data();
   travel_m_.resize(encoder_m.size());
@@ -70,7 +71,7 @@ void FrameSolver::solve_columns(const SampleBlock& block, SolvedRows& out) {
   for (std::size_t i = 0; i < block.scans(); ++i) {
     if (!has_missing(block, i)) continue;
     ++without_reading_;
-    // Also the errors that do not depend on the missing reading.
+    // All errors become NaN, also those that do not depend on the missing reading.
     for (auto& column : out.local) column[i] = kNaN;
   }
 }
@@ -104,7 +105,8 @@ void FrameSolver::leave_unsolved(std::size_t row, const std::string& why) {
   if (unsolved_++ == 0) why_unsolved_ = "row " + std::to_string(rows_ + row + 1) + ": " + why;
 }
 
-// The value that the rig declares for the run, otherwise the value in the row.
+// The ambient conditions of a row: each value is the declared value of the rig, otherwise the value
+// in the row.
 std::optional<Air> FrameSolver::air_of(const SampleBlock& block, std::size_t row) const {
   Air air{};
   for (std::size_t q = 0; q < kAirQuantities; ++q) {
@@ -156,7 +158,8 @@ void FrameSolver::note_travel(double travel_m) {
   most = std::max(most, travel_m);
 }
 
-// Only the rigid model uses maps, and it solves the rows one by one.
+// travels_m_ is known only if rows were solved one by one. Only the rigid model uses height maps,
+// and it solves rows one by one.
 Notices FrameSolver::map_notices(const Rig& rig) const {
   if (!travels_m_) return {};
   return algo::map_notices(rig, solver_.fixture(), (*travels_m_)[0], (*travels_m_)[1]);

@@ -11,7 +11,8 @@ Result<std::filesystem::path> database_path(const std::string& option) {
 
 namespace {
 
-// Refuses a FIFO, for which mdof would wait, and a folder, which would look like a disk error.
+// The path of the database. Error: it is a FIFO, for which mdof would wait, or a folder, for which
+// the message would describe a fault of the disk.
 Result<std::filesystem::path> database_file(const std::string& option) {
   MDOF_TRY(auto file, database_path(option));
   std::error_code ec;

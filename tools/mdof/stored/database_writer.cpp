@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::hours kPatience{24};  // mdofd replies only after the whole file is evaluated
 
-// True if the kernel reports that this file descriptor has the writer's lock.
+// Whether a file descriptor of a process has the lock for writing. `fdinfo`: file in which the
+// kernel reports this.
 bool locks(const fs::path& fdinfo) {
   std::ifstream lines(fdinfo);
   for (std::string line; std::getline(lines, line);)
@@ -36,7 +37,8 @@ bool holds(const fs::path& process, const fs::path& database) {
   return false;
 }
 
-// "mdofd (process 1234)"; processes of other users are not visible and get a general name.
+// The name of the process that writes the database: "mdofd (process 1234)". The processes of other
+// users are not visible; the name is then general.
 std::string writer_name(const fs::path& database) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator("/proc", ec)) {

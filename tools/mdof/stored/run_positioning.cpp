@@ -18,7 +18,7 @@
 namespace mdof::tools {
 namespace {
 
-// Index of the error in error_names().
+// The index of the error in error_names().
 Result<std::size_t> place_of_error(const std::string& asked, Axis axis) {
   std::string known;
   for (std::size_t k = 0; k < 5; ++k) {
@@ -50,7 +50,7 @@ Status add_error(const Run& run, std::size_t k, double scale_period_m, RunPositi
                {notice(NoticeCode::readings_left_out, "",
                        {{"left_out", series.left_out}, {"points", run.points.size()}})});
   const ErrorName& name = error_names(run.header.axis)[k];
-  constexpr std::size_t kMinLineTargets = 3;  // a line through two targets leaves no residual
+  constexpr std::size_t kMinLineTargets = 3;  // a line through two targets has no residuals
   if (!name.angle && !found.keep_slope && figures->targets.size() < kMinLineTargets)
     return bad_input("run " + std::to_string(run.header.id) + ": the straightness " + name.name +
                      " needs at least three targets with error values; give --keep-slope to keep "
@@ -121,7 +121,8 @@ std::string run_positioning_json(const Run& run, const RunPositioning& found) {
 
 namespace {
 
-// States what U covers, for the column that covers most. Printed before the figures.
+// The text before the figures that states which sources U contains, for the column whose U contains
+// most sources.
 std::string U_text(const RunPositioning& found, bool simulated, std::size_t width) {
   if (!found.U_reason.empty())
     return simulated_notice(simulated) + wrapped("U is unknown: " + found.U_reason, width) + "\n";

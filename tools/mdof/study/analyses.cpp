@@ -18,18 +18,21 @@
 namespace mdof::tools {
 namespace {
 
-// Short blocks for slow trials, because an interrupt waits for the blocks in progress.
+// Number of trials in a block. Blocks of slow trials are short, because after an interrupt the
+// program waits for the blocks in progress.
 std::uint64_t block_trials(const Study& study, std::uint64_t trials) {
   const std::uint64_t each = algo::sum_block_trials(trials);
   return study.slow() ? std::min(each, algo::kSlowSumBlock) : each;
 }
 
-// At least two, because their scatter gives the standard error.
+// Number of blocks; at least two, because the standard error is calculated from the differences
+// between blocks.
 std::uint64_t blocks_of(std::uint64_t trials, std::uint64_t each) {
   return std::max<std::uint64_t>(2, (trials + each - 1) / each);
 }
 
-// Sums blocks 0 ... n - 1 on all threads, each with its own sums; nullopt if interrupted.
+// Sums the blocks 0 ... n - 1. Each thread has its own sums, which are added at the end. nullopt:
+// the user interrupted.
 template <class Sums, class Make, class Add>
 std::optional<Sums> sum_blocks(const char* what, unsigned threads, std::uint64_t blocks, Make make,
                                Add add) {
@@ -77,7 +80,7 @@ StudyState find_indices(const Study& study, unsigned threads, StudyResult& resul
 }
 
 Result<StudyState> allocate(const Study& study, unsigned threads, StudyResult& result) {
-  // After an interrupt the remaining tasks are skipped, and the result is discarded.
+  // After an interrupt no further task is run, and the result is discarded.
   const algo::ForEach for_each = [threads](std::size_t count, const auto& task) {
     if (Interrupt::requested()) return;
     in_parallel(

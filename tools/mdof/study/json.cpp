@@ -11,7 +11,7 @@ void write_interval(JsonWriter& json, const char* name, const CoverageInterval& 
   json.key(name).begin_array().value(interval.low).value(interval.high).end_array();
 }
 
-// Writes "p025" and "p975" in addition to the list, for scripts.
+// Writes the list of quantiles, and also "p025" and "p975" as single members for scripts.
 void write_quantiles(JsonWriter& json, const std::vector<Quantile>& quantiles) {
   for (const Quantile& q : quantiles) {
     if (q.p == 0.025) json.field("p025", q.value);

@@ -28,7 +28,7 @@ constexpr std::array kNumbers = {
     PresetNumber{"sigma_z_um", &Options::sigma_z_um, "Displacement of the side unit along Z"},
 };
 
-// The shortest text that reads back to the same bits.
+// The shortest text that a program reads as exactly this double.
 std::string shortest(double x) {
   JsonWriter number;
   number.value(x);

@@ -12,7 +12,8 @@ using simdjson::dom::array;
 using simdjson::dom::element;
 using simdjson::dom::object;
 
-// This program wrote the figures, so a missing member is empty and a null is a NaN.
+// A missing member has an empty or default value, and null is NaN. This is no error, because this
+// program wrote the figures.
 double real(const element& of, const char* key) {
   double x = 0;
   return of.at_key(key).get(x) ? std::numeric_limits<double>::quiet_NaN() : x;

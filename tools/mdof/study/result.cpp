@@ -16,7 +16,8 @@ void warn_of_unsolved(StudyResult& result) {
   }
 }
 
-// The sums overflow or underflow if the values spread very much more, or less, than in the pilot.
+// Warns if moments are unknown, because their sums have overflowed or underflowed. This happens if
+// the values are spread very much more, or less, than in the first trials (pilot).
 void warn_of_lost_moments(StudyResult& result) {
   for (const OutputSummary& s : result.outputs) {
     if (s.n < 2 || std::isfinite(s.mean + s.sd + s.sd_se)) continue;
@@ -27,8 +28,8 @@ void warn_of_lost_moments(StudyResult& result) {
   }
 }
 
-// Appends the final figures to the convergence. A continued study has the same points as a study
-// without interruption.
+// Appends the final figures to the convergence, but only in the result. The stored state does not
+// contain them; a continued study therefore has the same points as a study without interruption.
 void end_convergence(StudyResult& result) {
   for (std::size_t k = 0; k < result.convergence.size(); ++k) {
     auto& points = result.convergence[k].points;

@@ -8,7 +8,7 @@
 namespace mdof::tools {
 namespace {
 
-// Number of decimals that gives a value of this size four digits.
+// The number of decimals with which a value of this size has four digits.
 int decimals_for(double size) {
   if (!std::isfinite(size) || size <= 0) return 4;
   return std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 9);

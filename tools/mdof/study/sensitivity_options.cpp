@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 63) - 1;  // limit of SQLite and TOML
 constexpr double kMostTrials = 1e15;
-constexpr double kLongest_m = 10;     // longer than any machine that such a fixture measures
-constexpr double kWidest_mrad = 250;  // limit of the models, whose angles are small
+constexpr double kLongest_m = 10;  // limit of the travel; no machine for such a fixture is longer
+constexpr double kWidest_mrad = 250;  // limit of the models for small angles
 
 std::string option_name(std::string key) {
   std::replace(key.begin(), key.end(), '_', '-');
@@ -96,7 +96,7 @@ void declare_results(CLI::App& command, SensitivityCommand& o) {
   command.add_flag("--csv", o.csv, "Print CSV with one row for each output and bin of the travel");
 }
 
-// The name of an option ends with its unit.
+// The limit of an option whose name ends with `ending`.
 struct Limit {
   const char *ending, *unit;
   double most;

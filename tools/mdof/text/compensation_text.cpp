@@ -13,7 +13,7 @@ namespace {
 
 using Columns = std::array<std::vector<double>, 5>;
 
-// For a table with positioning errors only.
+// The text of a table that contains only positioning errors.
 std::string positioning_text(const CompensationTable& t, bool is_forward) {
   const auto& values = is_forward ? t.positioning.forward : t.positioning.reverse;
   TextTable out({"position/mm", error_label(positioning_name(t.axis) + "_um")});

@@ -13,7 +13,7 @@ std::string count(const element& device, const char* key) {
   return std::to_string(integer(device, key).value_or(0));
 }
 
-// "2026-11-22 14:02:11 UTC" for "2026-11-22T14:02:11.123Z".
+// Converts "2026-11-22T14:02:11.123Z" to "2026-11-22 14:02:11 UTC".
 std::string readable_utc(std::string utc) {
   if (utc.size() < 19) return utc;
   utc[10] = ' ';
@@ -35,7 +35,7 @@ std::vector<std::string> row_of(const element& device) {
           known ? fixed(number(clock, "jitter_ms"), 3) : "-"};
 }
 
-// The present faults; without any, the last fault that has recovered.
+// The present faults of a device; if there are none, its last fault.
 std::string remarks(const element& device, std::size_t columns) {
   std::string lines;
   for (const auto& line : texts(device, "trouble")) lines += wrapped(line, columns, 2) + "\n";

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kKept = 3;
 
-// Notices with their own text are never summarised.
+// Whether a notice has a text of its own. Such notices are never summarised.
 bool has_own_words(const Notice& notice) {
   return notice.code == NoticeCode::legacy || notice.code == NoticeCode::failure;
 }

@@ -12,9 +12,11 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::size_t kColumns = 80;
-constexpr std::size_t kMostRows = 20;      // targets with unusual counts
-constexpr std::size_t kMostStops = 10;     // rejected stops
-constexpr std::size_t kRunsAsDigits = 20;  // up to this number, the counts are written side by side
+constexpr std::size_t kMostRows =
+    20;  // largest number of rows: targets with unusual numbers of visits
+constexpr std::size_t kMostStops = 10;  // largest number of listed rejected stops
+constexpr std::size_t kRunsAsDigits =
+    20;  // up to this number of passes, the counts of all passes are written side by side
 
 std::string number(const char* format, double x) {
   if (!std::isfinite(x)) return "-";
@@ -33,7 +35,7 @@ int sum(const std::vector<int>& counts) {
   return total;
 }
 
-// One count for each run, such as "1 1 0", or the sum if there are many runs.
+// The number of visits in each pass, such as "1 1 0", or the sum if there are many passes.
 std::string by_run(const std::vector<int>& counts) {
   if (counts.size() > kRunsAsDigits) return std::to_string(sum(counts));
   std::string out;
@@ -43,7 +45,7 @@ std::string by_run(const std::vector<int>& counts) {
 
 using Counts = std::pair<std::vector<int>, std::vector<int>>;
 
-// The most frequent counts of a target.
+// The numbers of visits that most targets have.
 Counts usual(const std::vector<TargetVisits>& n_ij) {
   std::vector<Counts> all;
   for (const auto& row : n_ij) all.emplace_back(row.forward, row.reverse);

@@ -40,7 +40,8 @@ std::string temperature_text(const Temperature& read) {
 
 using Options = Result<daemon::PipelineOptions>;
 
-// The zero of the positions; empty: the device defines it, or a notice reports that it is unknown.
+// A text that states the zero of the positions. Empty: the device defines the zero, or a notice
+// reports that it is unknown.
 std::string datum_of(const Options& options) {
   return options ? datum_text(options->datum) : "";
 }
@@ -55,7 +56,7 @@ std::string flags_of(const MeasuredPoint& p) {
   return flags + (flags.empty() ? "" : " ") + "unsolved: " + p.errors.reason;
 }
 
-// `u`: NaN if it is unknown.
+// Value with its uncertainty as text. `u`: NaN if it is unknown.
 std::string value_with_u(double value, double u, bool angle, double column = 0) {
   if (u >= 0) return angle ? urad_with_u(value, u, column) : um_with_u(value, u, column);
   return angle ? in_urad(value) : in_um(value);
@@ -160,7 +161,7 @@ Errors5 columns_u(const Run& run, const RunUncertainty& uncertainty) {
 
 namespace {
 
-constexpr std::size_t kMostFlagged = 12;  // further rows need --all
+constexpr std::size_t kMostFlagged = 12;  // largest number of rows without --all
 
 bool is_flagged(const MeasuredPoint& point) {
   return !point.errors.valid || !point.point.flags.empty();
@@ -191,7 +192,7 @@ std::string rows_text(const Run& run, const RunUncertainty& uncertainty,
   return table.text(width);
 }
 
-// The flagged or unsolved points, and their number.
+// A table of the points with flags or without errors, and their number.
 std::string flagged_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width) {
   std::vector<std::size_t> rows;
   std::size_t flagged = 0;

@@ -14,8 +14,8 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::string_view kGap = "  ";
-constexpr std::size_t kNarrowest = 24;  // text columns are not narrowed below this width
-constexpr double kLongest = 1e9;        // from here on, numbers have an exponent
+constexpr std::size_t kNarrowest = 24;  // smallest width of a wrapped text column
+constexpr double kLongest = 1e9;        // numbers from this size have an exponent
 
 bool is_number(const std::string& cell) {
   return cell.empty() || (cell.find_first_of("0123456789-+") == 0 &&
@@ -38,7 +38,7 @@ std::size_t longest_word(std::string_view text) {
   return longest;
 }
 
-// Inserts a space after every `width` characters of a word that is longer.
+// If a word is longer than `width`, inserts a space after every `width` characters.
 std::string with_breaks(std::string_view text, std::size_t width) {
   std::string out;
   std::size_t used = 0;
@@ -55,7 +55,7 @@ std::string with_breaks(std::string_view text, std::size_t width) {
   return out;
 }
 
-// A path is not broken, so that it can be copied.
+// Divides a cell into lines. A path is not divided, so that the user can copy it.
 std::vector<std::string> lines_of(const std::string& cell, std::size_t width) {
   const bool path = cell.find('/') != std::string::npos;
   std::vector<std::string> lines(1);
@@ -120,7 +120,7 @@ std::vector<TextTable::Block> TextTable::blocks(std::size_t width) const {
     const std::size_t taken = total(block) + kGap.size();
     return width > taken ? width - taken : 0;
   };
-  const std::size_t most = room_of(keys);  // width of a block's only column beside the keys
+  const std::size_t most = room_of(keys);  // width of a column that is alone beside the key columns
   std::vector<Block> blocks{keys};
   for (std::size_t c = keys_; c < all.size(); ++c) {
     Column column = all[c];

@@ -118,7 +118,7 @@ std::string volumetric_csv(const VolumetricTable& t) {
   for (std::size_t node = 0; node < t.nodes(); ++node) {
     for (const double x : t.command_at(node)) csv.cell(to_mm(x));
     for (const std::string& at : rotary) csv.cell(at);
-    for (const double x : t.correction_m[node]) csv.cell(to_um(x) + 0.0);  // turns -0 into 0
+    for (const double x : t.correction_m[node]) csv.cell(to_um(x) + 0.0);  // converts -0 to 0
     for (const Vec3& u : {t.u_m[node], t.u_common_at(node), t.u_independent_at(node)})
       for (const double x : u) csv.cell(to_um(x));
     csv.cell(covers).end_row();

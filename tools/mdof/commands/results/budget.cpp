@@ -1,4 +1,4 @@
-// mdof budget RUN, mdof budget RUN_X RUN_Y: shows the contributors to the uncertainty of figures.
+// mdof budget RUN, mdof budget RUN_X RUN_Y: shows the contributions to the uncertainty of figures.
 #include <CLI/CLI.hpp>
 #include <optional>
 
@@ -53,7 +53,7 @@ Status check_options(const BudgetCommand& command) {
   return {};
 }
 
-// One run, or the two runs of a squareness. "latest" is looked up only once.
+// The numbers of the run, or of the two runs of a squareness. "latest" is resolved only once.
 Result<std::vector<std::int64_t>> runs_of(store::Store& store, const BudgetCommand& command) {
   if (command.run_b.empty()) {
     MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));

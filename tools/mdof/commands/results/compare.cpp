@@ -26,7 +26,7 @@ struct CompareCommand {
   bool json = false, all_warnings = false;
 };
 
-// "0.123 ± 0.045" in the unit of the figure; U_cell() uses the same unit.
+// "0.123 ± 0.045": value and u in the unit of the figure. U_cell() uses the same unit.
 std::string value_cell(const Budget& budget) {
   if (!(budget.u >= 0)) return fixed(to_key_unit(budget.value), 3);
   return with_u(to_key_unit(budget.value), to_key_unit(budget.u), 3);
@@ -36,7 +36,7 @@ std::string U_cell(double U) {
   return std::isnan(U) ? "unknown" : to_place(to_key_unit(U), to_key_unit(U), 3);
 }
 
-// "reduced by factor 9.8"; the factor is given only if the remaining value exceeds its U.
+// "reduced by factor 9.8". The factor is stated only if the remaining value exceeds its U.
 std::string effect_text(const daemon::ComparedFigure& figure) {
   std::string text = daemon::to_string(figure.effect);
   if (figure.effect == daemon::Effect::changed)
@@ -54,7 +54,7 @@ std::string um_cell(double value, double U) {
   return std::isnan(value) ? "-" : um_to_place(value, U);
 }
 
-// The targets one by one, with each approach and the reversal error.
+// The table of the targets, with both approaches and the reversal error.
 std::string positioning_points_text(const daemon::Comparison& c) {
   if (!c.no_points_reason.empty()) return wrapped(c.no_points_reason, terminal_columns()) + "\n";
   TextTable table({"position/mm", "", "before/µm", "U/µm", "after/µm", "U/µm"}, 2);

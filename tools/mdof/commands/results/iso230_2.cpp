@@ -43,7 +43,7 @@ struct Iso230Command {
   bool json = false, all_warnings = false;
 };
 
-// nullopt: no contribution is declared.
+// The measurement uncertainty that the options declare; nullopt: no contribution is declared.
 std::optional<PositioningUncertainty> uncertainty_of(const Iso230Command& command) {
   if (!command.device_limit_um && !command.drift_um) return std::nullopt;
   return algo::positioning_uncertainty({from_um(command.device_limit_um.value_or(kNoFigure)),

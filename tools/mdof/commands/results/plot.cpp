@@ -28,7 +28,7 @@ struct PlotCommand {
   bool json = false;
 };
 
-// Charts to write, with folders and names.
+// The charts that the command writes, with their folders and file names.
 struct PlannedCharts {
   std::vector<charts::NamedChart> charts;
   std::vector<std::string> left_out;
@@ -39,7 +39,8 @@ struct PlannedCharts {
   }
 };
 
-// Draws the squareness of each possible pair; a pair without one does not stop the other charts.
+// Draws the squareness of each pair of axes. If the squareness of a pair cannot be calculated, the
+// other charts are drawn.
 void draw_squareness(store::Store& store, const std::vector<charts::StatedResults>& runs,
                      output::Language language, PlannedCharts& plotted) {
   std::vector<const charts::StatedResults*> all;

@@ -27,7 +27,8 @@ struct ReportCommand {
 
 constexpr std::size_t kLongestHead = 1 << 20;
 
-// The user's own HTML. A comment or a script is refused, because it could hide required content.
+// Reads the HTML that the user's company puts at the top of the report. Error: it contains a
+// comment or a script, because these could hide required content.
 Result<std::string> company_head(const std::string& file) {
   if (file.empty()) return std::string();
   MDOF_TRY(std::string head, read_text_file(file, kLongestHead));
@@ -42,7 +43,7 @@ Result<std::string> company_head(const std::string& file) {
   return head + "\n";
 }
 
-// Attaches the same bytes that mdof export --format dcc writes.
+// Attaches the document that mdof export --format dcc writes, with the same bytes.
 void attach_certificate(report::Report& report) {
   const auto dcc = documents::dcc_xml(report);
   if (dcc)

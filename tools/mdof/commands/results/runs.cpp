@@ -21,7 +21,7 @@ namespace {
 
 using simdjson::dom::element;
 
-constexpr std::int64_t kListPage = 100;  // page size of run.list
+constexpr std::int64_t kListPage = 100;  // largest number of runs in one reply of run.list
 
 struct RunsCommand {
   std::string database, socket, axis;
@@ -38,7 +38,7 @@ Result<std::string> list_from_database(const RunsCommand& command) {
 
 struct RunsPage {
   std::int64_t total = 0;
-  std::vector<std::string> runs;  // in their order in the reply
+  std::vector<std::string> runs;  // in the order of the reply
 };
 
 Result<RunsPage> page_in(const std::string& reply) {

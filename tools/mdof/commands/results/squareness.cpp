@@ -57,7 +57,7 @@ Result<std::string> fit_locally(const SquarenessCommand& command) {
   return daemon::squareness_document(fitted, lines);
 }
 
-// If mdofd holds the database, it fits and stores.
+// If mdofd uses the database, mdofd calculates and stores the squareness.
 Result<std::string> fit_in_daemon(rpc::Client& mdofd, const SquarenessCommand& command) {
   JsonWriter params;
   params.begin_object().field("run_a", command.run_a).field("run_b", command.run_b);
@@ -75,18 +75,19 @@ AxisPair axes_in(const element& document) {
   return found.size() == 2 ? AxisPair{found[0], found[1]} : AxisPair{};
 }
 
-// Reads a result from its document, in SI units.
+// Reads the values in a JSON document of squareness, in SI units.
 struct SquarenessDocument {
   const element& document;
   AxisPair axes = axes_in(document);
   std::string name = squareness_name(axes);
 
   double rad(const std::string& key) const { return from_urad(number(document, key + "_urad")); }
-  // A value for one of the reference lines.
+  // The value of a key for one of the reference lines.
   double by(const char* line, const std::string& key) const {
     return from_urad(number(document["lines"][line], key + "_urad"));
   }
-  // In the sense of the squareness; the document contains the angle of the artefact's material.
+  // The angle error of the artefact, with the sign convention of the squareness. The document
+  // contains the angle between the faces of the artefact, measured through its material.
   double artefact_rad() const {
     Squareness s;
     s.axes = axes;
@@ -149,13 +150,14 @@ std::string undeclared_text(const element& document) {
   Budget budget;
   budget.not_declared = texts(document, "not_declared");
   budget.noise_only = flag(document, "noise_only");
-  // If a rig declares nothing, the text has no line of the budget.
+  // If u contains declared sources, adds a line to the budget, because the text then shows the
+  // budget.
   if (text(document, "u_covers").find(kNothingDeclared) == std::string::npos)
     budget.lines.emplace_back().key = "declared";
   return not_declared_text(std::vector{budget});
 }
 
-// The chart needs the readings of both runs.
+// Draws the chart from both runs in the database, because it needs the readings.
 Status draw_squareness_chart(const SquarenessCommand& command) {
   if (command.plots.empty()) return {};
   MDOF_TRY(store::Store store, open_to_read(command.database));

@@ -1,4 +1,4 @@
-// mdof trend: shows figures of the stored runs over time with control limits.
+// mdof trend: shows figures of the stored runs against time, with control limits.
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <tuple>
@@ -22,7 +22,8 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kFirmBaseline = 8;  // values; with fewer, limits are provisional
+constexpr std::size_t kFirmBaseline =
+    8;  // number of values; with fewer values the limits are provisional
 
 struct TrendCommand {
   std::string database, axis, figure, plots;
@@ -36,7 +37,7 @@ std::string runs_of(const daemon::TrendValue& value) {
   return text;
 }
 
-// "µm" for "EYX_straightness_um".
+// The unit of the figure: "µm" for "EYX_straightness_um".
 std::string unit_of(const daemon::Trend& trend) {
   return trend.figure.ends_with("_um") ? "µm" : "µrad";
 }
@@ -106,7 +107,8 @@ std::string text_of(const daemon::Trend& trend) {
   return out + wrapped(sentence_of(trend), terminal_columns()) + "\n";
 }
 
-// The common state of all charts with values.
+// What is true for all figures with values: u contains noise only in all of them, in some, or in
+// none.
 NoiseOnly noise_only_of(const std::vector<daemon::Trend>& trends) {
   std::optional<NoiseOnly> all;
   for (const daemon::Trend& trend : trends)
@@ -114,7 +116,7 @@ NoiseOnly noise_only_of(const std::vector<daemon::Trend>& trends) {
   return all.value_or(NoiseOnly::none);
 }
 
-// One row for each figure: its last value and its state in the chart.
+// One row for each figure: its last value, and whether it is within the control limits.
 std::string brief_text(const std::vector<daemon::Trend>& trends) {
   TextTable table(
       {"figure", "unit", "values", "last value", "lower limit", "upper limit", "state"});

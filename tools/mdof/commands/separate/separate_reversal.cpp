@@ -1,5 +1,5 @@
-// mdof separate reversal FIRST SECOND: two runs or files, with the target turned by 180° in
-// between.
+// mdof separate reversal FIRST SECOND: separates the errors of machine and target from two runs or
+// files. Between these, the target was turned by 180°.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@ struct ReversalCommand {
   std::optional<double> turned_at_mm;
 };
 
-// The middle of the places that the first set-up measures; a turn about it maps these places onto
-// each other.
+// The middle of the places on the target that the first set-up measures. If the target is turned
+// about this point, the second set-up measures the same places.
 double middle_of_target(const algo::SeparationRequest& request) {
   const algo::SetUp& first = request.set_ups.front();
   const auto [low, high] = std::minmax_element(first.position_m.begin(), first.position_m.end());

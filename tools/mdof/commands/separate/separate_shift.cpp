@@ -1,5 +1,5 @@
-// mdof separate shift SET_UP...: the target is shifted by known lengths, and turned in some
-// set-ups.
+// mdof separate shift SET_UP...: separates the errors of machine and target. The target is shifted
+// by known lengths between the set-ups, and turned in some of them.
 #include <CLI/CLI.hpp>
 #include <cmath>
 

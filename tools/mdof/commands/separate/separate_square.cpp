@@ -1,5 +1,5 @@
-// mdof separate square RUN_X RUN_Y RUN_X2 RUN_Y2: finds squareness without a known angle of the
-// square.
+// mdof separate square RUN_X RUN_Y RUN_X2 RUN_Y2: calculates the squareness of X and Y with a
+// square whose angle is unknown.
 #include <CLI/CLI.hpp>
 #include <array>
 
@@ -24,7 +24,7 @@ namespace {
 
 struct SquareCommand {
   std::string database;
-  std::array<std::string, 4> word;  // X, Y, X, Y
+  std::array<std::string, 4> word;  // runs of X, Y, X, Y
   bool partial = false, json = false, all_warnings = false;
 };
 

@@ -15,7 +15,8 @@
 namespace mdof::tools {
 namespace {
 
-// The rig subtracts the map unchanged, so an undetermined part of the map would count as flat.
+// Errors: the height map may not be used, or it has undetermined components. The rig would subtract
+// the map without these components, as if the target were flat in them.
 Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
                  const OutputOptions& options) {
   if (!options.rig_toml) return {};
@@ -33,7 +34,8 @@ Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
           "turned about the moving axis, or give --despite-unseen");
 }
 
-// The algorithm names "set-up 2"; adds the names of the files and runs.
+// Adds the names of the files and runs to an error message, in which the algorithm only writes
+// "set-up 2".
 Error with_set_up_names(Error error, const SeparationRecord& record) {
   std::string names;
   for (std::size_t k = 0; k < record.sources.size(); ++k)

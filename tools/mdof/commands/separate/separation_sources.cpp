@@ -117,8 +117,8 @@ std::string at_text(const Vec3& p) {
          plain_number(to_mm(p[2])) + "] mm";
 }
 
-// The probe must be at the same place along the axis in all runs; another place across it causes an
-// Abbe offset.
+// Error: the positions of the probe along the axis differ between the runs. Adds a notice if its
+// positions perpendicular to the axis differ, because this causes an Abbe offset.
 Status check_places(const std::vector<Vec3>& at, const SourceOptions& options,
                     LoadedSources& loaded) {
   const double match_m = from_mm(options.match_mm);

@@ -1,5 +1,4 @@
-// mdof completion SHELL: prints a script that completes commands and options, generated from the
-// commands.
+// mdof completion SHELL: prints a script with which a shell completes commands and options.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -11,7 +10,7 @@
 namespace mdof::tools {
 namespace {
 
-// A command with the words that may follow it.
+// A command or group, with the words that may follow it.
 struct Node {
   std::string path;  // "compensation export"; empty for mdof itself
   std::vector<const CLI::App*> below;
@@ -22,7 +21,7 @@ void collect(const CLI::App& app, const std::string& path, std::vector<Node>& no
   Node node{path, app.get_subcommands({}), {}};
   for (const CLI::Option* option : app.get_options())
     if (!option->get_lnames().empty() && !option->get_group().empty())
-      node.options.push_back(option);  // a former name is hidden
+      node.options.push_back(option);  // options without a group are former names, which are hidden
   nodes.push_back(node);
   for (const CLI::App* sub : node.below)
     collect(*sub, path.empty() ? sub->get_name() : path + " " + sub->get_name(), nodes);
@@ -44,7 +43,7 @@ std::string options_after(const Node& node) {
   return words;
 }
 
-// The only valid values of an option, such as "X Y Z"; empty: any value.
+// The valid values of an option, such as "X Y Z"; empty: any value.
 std::string values_of(const Node& node, const CLI::Option& option) {
   std::string values;
   if (node.path.starts_with("compensation ") && long_name(option) == "--format")
@@ -58,7 +57,7 @@ std::string values_of(const Node& node, const CLI::Option& option) {
   return values;
 }
 
-// In bash and zsh, file names are offered if no word fits.
+// The script for bash, which zsh also reads. If no word matches, the shell offers file names.
 std::string bash_script(const std::vector<Node>& nodes) {
   std::string cases;
   for (const Node& node : nodes)
@@ -109,7 +108,7 @@ std::string zsh_script(const std::vector<Node>& nodes) {
          bash_script(nodes);
 }
 
-std::string quoted(std::string text) {  // for fish
+std::string quoted(std::string text) {  // in the syntax of fish
   for (std::size_t at = 0; (at = text.find_first_of("\\'", at)) != std::string::npos; at += 2)
     text.insert(at, "\\");
   return "'" + text + "'";
@@ -118,7 +117,8 @@ std::string quoted(std::string text) {  // for fish
 std::string fish_script(const std::vector<Node>& nodes) {
   std::string script = "# fish completion of mdof; made by: mdof completion fish\n";
   for (const Node& node : nodes) {
-    // Each word of the path has been typed, but no command of the group yet.
+    // The condition in fish: the user has typed each word of the path, but no command of this group
+    // yet.
     std::string condition = node.path.empty() ? "__fish_use_subcommand" : "";
     for (const std::string& word : CLI::detail::split(node.path, ' '))
       if (!word.empty())

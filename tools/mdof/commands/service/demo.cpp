@@ -1,4 +1,4 @@
-// mdof demo: runs mdofd with a simulated machine and its web page, and measures.
+// mdof demo: runs mdofd with a simulated machine and the web page, and measures a run.
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <chrono>
@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kLook{100};
-// The targets at which the simulated axis X of the example stops.
+// The parameters of the run: the targets at which the simulated axis X of the example stops.
 constexpr const char* kRun =
     R"({"axis":"X","from_mm":0,"to_mm":60,"interval_mm":10,"jitter_mm":0.5,"repeats":5,)"
     R"("note":"demonstration"})";
@@ -32,7 +32,8 @@ struct DemoCommand {
   std::string folder, mdofd, http = "127.0.0.1:0";
 };
 
-// A temporary folder that is removed at the end, or the given folder.
+// The folder of the demonstration: the folder that the user stated, or a temporary folder that the
+// destructor removes.
 class DemoFolder {
  public:
   static Result<DemoFolder> make(const std::string& given) {
@@ -69,7 +70,7 @@ std::string token_in(const fs::path& file) {
   return line;
 }
 
-// Says where the page is and which token it needs.
+// A text with the address of the web page and the token that it needs.
 Result<std::string> welcome(rpc::Client& mdofd, const DemoFolder& folder) {
   MDOF_TRY(const std::string info, mdofd.call("server.info"));
   simdjson::dom::parser parser;
@@ -83,7 +84,7 @@ Result<std::string> welcome(rpc::Client& mdofd, const DemoFolder& folder) {
 
 Status demo(const DemoCommand& command) {
   const Interrupt interrupt;
-  std::signal(SIGPIPE, SIG_IGN);  // a write error also ends mdofd
+  std::signal(SIGPIPE, SIG_IGN);  // write errors are handled, so that mdofd is also ended
   MDOF_TRY(const fs::path program, find_mdofd(command.mdofd));
   MDOF_TRY(const DemoFolder folder, DemoFolder::make(command.folder));
   MDOF_TRY(DemoDaemon daemon, DemoDaemon::start(program, folder.path(), command.http));

@@ -28,10 +28,12 @@ namespace {
 
 constexpr std::chrono::seconds kLongestStart{20};
 constexpr std::chrono::milliseconds kPoll{20};
-// X and Y carry the work, Z the tool, so the other two axes correct the straightness.
+// The chain of the example machine: X and Y move the work, Z moves the tool. With a chain, the
+// straightness of an axis can be corrected by the other two axes.
 constexpr const char* kMachine = "\n[machine]\nchain = \"w-Y-X-b-Z-t\"\n";
 
-// Paths in the configuration are relative to its folder, which is the working folder of mdofd.
+// Writes the configuration. Its paths are relative to `folder`, which is also the working folder of
+// mdofd.
 Status write_configuration(const fs::path& folder, const std::string& http) {
   std::error_code ec;
   fs::create_directories(folder, ec);
@@ -45,7 +47,8 @@ Status write_configuration(const fs::path& folder, const std::string& http) {
                     Existing::replace);
 }
 
-// mdofd stays in the process group of this program, so that it also ends with the terminal.
+// Starts mdofd in the process group of this program, so that mdofd also ends when the terminal is
+// closed.
 Result<pid_t> spawn(const fs::path& program, const fs::path& folder) {
   const std::string log = folder / "mdofd.log", name = program;
   std::array<char*, 4> words = {const_cast<char*>(name.c_str()), const_cast<char*>("--config"),

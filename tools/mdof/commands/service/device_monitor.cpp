@@ -1,4 +1,4 @@
-// mdof device monitor: prints the values of a device, which this program opens itself.
+// mdof device monitor: opens a device and prints its values.
 #include <CLI/CLI.hpp>
 
 #include "tools/mdof/checks/device_probe.h"

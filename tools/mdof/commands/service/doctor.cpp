@@ -57,7 +57,7 @@ Diagnosis diagnose(const drivers::DriverSpec& device) {
       found.lost > 0 ? "reduce the rate of the device, or the load of this computer" : ""};
 }
 
-// The state of a device as mdofd reports it.
+// The diagnosis of a device from the state that mdofd reports.
 Diagnosis diagnosis_from(const simdjson::dom::element& device) {
   const std::string state = text(device, "state"), error = text(device, "error");
   std::string what =
@@ -69,7 +69,8 @@ Diagnosis diagnosis_from(const simdjson::dom::element& device) {
   return {trouble.empty() ? Level::good : Level::bad, what, trouble};
 }
 
-// A running mdofd holds its devices, so it is asked for their states.
+// Asks a running mdofd for the states of its devices, because this program cannot open them at the
+// same time.
 std::vector<Diagnosis> query_device_list(const daemon::Config& config, const std::string& socket) {
   std::vector<Diagnosis> all = {
       {Level::good, "mdofd is running (" + socket + ") and uses the devices", ""}};

@@ -1,5 +1,5 @@
-// mdof help [COMMAND]: prints mdof [COMMAND] --help; mdof help fields: describes the names in
-// results.
+// mdof help [COMMAND]: prints mdof [COMMAND] --help; mdof help fields: describes the names of
+// members and columns in results.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -20,7 +20,8 @@ Status help_fields(const std::vector<std::string>& words) {
   return {};
 }
 
-// App::help() prints the help of the called command, which is this command.
+// Finds the command that the words name and prints its help. App::help() alone would print the help
+// of "mdof help".
 Status help(CLI::App* app, const std::vector<std::string>& words) {
   if (!words.empty() && words.front() == "fields") return help_fields(words);
   std::string name = app->get_name();

@@ -1,5 +1,5 @@
-// mdof selftest: checks that this installation calculates, detects and stores correctly. Needs no
-// files.
+// mdof selftest: checks that this installation calculates errors, detects points and stores runs
+// correctly. It needs no files.
 #include <CLI/CLI.hpp>
 
 #include "schema/base/json_writer.h"

@@ -27,7 +27,7 @@ std::string or_dash(const std::optional<std::int64_t>& number) {
   return number ? std::to_string(*number) : "-";
 }
 
-// One line for each axis whose encoder zero has a note.
+// One line for each axis with a note on the zero of its encoder.
 std::string encoder_text(const array& axes, std::size_t columns) {
   std::string lines;
   for (const element axis : axes)

@@ -1,5 +1,5 @@
-// mdof verify: checks that the database, with the recordings and logs of its runs, or one recording
-// has not changed since it was written.
+// mdof verify: checks that data have not changed since they were written: the database with the
+// recordings and logs of its runs, or one recording.
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/replay/verify_sources.h"
@@ -25,7 +25,7 @@ bool is_sha256(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// Findings, and sources that cannot be checked. A file that cannot be judged is an error.
+// Contains the changes that were found, and the files that could not be checked.
 using daemon::SourceCheck;
 
 void add(const std::vector<std::string>& more, std::vector<std::string>& to) {
@@ -45,7 +45,7 @@ Status verify_database(const std::string& option, const std::string& head, Sourc
         "the chain of hashes has no link with the hash " + head +
         " (--head): data that was stored before mdofd reported this hash was removed or changed");
   const auto sources = daemon::verify_sources(store);
-  // A damaged database is reported above; it may not name its files.
+  // If the database is damaged, its list of files may be missing; the damage was reported above.
   if (!sources) return findings.empty() ? Status(tl::unexpected(sources.error())) : Status();
   add(sources->findings, check.findings);
   append(check.notices, sources->notices);

@@ -1,4 +1,4 @@
-// mdof sensitivity: calculates the effect of mounting errors on the result, by Monte Carlo.
+// mdof sensitivity: calculates the effect of mounting errors on the measured errors by Monte Carlo.
 //
 //   rank 0 reads the request ─▶ all processes make the experiment ─▶ all run its trials ─▶ rank 0
 //   makes the analyses of the plan, stores, draws and prints
@@ -24,7 +24,7 @@
 namespace mdof::tools {
 namespace {
 
-// The study in this process; only rank 0 stores it.
+// The study in this process. Only rank 0 stores it in the database.
 struct Job {
   Study study;
   StudyWork work;
@@ -95,14 +95,15 @@ Status draw(const SensitivityCommand& command, const StudyResult& result) {
   return command.plots.empty() ? Status() : charts::write_study_plots(result, command.plots);
 }
 
-// Key of an output without any value; empty: none.
+// The key of an output for which no trial was solved; empty: no such output.
 std::string unsolved_output(const StudyResult& result) {
   for (const OutputSummary& s : result.outputs)
     if (s.n == 0) return s.key;
   return "";
 }
 
-// No trial gave this output. The message contains the reason of the first trial, if it is known.
+// The error that no trial was solved for this output. The message contains the reason of the first
+// trial, if it is known.
 Status not_solved(const Study& study, const std::string& key, std::uint64_t trials) {
   const Status first = study.slow() ? check_run_trial(*study.plan, 0) : Status();
   return fail(
@@ -111,7 +112,7 @@ Status not_solved(const Study& study, const std::string& key, std::uint64_t tria
           (first ? "show a trial with --trial 0" : "trial 0: " + words::text(first.error())));
 }
 
-// Exit code 1: a result exists, but not the requested result.
+// Exit code 1: there is a result, but not the requested one.
 Status judge(const Study& study, const StudyResult& result, const StudyRecorder& recorder) {
   if (result.state == StudyState::complete) {
     const std::string key = unsolved_output(result);
@@ -163,11 +164,11 @@ Status show_trial(const SensitivityCommand& command, const Processes& processes)
 
 Status sensitivity(SensitivityCommand& command) {
   MDOF_TRY(Processes processes, Processes::join());
-  Status done = check_usage(command);  // the same in all processes
+  Status done = check_usage(command);  // all processes have the same command line
   if (done) done = command.trial ? show_trial(command, processes) : run_study(command, processes);
   const bool is_reporting_rank = processes.first();
   processes.leave();
-  // mpirun ends all processes after one has failed, so only rank 0 reports the error.
+  // Only rank 0 returns the error, because mpirun ends all processes when one of them fails.
   return is_reporting_rank ? done : Status();
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 struct StudiesCommand {
   std::string database, plots;
-  std::optional<std::int64_t> study;  // none: list the studies
+  std::optional<std::int64_t> study;  // nullopt: list the studies
   ListPage page;
   bool json = false, csv = false;
 };

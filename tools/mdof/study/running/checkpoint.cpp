@@ -43,7 +43,7 @@ void get(ByteReader& in, RuleBlock& block) {
   }
 }
 
-// The checkpoint without the statistics.
+// The first part of a checkpoint: all data except the statistics.
 struct Head {
   std::uint64_t trials = 0;
   double elapsed_s = 0;

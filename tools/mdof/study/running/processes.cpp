@@ -16,7 +16,8 @@ namespace {
 
 constexpr const char* kModule = "mdof_mpi.so";
 
-// Variables of Open MPI, of MPICH and Slurm (PMI), and of other launchers (PMIx).
+// Whether MPI started this process. The variables are set by Open MPI, by MPICH and Slurm (PMI),
+// and by other launchers (PMIx).
 bool started_by_mpi() {
   constexpr std::array names = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"};
   for (const char* name : names)
@@ -29,7 +30,7 @@ using Start = const MdofMpi* (*)();
 Result<Start> load_module() {
   std::error_code ec;
   const auto file = std::filesystem::read_symlink("/proc/self/exe", ec).parent_path() / kModule;
-  // RTLD_GLOBAL, because the plug-ins of Open MPI look for its symbols.
+  // RTLD_GLOBAL is necessary, because the plug-ins of Open MPI use the symbols of the library.
   void* const module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
   void* const start = module ? ::dlsym(module, "mdof_mpi_start") : nullptr;
   if (start) return reinterpret_cast<Start>(start);
@@ -41,7 +42,8 @@ Result<Start> load_module() {
 
 }  // namespace
 
-// Called after an error in this process without leave(): the other processes would wait forever.
+// Runs if this process ends after an error without leave(). Ends the other processes, which would
+// otherwise wait forever.
 void Processes::AbortAll::operator()(const MdofMpi* mpi) const {
   mpi->abort(kDeviceOrIo);
 }

@@ -16,7 +16,7 @@ Result<store::StudyRecord> record_of(const Study& study, const std::string& star
   store::StudyRecord record;
   record.name = study.name;
   record.plan_toml = study.request.plan_toml;
-  // An absolute path, so that the study can be continued from any folder.
+  // The path is absolute, so that the study can be continued from any folder.
   if (!study.request.source.empty())
     record.source = std::filesystem::absolute(study.request.source).lexically_normal();
   record.settings_toml = settings_toml(settings);

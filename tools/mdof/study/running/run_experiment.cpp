@@ -19,7 +19,8 @@ namespace {
 
 constexpr double kNotSolved = std::numeric_limits<double>::quiet_NaN();
 
-// A clock that never waits: the result of a trial must not depend on the time.
+// A clock that is always at 0 and never waits, because the result of a trial must not depend on the
+// time.
 drivers::Clock constant_clock() {
   return {[] { return std::int64_t{0}; }, [](std::int64_t) {}};
 }
@@ -28,7 +29,8 @@ bool is_noise(Effect effect) {
   return effect == Effect::probe_noise || effect == Effect::encoder_noise;
 }
 
-// One trial: the perturbed rig, the errors of the axis, and the noise of each scan.
+// One trial: makes samples from the perturbed rig, the errors of the axis, and the noise of each
+// scan, and evaluates them.
 class RunTrial {
  public:
   RunTrial(const algo::PlanAxis& axis, const StudyPlan& plan, const algo::DrawRequest& request)
@@ -52,7 +54,7 @@ class RunTrial {
                                                   : targets_mm.back() - targets_mm.front());
   }
 
-  // The run that the pipeline produces. Error: the trial cannot be measured.
+  // The run that the evaluation makes. Error: the trial does not make a run.
   Result<Run> measure() {
     if (!mounted_) return bad_input("an angle exceeds 0.25 rad, the limit of the models");
     MDOF_TRY(auto simulator,
@@ -73,7 +75,7 @@ class RunTrial {
     return pipeline.finish();
   }
 
-  // True errors at the fixture, in the order of error_names(); m and rad.
+  // The true errors at the fixture, in the order of error_names(), in m and rad.
   Errors5 named_truth(double travel_m) const {
     AxisErrors truth;
     truth.valid = true;
@@ -115,7 +117,8 @@ class RunTrial {
     };
   }
 
-  // Input: the last column is the true travel in mm. Output: the encoder position with its errors.
+  // Replaces the last column, which is the true travel in mm, by the encoder position, which
+  // contains the errors of the encoder.
   void read_encoder(SampleBlock& block) {
     for (double& shown_mm : block.value.back()) {
       encoder_scan_ += 1;
@@ -139,7 +142,8 @@ class RunTrial {
   std::uint32_t encoder_scan_ = 0;
 };
 
-// Largest |error| of the points of a run; not solved if any point is not solved.
+// The largest deviation |measured - true| of one error over all points of a run. kNotSolved if a
+// point is not solved.
 double worst_of(const StudyPlan& plan, const Run& run, const RunTrial& trial, std::size_t error) {
   double worst = run.points.empty() ? kNotSolved : 0;
   for (const MeasuredPoint& point : run.points) {
@@ -152,7 +156,7 @@ double worst_of(const StudyPlan& plan, const Run& run, const RunTrial& trial, st
   return worst;
 }
 
-// Error of the reported straightness figure, mean of both approaches.
+// The deviation of the reported straightness figure (mean of both approaches) from the true figure.
 double straightness_of(const StudyPlan& plan, const Run& run, const RunTrial& trial,
                        std::size_t error, bool end_point) {
   const std::string key = error_names(plan.rig.axis)[error].key;

@@ -14,7 +14,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::chrono::seconds kCheckpoint{30};
-constexpr double kRound_s = 2;  // longest delay of an interrupt with several processes
+constexpr double kRound_s = 2;  // largest delay after an interrupt with several processes
 
 std::uint64_t rounded_up(std::uint64_t a, std::uint64_t b) {
   return a / b + (a % b == 0 ? 0 : 1);
@@ -44,7 +44,8 @@ StudyRunner::StudyRunner(const algo::Experiment& experiment, RunnerOptions optio
       processes_(&processes),
       batch_trials_(batch_trials) {
   if (options_.slow) {
-    const bool alone = processes.size() == 1;  // several processes must end a round together
+    const bool alone =
+        processes.size() == 1;  // several processes must end a round at the same batch
     divided_ = std::make_unique<DividedTrials>(
         experiment, options_.threads, [alone] { return !alone || !Interrupt::requested(); });
     experiment_ = divided_.get();
@@ -84,8 +85,8 @@ void StudyRunner::resume(const StudyWork& state) {
     bar_ = std::make_unique<ProgressBar>("study", static_cast<double>(state.trials));
 }
 
-// Rank 0 decides. The rounds end at 1, 2, 4, 8 ... batches, where the convergence is recorded, and
-// earlier if they would take too long.
+// The batches of the next round; rank 0 decides for all processes. Rounds end after 1, 2, 4, 8 ...
+// batches, where the convergence is recorded, or earlier if they would take too long.
 StudyRunner::Round StudyRunner::next_round() {
   Round round{done_, done_, false};
   if (!stop_ && done_ != total_ && !rule_ended()) {
@@ -99,7 +100,8 @@ StudyRunner::Round StudyRunner::next_round() {
   return round;
 }
 
-// True also if the rule can never settle, because more trials would not help.
+// Whether the adaptive rule ends the study: its tolerances are met, or more trials would not help
+// for one output.
 bool StudyRunner::rule_ended() const {
   return rule_ && (rule_->settled() || rule_->unsettled_output());
 }
@@ -114,8 +116,9 @@ std::string StudyRunner::not_settled() const {
          "; to calculate the other outputs, give --trials N without --adaptive";
 }
 
-// Slow trials: one batch for each process, because an interrupted batch is lost. With the adaptive
-// rule the round is limited, because the rule may settle within it and the later trials are lost.
+// The largest number of batches in a round. With slow trials, it is one batch for each process,
+// because an interrupted batch is lost. With the adaptive rule it is limited, because the rule may
+// end the study within the round, and the trials after this point are lost.
 std::uint64_t StudyRunner::longest_round() const {
   const auto size = static_cast<std::uint64_t>(processes_->size());
   if (divided_) return size;
@@ -131,7 +134,7 @@ void StudyRunner::work(Round& round, StudyWork& state) {
   if (rule_) {
     figures.resize(round.end - round.begin);
     const std::uint64_t settled_at = feed_rule(round, std::move(figures), state);
-    if (settled_at < round.end) {  // without the batches after the rule settled
+    if (settled_at < round.end) {  // discard the batches after the end by the rule
       round.end = settled_at;
       parts = Parts(options_.threads);
       work_share(round, parts, nullptr, state);
@@ -144,9 +147,9 @@ void StudyRunner::work(Round& round, StudyWork& state) {
   done_ = round.end;
 }
 
-// Adds the batches of this process to `parts`, and stores the figures of each batch. Returns the
-// first batch that was not done: the end of the round, or an earlier batch if a single process was
-// interrupted.
+// Runs the batches of this process, adds them to `parts`, and stores the figures of each batch.
+// Returns the number of the first batch that was not done. This is the end of the round, or an
+// earlier batch if there is only one process and the user interrupted.
 std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures* figures,
                                       StudyWork& state) {
   const std::uint64_t at_once = figures ? 1 : batches_at_once(round);
@@ -184,7 +187,8 @@ std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures*
   return size > 1 ? round.end : std::min(round.end, round.begin + done * at_once);
 }
 
-// Long enough to keep the histograms in the cache, short enough for several pieces in each thread.
+// The number of batches that a thread runs in one piece. It is large enough to keep the histograms
+// in the cache, and small enough that each thread gets several pieces.
 std::uint64_t StudyRunner::batches_at_once(const Round& round) const {
   const auto workers = options_.threads * static_cast<std::uint64_t>(processes_->size());
   const std::uint64_t most = algo::kBlocksAtOnce * algo::block_trials(*experiment_) / batch_trials_;
@@ -192,8 +196,8 @@ std::uint64_t StudyRunner::batches_at_once(const Round& round) const {
                     std::max(std::uint64_t{1}, most));
 }
 
-// On rank 0, gives the batches of all processes to the rule in order, until it settles. Returns the
-// batch before which the rule settled, or the end of the round.
+// On rank 0, passes the batches of all processes to the adaptive rule in their order, until the
+// rule ends the study. Returns the number of the batch after that, or the end of the round.
 std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyWork& state) {
   gather(figures);
   if (!processes_->first()) return processes_->broadcast_number(0);
@@ -203,7 +207,7 @@ std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyW
     rule_->add(of_batch);
     state.rule.push_back(std::move(of_batch));
   }
-  // The factor by which s must decrease; s decreases with the root of the number of blocks.
+  // The factor by which s must decrease. s is proportional to 1 / sqrt(number of blocks).
   double ratio = 0;
   for (const auto& output : rule_->progress())
     ratio = std::max(ratio, output.worst / output.tolerance);
@@ -211,7 +215,8 @@ std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyW
   return processes_->broadcast_number(batch);
 }
 
-// Batches are assigned to the processes in turn, as in work_share().
+// Collects the figures of all batches on rank 0. The batches belong to the processes in turn, as in
+// work_share().
 void StudyRunner::gather(Figures& figures) const {
   const auto size = static_cast<std::size_t>(processes_->size());
   const auto each = [&](int rank, const auto& visit) {
@@ -236,7 +241,7 @@ void StudyRunner::gather(Figures& figures) const {
   }
 }
 
-// Merges the statistics of all processes into those of rank 0, by a binary tree.
+// Merges the statistics of all processes in the statistics of rank 0, in a binary tree.
 void StudyRunner::collect(StudyWork& state) {
   const int rank = processes_->rank(), size = processes_->size();
   for (int step = 1; step < size; step *= 2) {
@@ -248,7 +253,7 @@ void StudyRunner::collect(StudyWork& state) {
     if (rank + step >= size) continue;
     const auto theirs =
         algo::StudyStatistics::parse(processes_->receive(rank + step), *experiment_);
-    assert(theirs);  // written by the same program
+    assert(theirs);  // valid: the same program wrote the bytes
     state.statistics.merge(*theirs);
   }
   state.trials = trials_before(done_);
@@ -267,7 +272,8 @@ void StudyRunner::checkpoint(StudyWork& state) {
   next_checkpoint_ = Clock::now() + kCheckpoint;
 }
 
-// With a fixed number of trials, the last batch is shorter. All batches of the rule have one size.
+// The number of trials before this batch. With a fixed number of trials, the last batch is shorter;
+// with the adaptive rule, all batches have the same size.
 std::uint64_t StudyRunner::trials_before(std::uint64_t batch) const {
   const std::uint64_t trials = batch * batch_trials_;
   return options_.trials && !options_.adaptive ? std::min(trials, *options_.trials) : trials;

@@ -16,7 +16,8 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::uint64_t kPresetTrials = 1'000'000;
-constexpr std::size_t kFileLimit_bytes = std::size_t{16} << 20;  // limit for a file with a sample
+constexpr std::size_t kFileLimit_bytes = std::size_t{16}
+                                         << 20;  // largest size of a file with a sample
 
 std::optional<std::uint64_t> natural(TomlTable& table, const char* key) {
   if (!table.has(key)) return std::nullopt;
@@ -33,7 +34,8 @@ Status check(const StudySettings& settings) {
   return {};
 }
 
-// Settings of the command line take precedence over those of the plan.
+// Adds the settings of the plan to the settings of the command line, if the command line does not
+// contain them.
 void fill_in(StudySettings& settings, const StudyPlan& plan) {
   if (!settings.seed) settings.seed = plan.seed;
   if (!settings.coverage) settings.coverage = plan.coverage;
@@ -76,7 +78,7 @@ Status make_plan(Study& study) {
   return {};
 }
 
-// The rigs and samples that a plan names. The plan has been parsed before, so it is valid.
+// The names of the rig and sample files in a plan. The plan is valid, because it was parsed before.
 Result<std::vector<std::string>> named_files(const StudyRequest& request) {
   MDOF_TRY(TomlTable plan, TomlTable::parse(request.plan_toml, request.source));
   std::vector<std::string> files{plan.string("rig")};
@@ -95,7 +97,7 @@ std::string hash_of_first_trials(const algo::Experiment& experiment) {
   for (std::size_t k = 0; k < outputs; ++k) out.push_back(values.data() + k * kTrials);
   experiment.run(0, 1, kTrials, out);
   for (double& x : values)
-    if (std::isnan(x)) x = std::numeric_limits<double>::quiet_NaN();  // all NaNs with the same sign
+    if (std::isnan(x)) x = std::numeric_limits<double>::quiet_NaN();  // makes all NaNs equal
   return sha256_hex({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kTick{100};
 
-// Data that the threads of one call share.
+// The data that all threads of one call use.
 struct Shared {
   Shared(std::size_t pieces, const std::function<void(unsigned, std::size_t)>& what,
          unsigned threads)
@@ -29,7 +29,7 @@ struct Shared {
   std::atomic<bool> stop = false;
   std::mutex mutex;
   std::condition_variable ended;
-  unsigned running;            // under mutex
+  unsigned running;            // protected by `mutex`
   std::exception_ptr failure;  // under mutex
 };
 

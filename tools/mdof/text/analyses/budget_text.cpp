@@ -11,7 +11,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr double kLeastShare = 0.001;  // smaller contributions are summed into one line
+constexpr double kLeastShare = 0.001;  // the sum of smaller contributions is one line
 
 bool in_micrometres(const Budget& budget) {
   return budget.figure.ends_with("_um");
@@ -21,7 +21,7 @@ std::string unit_of(const Budget& budget) {
   return in_micrometres(budget) ? "µm" : "µrad";
 }
 
-// Rounds to the place of `u` (GUM 7.2.6).
+// Rounds the value to the second significant digit of `u` (GUM 7.2.6).
 std::string rounded_to_u(const Budget& budget, double si, double u) {
   return in_micrometres(budget) ? um_to_place(si, u) : urad_to_place(si, u);
 }
@@ -38,7 +38,8 @@ std::string significant(double x) {
   return fixed(x, std::clamp(digits, 0, 9));
 }
 
-// Effective degrees of freedom are not rounded to a whole number, because k uses the exact value.
+// The effective degrees of freedom as text. They are not rounded to an integer, because k was
+// calculated from the exact value.
 std::string freedom_text(double freedom) {
   const bool whole = freedom == std::round(freedom);
   return freedom < 1000 ? fixed(freedom, whole || freedom >= 100 ? 0 : 2) : "many";
@@ -58,7 +59,8 @@ std::string head_of(const Budget& b, std::size_t width) {
          "\n";
 }
 
-// The largest contributor, and u without it. U is not given, because k would change.
+// A sentence with the largest contribution, and with u without this contribution. U without it is
+// not stated, because k would change.
 std::string improvement_text(const Budget& b, std::size_t width) {
   if (b.lines.empty() || !(b.u > 0)) return "";
   const BudgetLine& first = b.lines.front();
@@ -94,7 +96,8 @@ std::string trials_text(const Budget& b) {
 
 namespace {
 
-// A key that both rigs leave out ("X u_um_per_h", "Y u_um_per_h") is named once, without the axis.
+// The undeclared keys. A key that is missing in both rigs ("X u_um_per_h", "Y u_um_per_h") is
+// listed once, without the axis.
 std::vector<std::string> keys_named_once(const std::vector<std::string>& keys) {
   const auto has = [&](const std::string& key) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();

@@ -24,7 +24,8 @@ std::string place(const MountedProbe& probe, std::size_t axis) {
   return u_m == 0 ? fixed(at_mm, 4) : with_u(at_mm, to_mm(u_m), 4);
 }
 
-// Angle between the direction of the probe and its direction in the rig, with its u, in mrad.
+// The angle between the calibrated direction of the probe and its direction in the rig, with u, in
+// mrad.
 std::string turn(const MountedProbe& probe, const Probe& nominal) {
   if (!probe.direction_seen) return "as in the rig";
   double squared = 0;

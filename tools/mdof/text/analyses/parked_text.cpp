@@ -12,13 +12,13 @@ namespace mdof::tools {
 namespace {
 
 constexpr double kMinute_s = 60, kHour_s = 3600;
-constexpr double kPerHour = 3600e9;  // to nm/h and nrad/h
+constexpr double kPerHour = 3600e9;  // nm/h per m/s
 
 bool is_angle(const daemon::ParkedLog& log, std::size_t series) {
   return series >= log.probes && error_names(log.axis)[series - log.probes].angle;
 }
 
-// nm/h for a length, urad/h for an angle.
+// A drift rate (m/s or rad/s) in nm/h for a length, in urad/h for an angle.
 double shown(const daemon::ParkedLog& log, std::size_t series, double per_s) {
   return is_angle(log, series) ? to_urad(per_s) * kHour_s : per_s * kPerHour;
 }
@@ -72,8 +72,8 @@ std::string temperature_text(const daemon::ParkedLog& log, const algo::WarmUp& f
   return table.text(width);
 }
 
-// Names the series that exceeds its limit most in the last window, or a series that cannot be
-// judged.
+// Why the system is not ready: the series that exceeds its limit most in the last time window, or a
+// series whose drift is unknown.
 std::string not_ready_reason(const daemon::ParkedLog& log, const algo::WarmUp& found) {
   std::string worst;
   double most = 0;

@@ -15,7 +15,7 @@ std::string approaches_text(const Run& run, const StatedFigures& figures, std::s
 
 std::string brief_figures_text(const Run& run, const StatedFigures& figures, std::size_t width) {
   const std::string drift = drift_notice(run, daemon::drift_of(run).found, width);
-  // If U is unknown, only the figures of the approaches exist.
+  // If U is unknown, shows the figures of each approach.
   return (figures.why.empty() ? stated_figures_text(figures, width)
                               : approaches_text(run, figures, width)) +
          (drift.empty() ? "" : "\n" + drift);

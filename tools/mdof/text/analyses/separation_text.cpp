@@ -14,7 +14,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr int kDigits = 9;  // digits of a map: finer than a picometre
+constexpr int kDigits = 9;  // decimals of heights in a map
 
 std::string along(const SeparationRecord& record) {
   return std::string("+") + letter(record.normal);
@@ -87,14 +87,15 @@ std::string heights(const std::vector<double>& height_m) {
   return text + "]";
 }
 
-// Root mean square over the places; NaN: unknown.
+// The root mean square of u over all places; NaN: unknown.
 double mean_u(const DeterminedSeries& series) {
   double sum = 0;
   for (const double u : series.u_m) sum += u * u;
   return std::sqrt(sum / static_cast<double>(series.u_m.size()));
 }
 
-// mdof recognises files with simulated data by these words, so they must not change.
+// The warnings in a file. mdof recognises files with simulated data by these words; they must
+// therefore not change.
 std::string marks_text(const SeparationRecord& record) {
   std::string text = record.simulated ? "# simulated data: no machine was measured\n" : "";
   for (const std::string& mark : record.marks) text += "# " + mark + "\n";

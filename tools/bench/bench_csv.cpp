@@ -1,6 +1,7 @@
-// Speed of reading the CSV files of the benchmark: the row parser alone on one thread, the complete
-// CsvRows (reading, hashing, parsing), and pandas.read_csv on the same file.
-//   bench_csv log|frames FILE [REPEATS]   FILE of generate_log; the best of REPEATS (5) counts
+// Measures the speed of reading the CSV files of the benchmark: with the row parser alone on one
+// thread, with the complete CsvRows (reading, hashing, parsing), and with pandas.read_csv.
+//   bench_csv log|frames FILE [REPEATS]   FILE: from generate_log; prints the best of REPEATS (5)
+//   times
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -45,7 +46,7 @@ void print(const char* what, const Figures& f) {
               f.seconds * 1e9 / static_cast<double>(f.fields));
 }
 
-// The file is in memory and already cut into chunks, so that only parsing is timed.
+// Measures only the parsing: the file is in memory and already divided into chunks.
 class ParseAlone {
  public:
   ParseAlone(const std::string& path, CsvKind kind) : kind_(kind), path_(path) {
@@ -93,7 +94,7 @@ Figures end_to_end(const std::string& path, CsvRowsOptions options) {
   return figures;
 }
 
-// Prints the values of the file again with 17 digits.
+// Measures the conversion of all values in the file to texts with 17 digits.
 Figures print_17(const std::string& path, CsvRowsOptions options) {
   auto rows = value(CsvRows::open(path, options));
   SampleBlock block;
@@ -120,7 +121,7 @@ Figures best(int runs, Run run) {
   return best;
 }
 
-// Seconds of pandas.read_csv without its import; 0: pandas is not installed.
+// The time of pandas.read_csv in s, without the import of pandas; 0: pandas is not installed.
 double pandas_s(const std::string& path, int runs) {
   ::setenv("BENCH_FILE", path.c_str(), 1);
   ::setenv("BENCH_RUNS", std::to_string(runs).c_str(), 1);

@@ -1,5 +1,5 @@
-// Times the three reference lines of a long unsorted series, and the minimum zone alone of a sorted
-// series. Limit: 20 ms for the minimum zone of 100,000 readings.
+// Measures the time for the three reference lines of a long unsorted series, and for the minimum
+// zone of a sorted series. Limit: 20 ms for the minimum zone of 100,000 readings.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -20,7 +20,7 @@ double any(std::uint32_t i, std::uint32_t purpose) {
   return mdof::uniform(random[0], random[1]);
 }
 
-// Best of several rounds, ms.
+// The shortest time of several rounds, ms.
 template <class Work>
 double best_ms(Work work) {
   double best = 1e9;
@@ -44,7 +44,8 @@ int main() {
   const double all_ms = best_ms([&] { mdof::algo::reference_lines(x, y).value(); });
   std::sort(x.begin(), x.end());
   const double zone_ms = best_ms([&] { mdof::algo::minimum_zone_line(x, y); });
-  for (std::uint32_t i = 0; i < kReadings; ++i)  // every reading is on the hull
+  for (std::uint32_t i = 0; i < kReadings;
+       ++i)  // a convex series: every reading is on the convex hull
     y[i] = 1e-6 * x[i] * (1 - x[i]);
   const double arch_ms = best_ms([&] { mdof::algo::minimum_zone_line(x, y); });
   std::printf(

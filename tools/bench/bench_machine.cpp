@@ -1,6 +1,6 @@
-// Budget of the co-planar machine in which all 84 part errors vary, with the full product of its 14
-// frames, on one thread; processor time for each trial in ns. tools/bench/peers/machine_numpy.py
-// does the same with NumPy.
+// Measures the Monte Carlo budget of the co-planar machine on one thread: processor time for each
+// trial in ns. All 84 part errors vary, and each trial calculates the complete product of the 14
+// frames. tools/bench/peers/machine_numpy.py calculates the same with NumPy.
 //   bench_machine [TRIALS] [baseline|avx2|avx512]
 //   bench_machine --frames   prints the nominal machine for the peer, one row for each frame from
 //                            the tool to the work: side, nominal rotation and translation, point
@@ -19,7 +19,7 @@ using mdof::InstructionSet;
 constexpr int kRounds = 5;
 const mdof::algo::Command kAt = {0.03, 0.02, 0.02, 0, 0.1, 0};
 
-// Half widths: 1 µm and 50 µrad, Eq. 9 of the paper.
+// The machine with errors of the half widths 1 µm and 50 µrad (Eq. 9 of the paper).
 mdof::Machine machine() {
   auto machine = mdof::parse_machine(mdof::co_planar_machine(), "co-planar").value();
   machine.sources.clear();

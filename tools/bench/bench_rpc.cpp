@@ -1,8 +1,8 @@
-// Round trip of compensation.at against a bare echo, and pipelined requests in one second. Both
-// servers run on one loop with one kind of socket and the same message sizes, in alternating
-// blocks.
+// Measures the round trip of compensation.at in comparison with a simple echo server, and the
+// number of pipelined requests in one second. Both servers run on the same loop, with the same kind
+// of socket and the same message sizes, in alternating blocks.
 //   bench_rpc [round trips] [pipelined requests]
-// Exit status 1 if a limit is missed: ratio at most 1.5, at least 50,000 requests/s.
+// Exit status 1 if the ratio is above 1.5 or the rate is below 50,000 requests/s.
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kMaxRatio = 1.5;
 constexpr double kMinRequestsPerS = 50e3;
-constexpr int kBlock = 1000;  // round trips before the other server's turn
+constexpr int kBlock = 1000;  // number of round trips before the other server is measured
 
 const std::string kRequest =
     R"({"jsonrpc":"2.0","method":"compensation.at","params":{"axis":"X","position_mm":12.3},"id":1})"
@@ -64,7 +64,7 @@ daemon::ActiveTables table_in_force() {
   return {{std::make_shared<const store::ActiveTable>(std::move(active)), nullptr, nullptr}, {}};
 }
 
-// Sends a fixed reply for each read.
+// The echo server: sends a fixed reply for each received block.
 struct Echo : std::enable_shared_from_this<Echo> {
   Echo(EventLoop& loop, int fd, std::string text)
       : socket(*loop.core()->context, fd), reply(std::move(text)) {}
@@ -151,7 +151,7 @@ void start(Bench& bench) {
   bench.loop.post([echo] { echo->read(); });
 }
 
-// Ratio of the medians.
+// The ratio of the median round trips.
 double compare_round_trips(const Bench& bench, int count) {
   std::vector<char> buffer(65536);
   std::vector<double> rpc_us, echo_us;
@@ -160,7 +160,7 @@ double compare_round_trips(const Bench& bench, int count) {
     const int fd = rpc ? bench.rpc.get() : bench.echo.get();
     const double us = round_trip_us(fd, bench.reply.size(), buffer);
     if (i >= 2 * kBlock)
-      (rpc ? rpc_us : echo_us).push_back(us);  // the first block of each server warms up
+      (rpc ? rpc_us : echo_us).push_back(us);  // the first block of each server does not count
   }
   const double rpc = median(rpc_us), echo = median(echo_us);
   std::printf("round trip, median of %zu calls of each kind; request %zu bytes, reply %zu bytes\n",
@@ -171,7 +171,9 @@ double compare_round_trips(const Bench& bench, int count) {
 }
 
 double pipelined_per_s(const Bench& bench, int count) {
-  constexpr int kChunk = 128, kAhead = 8;  // requests in one send, sends ahead of the replies
+  constexpr int kChunk = 128,
+                kAhead =
+                    8;  // requests in one block; blocks that are sent before the replies are read
   std::string chunk;
   for (int i = 0; i < kChunk; ++i) chunk += kRequest;
   const std::size_t chunk_reply = kChunk * bench.reply.size();

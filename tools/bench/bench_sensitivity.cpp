@@ -1,6 +1,6 @@
-// Simulation I on one thread: the random numbers alone, the trials alone, all statistics; processor
-// time for each trial in ns, the best of several rounds. tools/bench/run compares it with NumPy and
-// Octave.
+// Measures Simulation I on one thread: only the random numbers, only the trials, and the trials
+// with all statistics. Prints the processor time for each trial in ns, the shortest of several
+// rounds. tools/bench/run compares these times with NumPy and Octave.
 //   bench_sensitivity [TRIALS] [baseline|avx2|avx512]
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ using mdof::InstructionSet;
 constexpr int kRounds = 25;
 constexpr std::size_t kBatch = 512;
 
-// Best of several rounds, processor time for each trial, ns.
+// The shortest processor time for each trial of several rounds, ns.
 template <class Work>
 double best_ns(std::uint64_t trials, Work work) {
   double best = 1e300;
@@ -34,8 +34,8 @@ void print(const char* what, double ns) {
   std::printf("%-34s %7.3f ns a trial, %7.1f million a second\n", what, ns, 1e3 / ns);
 }
 
-// Draws `pairs` Philox blocks for each trial and discards them. The sum prevents the compiler from
-// removing the draws.
+// Draws `pairs` Philox blocks for each trial. Returns a sum of the numbers, so that the compiler
+// cannot remove the calculation.
 double draw_all(std::uint64_t trials, std::uint64_t pairs, InstructionSet set) {
   static std::array<double, kBatch> even, odd;
   double sum = 0;

@@ -1,5 +1,6 @@
-// The batch solver alone against a plain copy of the same bytes: six input columns and five output
-// columns in memory larger than any cache. Limit: at least half of the copy's rate.
+// Compares the speed of the batch solver with that of copying the same bytes: six input columns and
+// five output columns, which are larger than any cache. Limit: the solver has at least half the
+// rate of the copy.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -28,7 +29,7 @@ probe = [
 ]
 )";
 
-// Best of several rounds, s.
+// The shortest time of several rounds, s.
 template <class Work>
 double best_s(Work work) {
   double best = 1e9;
@@ -58,7 +59,8 @@ int main() {
     from.reading_m[k] = in[k + 1].data();
     to.local[k] = out[k].data();
   }
-  // Moves the same bytes: five columns are copied, and the sixth, which is only read, is summed.
+  // The copy moves the same bytes: it copies five columns and only reads the sixth column, to sum
+  // it.
   double sum = 0;
   const double copy_s = best_s([&] {
     for (std::size_t k = 0; k < 5; ++k) std::memcpy(out[k].data(), in[k].data(), 8 * kFrames);

@@ -1,10 +1,11 @@
-// Storing runs against a bare prepared-statement loop into SQLite with the same rows and durability
-// (limit: at least 0.8). The bare side has a table without keys, checks or references, and its rows
-// are ready to be bound; the store also keeps provenance, references and the hash of the results.
+// Compares the rate at which the store writes runs with the rate of a simple loop of prepared
+// SQLite statements, which writes the same rows with the same durability. Limit: the ratio is at
+// least 0.8. The simple loop writes to a table without keys, checks and references, and its rows
+// are ready to be bound. The store also writes provenance, references and the hash of the results.
 //
 //   bench_store [FOLDER]    prints both rates and their ratio for small and large runs; exit status
-//                           1 below 0.8. FOLDER must be on a disk: in memory, durability costs
-//                           nothing
+//                           1 below 0.8. FOLDER must be on a disk: in memory, durability needs no
+//                           time
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -57,7 +58,7 @@ Run make_run(int points) {
   return run;
 }
 
-// The bare side, with direct calls of SQLite only.
+// The simple loop, with direct calls of SQLite only.
 class Bare {
  public:
   explicit Bare(const fs::path& file) {
@@ -124,7 +125,8 @@ double median(std::vector<double> x) {
   return x[x.size() / 2];
 }
 
-// The rounds alternate, so that a slow moment of the disk or the computer affects both sides.
+// Measures both in alternating rounds, so that a slow time of the disk or the computer affects
+// both.
 double compare(const fs::path& folder, int points_per_run, int runs_per_round, int rounds) {
   const Run run = make_run(points_per_run);
   const std::string size = std::to_string(points_per_run);

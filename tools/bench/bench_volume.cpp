@@ -1,5 +1,5 @@
-// A volumetric table with 26 x 26 x 26 nodes: the time to build it, and the time for its value at a
-// command; processor time on one thread.
+// Measures a volumetric table with 26 x 26 x 26 nodes: the processor time on one thread to build
+// it, and to calculate its correction at one command.
 //   bench_volume
 #include <cstdio>
 #include <ctime>
@@ -16,7 +16,7 @@ double seconds_since(std::clock_t begin) {
   return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
-// A machine with every error of X, Y and Z at 21 positions.
+// The TOML text of a machine with all errors of X, Y and Z at 21 positions.
 std::string description() {
   std::string text =
       "name = \"mill\"\nmachine = {chain = \"w-X-b-Y-Z-t\"}\ntool = {point_mm = [0, 0, 50]}\n";

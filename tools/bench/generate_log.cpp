@@ -1,10 +1,10 @@
-// Writes CSV files for benchmarks. The same arguments give the same bytes.
+// Writes CSV files for benchmarks. Equal arguments make equal bytes.
 //   generate_log log    [ROWS [SEED]] > log.csv      1,500,000 rows are about 100 MB
 //   generate_log frames [ROWS [SEED]] > frames.csv     900,000 rows are about 100 MB
-// log: an axis steps to targets 6 mm apart over 60 mm in both directions, repeatedly, and dwells
-// 0.5 s at each, sampled at 4 kHz; readings of the default fixture with 10 nm of noise, 6 decimals.
-// No comment lines, so that any other CSV reader reads the file without options.
-// frames: random positions and errors without noise, 17 digits.
+// log: an axis moves repeatedly over 60 mm in both directions and stops for 0.5 s at targets every
+// 6 mm. The file contains the readings of the default fixture at 4 kHz, with 10 nm of noise and 6
+// decimals. It has no comment lines, so that any CSV reader reads it without options.
+// frames: readings at random positions for random errors, without noise, with 17 digits.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -31,7 +31,8 @@ struct Errors {
   double dy_um = 0, dz_um = 0, ex_urad = 0, ey_urad = 0, ez_urad = 0;
 };
 
-// The readings A ... E to first order: top probes at (x, y), side probes at (x, z), in mm.
+// The readings A ... E in µm, to first order. The top probes are at (x, y), the side probes at (x,
+// z), in mm.
 std::array<double, 5> readings_um(const Errors& e, double d_mm) {
   auto top = [&](double x, double y) {
     return e.dz_um + 1e-3 * (e.ex_urad * y + e.ey_urad * (d_mm - x));
@@ -48,7 +49,8 @@ class Random {
   double uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
   }
-  // Approximately normal with standard deviation 1, the same on every system.
+  // A random number with approximately normal distribution and standard deviation 1. It is the same
+  // on every system.
   double normal() {
     double sum = -6;
     for (int i = 0; i < 12; ++i) sum += uniform(0, 1);
@@ -59,10 +61,11 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// Position of the axis over time: dwell, smooth move, dwell ... The axis turns without a dwell
-// beyond the first and the last target, so that each target has a defined approach.
+// The position of the axis at a time: stop, smooth motion, stop ... Beyond the first and the last
+// target the axis reverses without a stop, so that each target has a defined approach.
 double position_mm(double time_s) {
-  constexpr int kStops = 2 * kTargets + 2;  // up, turn, down, turn
+  constexpr int kStops =
+      2 * kTargets + 2;  // targets upwards, reversal, targets downwards, reversal
   auto stop_mm = [](int i) {
     const int k = i % kStops;
     if (k == 0) return -kOvertravel_mm;
@@ -74,7 +77,7 @@ double position_mm(double time_s) {
   constexpr double kCycle_s = 2 * kTargets * kStep_s + 2 * kMove_s;
   double t_s = std::fmod(time_s, kCycle_s);
   int stop = 0;
-  for (;; ++stop) {  // each stop: the move to the next stop, then the dwell there
+  for (;; ++stop) {  // for each stop: the motion to the next stop, then the time there
     const bool turn = (stop + 1) % kStops == 0 || (stop + 1) % kStops == kTargets + 1;
     const double length_s = kMove_s + (turn ? 0 : kDwell_s);
     if (t_s < length_s || stop == kStops - 1) break;

@@ -14,7 +14,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr int kDigits = 9;  // decimals of heights in a map
+constexpr int kDigits = 9;  // significant digits of heights in a map
 
 std::string along(const SeparationRecord& record) {
   return std::string("+") + letter(record.normal);

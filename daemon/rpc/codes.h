@@ -16,10 +16,10 @@ inline constexpr int kInternalError = -32603;
 // Codes of this server.
 inline constexpr int kBusy = -32000;  // too many connections; the connection is closed after this
                                       // line
-inline constexpr int kChanged =
-    -32001;  // the generation has changed; the client must read the data again
-inline constexpr int kConflict =
-    -32002;  // not possible now, for example because a run is in progress
+// The generation has changed; the client must read the data again.
+inline constexpr int kChanged = -32001;
+// Not possible now, for example because a run is in progress.
+inline constexpr int kConflict = -32002;
 inline constexpr int kForbidden = -32003;      // the client may only read over this transport
 inline constexpr int kNotFound = -32004;       // the run, table or device does not exist
 inline constexpr int kBadInput = -32010;       // a file, or a value in a file, is invalid

@@ -46,11 +46,11 @@ struct Method {
   std::string summary;  // one sentence
   std::vector<Param> params = {};
   std::string result = {};  // a sentence with facts that `members` does not state
-  std::string_view members =
-      {};  // members of the result, in the syntax of schema/field/shape.h; empty: any value
+  // Members of the result, in the syntax of schema/field/shape.h; empty: any value.
+  std::string_view members = {};
   std::string example = "{}";  // params by name
-  bool writes =
-      false;  // the method changes data; the server rejects the call if the client may only read
+  // The method changes data; the server rejects the call if the client may only read.
+  bool writes = false;
   bool subscribes = false;  // the method needs a connection that stays open
   bool approves = false;  // only clients in the group ServerOptions::approvers may call the method,
                           // if this group is set
@@ -84,8 +84,8 @@ class MethodTable {
   const std::string& schema_of(const Method& method) const;
 
   std::string title_, version_;
-  mutable std::map<std::string, std::string>
-      schemas_;  // schemas of results; a schema is made when it is first needed
+  // Schemas of results; a schema is made when it is first needed.
+  mutable std::map<std::string, std::string> schemas_;
   std::map<std::string, Method, std::less<>> methods_;
 };
 

@@ -22,15 +22,15 @@ struct ServerOptions {
   std::size_t max_id_bytes = 256;           // length of an id as JSON text
 
   // Limits of one client.
-  std::size_t max_unsent_bytes =
-      1024 * 1024;                      // a request only begins if its largest reply has space
+  // A request only begins if its largest reply has space.
+  std::size_t max_unsent_bytes = 1024 * 1024;
   std::chrono::microseconds turn{100};  // duration of a turn; then the other clients get a turn
   std::size_t max_subscriptions = 32;
-  std::size_t max_queued_events =
-      64;  // pending events of one subscription; if there are more, the oldest event is dropped
+  // Pending events of one subscription; if there are more, the oldest event is dropped.
+  std::size_t max_queued_events = 64;
   milliseconds request_timeout{5000};  // time from the first byte of a line to its last byte
-  milliseconds stall_timeout{
-      10000};                    // time during which the client reads none of the unsent output
+  // Time during which the client reads none of the unsent output.
+  milliseconds stall_timeout{10000};
   milliseconds idle_timeout{0};  // time without a request and without a subscription; 0: no limit
   milliseconds drain_timeout{1000};  // time for the client to read the last line before the
                                      // connection closes
@@ -53,19 +53,19 @@ struct ServerOptions {
 
   // Limits of browsers. Connections of browsers do not count in max_connections. max_line_bytes
   // limits the body of a request. request_timeout limits the time for the head of a request, and
-  // the time for its body.
-  std::size_t max_http_connections =
-      128;  // if there are more, the server closes the connection that has been idle longest
+  // the time for its body. If there are more connections of browsers, the server closes the one
+  // that has been idle longest.
+  std::size_t max_http_connections = 128;
   std::size_t max_http_streams = 64;  // maximum number of connections with GET /events
   std::size_t max_http_head_bytes = 8 * 1024;
   milliseconds http_idle_timeout{15000};  // time between two requests
-  milliseconds http_heartbeat{
-      10000};  // interval of the comments that are sent on a stream without events
+  // Interval of the comments that are sent on a stream without events.
+  milliseconds http_heartbeat{10000};
   std::size_t max_kept_events = 4096;  // events that are kept for streams that resume
   std::size_t max_kept_event_bytes = 1024 * 1024;
 
-  std::function<void(const std::string&)>
-      log;  // writes one line of the log; empty function: the log goes to stderr
+  // Writes one line of the log; empty function: the log goes to stderr.
+  std::function<void(const std::string&)> log;
 };
 
 }  // namespace mdof::rpc

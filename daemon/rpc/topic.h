@@ -14,8 +14,8 @@ struct Topic {
   // sent, so a slow client receives fewer values. true: the topic has events, which do not replace
   // each other. If a slow client has max_queued_events pending events, the oldest event is dropped.
   bool event = false;
-  std::chrono::milliseconds min_interval{
-      20};  // shortest interval between two values to a client; not used for events
+  // Shortest interval between two values to a client; not used for events.
+  std::chrono::milliseconds min_interval{20};
 };
 
 }  // namespace mdof::rpc

@@ -171,9 +171,8 @@ double compare_round_trips(const Bench& bench, int count) {
 }
 
 double pipelined_per_s(const Bench& bench, int count) {
-  constexpr int kChunk = 128,
-                kAhead =
-                    8;  // requests in one block; blocks that are sent before the replies are read
+  // Requests in one block; blocks that are sent before the replies are read.
+  constexpr int kChunk = 128, kAhead = 8;
   std::string chunk;
   for (int i = 0; i < kChunk; ++i) chunk += kRequest;
   const std::size_t chunk_reply = kChunk * bench.reply.size();

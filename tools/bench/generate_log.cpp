@@ -64,8 +64,8 @@ class Random {
 // The position of the axis at a time: stop, smooth motion, stop ... Beyond the first and the last
 // target the axis reverses without a stop, so that each target has a defined approach.
 double position_mm(double time_s) {
-  constexpr int kStops =
-      2 * kTargets + 2;  // targets upwards, reversal, targets downwards, reversal
+  // A cycle has the targets upwards, a reversal, the targets downwards, and a reversal.
+  constexpr int kStops = 2 * kTargets + 2;
   auto stop_mm = [](int i) {
     const int k = i % kStops;
     if (k == 0) return -kOvertravel_mm;

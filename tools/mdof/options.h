@@ -25,7 +25,8 @@ struct NamedChart;
 namespace mdof::tools {
 
 void add_json_flag(CLI::App& command, bool& json);
-void add_csv_and_json_flags(CLI::App& command, bool& csv, bool& json);  // exclusive flags
+void add_csv_and_json_flags(CLI::App& command, bool& csv,
+                            bool& json);  // --csv and --json, of which only one may be used
 void add_all_warnings_flag(CLI::App& command, bool& all);
 // --limit-um and --limit-um-per-mm, for the limits in algo::TableLimits.
 struct LimitOptions {
@@ -39,8 +40,8 @@ void add_consent_flags(CLI::App& command, daemon::Consent& consent, const std::s
 void add_database_option(CLI::App& command, std::string& database);
 void add_socket_option(CLI::App& command, std::string& socket);   // --socket; sets the default
 void add_only_axis_option(CLI::App& command, std::string& axis);  // --axis: X, Y or Z
-void add_model_option(CLI::App& command,
-                      std::string& model);  // --model: name of one of the three models
+// --model: name of one of the three models.
+void add_model_option(CLI::App& command, std::string& model);
 void add_plot_option(CLI::App& command, std::string& folder);        // --plot DIR; empty: no plots.
 void add_language_option(CLI::App& command, std::string& language);  // "en" or "de".
 // Writes the charts to `folder` and prints the file names to the standard error.

@@ -12,8 +12,8 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kFewestColumns = 40,
-                      kMostColumns = 10'000;  // tables need at least kFewestColumns
+// Tables need at least kFewestColumns.
+constexpr std::size_t kFewestColumns = 40, kMostColumns = 10'000;
 
 // The value of the variable COLUMNS; 0: it is not set or invalid.
 std::size_t stated_columns() {

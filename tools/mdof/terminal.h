@@ -1,4 +1,4 @@
-// Width of text for people.
+// The number of columns of the terminal, for wrapping text.
 #pragma once
 
 #include <cstddef>

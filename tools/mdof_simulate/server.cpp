@@ -213,8 +213,8 @@ void Server::Parts::hold(Client& client, std::string bytes) {
                                static_cast<std::uint64_t>(served.seed));
   const double late_ns = served.jitter_ms * 1e6 * uniform(random[0], random[1]);
   std::int64_t due_ns = now_ns() + std::llround(late_ns);
-  if (!client.held.empty())
-    due_ns = std::max(due_ns, client.held.back().due_ns);  // keeps the order of the packets
+  // Keeps the order of the packets.
+  if (!client.held.empty()) due_ns = std::max(due_ns, client.held.back().due_ns);
   client.held.push_back({due_ns, std::move(bytes)});
 }
 

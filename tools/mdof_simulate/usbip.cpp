@@ -19,7 +19,7 @@ constexpr std::size_t kLengthAt = 24, kPacketsAt = 32, kSetupAt = 40;  // for kS
 constexpr std::size_t kOtherAt = 20;                                   // for kUnlink: the number
 constexpr std::uint32_t kNotIsochronous = 0xFFFFFFFF;
 constexpr std::uint32_t kMostBytes = 1 << 20;
-// Error numbers of Linux on every platform.
+// Error numbers of Linux; USB/IP uses them on every platform.
 constexpr int kStalled = -32, kCancelled = -104;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
@@ -54,7 +54,7 @@ std::string UsbIp::exchange(std::string_view received, std::int64_t now_ns) {
   return std::exchange(to_send_, "");
 }
 
-// False: the command is not complete yet.
+// Handles the next command of the host. False: the command is not complete yet.
 bool UsbIp::take_command(std::int64_t now_ns) {
   if (received_.size() < kHeader) return false;
   switch (word_at(received_, kCommandAt)) {
@@ -99,7 +99,8 @@ void UsbIp::take_unlink() {
       words({kUnlinked, number, 0, 0, 0, static_cast<std::uint32_t>(cancelled ? kCancelled : 0)});
 }
 
-// Serves the transfers of each endpoint in order; endpoints do not block each other.
+// Continues the transfers. The transfers of one endpoint are handled in order; an endpoint does not
+// wait for another endpoint.
 void UsbIp::serve(std::int64_t now_ns) {
   std::set<std::pair<std::uint8_t, bool>> busy;
   for (auto transfer = waiting_.begin(); transfer != waiting_.end();) {

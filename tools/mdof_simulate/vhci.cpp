@@ -16,8 +16,8 @@ namespace {
 
 const std::string kController = "/sys/devices/platform/vhci_hcd.0/";
 
-// Each row is a port: "hs 0000 004 ..."; state 004 is free (VDEV_ST_NULL). Full-speed devices also
-// use the high-speed ports.
+// The number of a free port. Each row of the file is a port: "hs 0000 004 ...". The state 004
+// (VDEV_ST_NULL) means free. Full-speed devices also use the high-speed ports.
 Result<int> free_port() {
   std::ifstream status(kController + "status");
   if (!status)

@@ -51,8 +51,8 @@ void draw_axes(Svg& svg, const Panel& panel, std::string_view x_key);
 // Draws the title of the y axis horizontally above the upper left corner of the panel.
 void draw_y_title(Svg& svg, const Panel& panel, std::string_view y_key);
 
-inline constexpr double kOutputPx =
-    170;  // height of a panel in a plot with one panel for each output
+// Height of a panel in a plot with one panel for each output.
+inline constexpr double kOutputPx = 170;
 
 // Panels of equal size, two side by side if there are several. All panels have the same left
 // margin, which is wide enough for the widest y label.

@@ -21,11 +21,11 @@ struct Control {
 struct CheckedError {
   std::string error;  // "EXX"; for a volumetric table the corrected command, "X"
   bool angle = false;
-  bool one_way =
-      false;  // the test uses the mean of both approaches, because of ExportOptions::one_approach
+  // The test uses the mean of both approaches, because of ExportOptions::one_approach.
+  bool one_way = false;
   double before = 0;  // largest error without the correction, m or rad
-  double residual =
-      0;  // largest error with the correction, over both approaches, at the points and between them
+  // Largest error with the correction, over both approaches, at the points and between them.
+  double residual = 0;
   // Errors that the file cannot correct, m or rad. They are part of `residual`. - by_reversal: the
   // error that remains in each approach if the file has one value for both approaches. It is not
   // part of `residual` if one_way is true. - between_nodes: the error between the nodes of a
@@ -44,16 +44,16 @@ struct CheckedError {
   // For volumetric tables and the squareness it is the limit in ExportOptions.
   double bound = 0;
   bool cancels = false;
-  bool nothing =
-      false;  // the error without correction is below the step of the numbers in the file
+  // The error without correction is below the step of the numbers in the file.
+  bool nothing = false;
   std::vector<Control> controls;
 };
 
 struct Check {
   std::vector<CheckedError> errors;
   std::vector<std::string> not_judged;  // written errors whose correction sign is unknown
-  double most_residual_m = 0,
-         share = 0;                 // limits from ExportOptions; the first includes the tolerance
+  // Limits from ExportOptions; the first includes the tolerance.
+  double most_residual_m = 0, share = 0;
   bool passed() const;              // whether all errors with a known sign pass
   bool nothing_to_correct() const;  // no error exceeds a step of the numbers
 };

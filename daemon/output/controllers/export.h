@@ -37,10 +37,10 @@ struct Series {
 };
 
 struct ExportOptions {
-  double tolerance_m =
-      0;  // Largest interpolation error by omitting points, m or rad; 0: keep all points.
-  bool one_approach =
-      false;  // write one value for both approaches, although the reversal error remains
+  // Largest interpolation error by omitting points, m or rad; 0: keep all points.
+  double tolerance_m = 0;
+  // Write one value for both approaches, although the reversal error remains.
+  bool one_approach = false;
   bool cut_range = false;  // if values are missing, export the longest range without missing values
                            // instead of returning an error
   // The position at which the correction of an axis (mean of both approaches) becomes 0, because a
@@ -99,8 +99,8 @@ struct Export {
   std::vector<Written> written;
   std::vector<std::string> left_out;  // errors that the controller cannot store
   std::vector<std::string> notes;
-  double left_m =
-      0;  // volumetric table: largest part of a correction that the file format cannot represent
+  // Volumetric table: largest part of a correction that the file format cannot represent.
+  double left_m = 0;
 };
 
 // The correction that the controller adds to a command. The controller interpolates linearly

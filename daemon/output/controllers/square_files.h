@@ -11,7 +11,7 @@
 
 namespace mdof::controllers {
 
-// Error (bad_input): the machine's chain is unknown, or lacks X or Y.
+// Error (bad_input): the chain of the machine is unknown, or contains no axis X or no axis Y.
 Result<double> shear_of(const SquareAxes& axes);
 
 // SET_SKEW XY=AC,BD,AD: the lengths of both diagonals and of one side. The machine without

@@ -42,10 +42,10 @@ struct Report {
   ReportFacts facts;
   std::string head;  // HTML of the company at the top of the report; empty: none
   std::vector<ReportRun> runs;
-  std::vector<daemon::Comparison>
-      comparisons;  // one for each axis: the runs before and after a change
-  std::vector<charts::SquarenessOfPair>
-      squareness;                // for each of XY, XZ, YZ whose axes both have one run
+  // One for each axis: the runs before and after a change.
+  std::vector<daemon::Comparison> comparisons;
+  // One for each of XY, XZ, YZ whose axes both have one run.
+  std::vector<charts::SquarenessOfPair> squareness;
   std::vector<Decided> decided;  // decisions on squareness that has a tolerance
   std::vector<Attachment> attachments;
   std::string software_version;  // version of mdof that made the report

@@ -142,8 +142,9 @@ void write_conditions(Html& html, const ReportRun& run, Language language) {
   if (run.superseded_by)
     state += ", " + phrase(Phrase::superseded, language, {std::to_string(*run.superseded_by)});
   if (is_imported(h)) return html.facts(conditions_of_imported(run.results.run, state, language));
-  const bool is_evaluation =
-      h.provenance.recording_kind == "csv";  // start of the measurement unknown
+  // A CSV log does not state when the measurement started; the report then states the time of the
+  // evaluation.
+  const bool is_evaluation = h.provenance.recording_kind == "csv";
   html.facts({{of(is_evaluation ? Phrase::evaluated : Phrase::started), h.started_utc},
               {of(Phrase::state), state},
               {of(Phrase::temperature), temperature_of(h, language)},

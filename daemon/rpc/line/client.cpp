@@ -118,8 +118,8 @@ Status Client::send_line(std::string_view line, Clock::time_point end) {
           "mdofd did not accept the request in time; try again, or check mdofd with \"systemctl "
           "status mdofd\"");
     const ssize_t n = ::send(socket_.get(), line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-    if (n < 0 && errno == EPIPE)
-      return {};  // mdofd has closed the connection and may have sent the reason
+    // mdofd has closed the connection and may have sent the reason.
+    if (n < 0 && errno == EPIPE) return {};
     if (n < 0 && errno != EAGAIN && errno != EINTR)
       return io_error("mdofd closed the connection: " + system_error_text(errno));
     if (n > 0) line.remove_prefix(static_cast<std::size_t>(n));

@@ -14,8 +14,8 @@ struct ServerCore final : ClientSet<Connection> {
   using ClientSet::ClientSet;
   ~ServerCore() override { close_all(); }
 
-  void adopt(
-      int socket);  // `socket`: a connected client; it is rejected if there are too many clients
+  // `socket`: a connected client; it is rejected if there are too many clients.
+  void adopt(int socket);
   void request_turn(std::shared_ptr<Connection> connection);
 
  private:

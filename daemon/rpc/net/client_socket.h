@@ -30,8 +30,8 @@ class ClientSocket : public Transport, public std::enable_shared_from_this<Clien
                                                         // non-blocking
 
   virtual void request_turn() = 0;
-  virtual void
-  forget() = 0;  // called when the socket is closed; removes the connection from the server
+  // Called when the socket is closed; removes the connection from the server.
+  virtual void forget() = 0;
   virtual void receive() = 0;  // called when data can be read
   virtual void pump() = 0;     // called in each turn after receive()
 
@@ -42,13 +42,13 @@ class ClientSocket : public Transport, public std::enable_shared_from_this<Clien
   bool hung_up();     // whether the client has closed both directions
 
   asio::posix::stream_descriptor socket_;
-  std::shared_ptr<Session>
-      session_;  // null after closing, because an open session counts as a connected client
+  // Null after closing, because an open session counts as a connected client.
+  std::shared_ptr<Session> session_;
   Outbox output_;
   bool closed_ = false, input_ended_ = false;
   bool reading_ = false, writing_ = false, has_turn_ = false;
-  std::optional<Clock::time_point>
-      stalled_since_;  // the time since when the client has read none of the unsent output
+  // The time since when the client has read none of the unsent output.
+  std::optional<Clock::time_point> stalled_since_;
 
  private:
   bool readable_ = false, shut_down_ = false;

@@ -42,8 +42,8 @@ class EventLoop {
   std::shared_ptr<Executor> executor() const;  // for code that does not depend on EventLoop
 
  private:
-  std::shared_ptr<Core>
-      core_;  // shared with objects that may post after the loop has been destroyed
+  // Shared with objects that may post after the loop has been destroyed.
+  std::shared_ptr<Core> core_;
 };
 
 }  // namespace mdof::rpc

@@ -7,8 +7,8 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::size_t kKeepCapacity =
-    128 * 1024;  // bytes; a larger buffer is released when it is empty
+// A buffer with more bytes than this is released when it is empty.
+constexpr std::size_t kKeepCapacity = 128 * 1024;
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Lines that wait to be sent to a client. Private header.
+// The lines that wait until they can be sent to a client. Private header.
 #pragma once
 
 #include <cstddef>

@@ -9,8 +9,8 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::chrono::milliseconds kOld{
-    50};  // age at which a value is old; values that are made every 20 ms are never old
+// Age at which a value is old; values that are made every 20 ms are never old.
+constexpr std::chrono::milliseconds kOld{50};
 
 }  // namespace
 

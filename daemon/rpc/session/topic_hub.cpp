@@ -11,8 +11,8 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::size_t kEnvelopeBytes =
-    128;  // length of a message without its value and the name of the topic
+// Length of a message without its value and the name of the topic.
+constexpr std::size_t kEnvelopeBytes = 128;
 
 }  // namespace
 

@@ -32,8 +32,8 @@ class TopicHub {
 
   void add(Topic topic);  // a second topic with the same name is a programming error
   const Topic* topic(std::string_view name) const;  // nullptr if unknown
-  bool fits(std::string_view topic,
-            std::string_view json) const;  // whether `json` fits into a message
+  // Whether `json` fits into a message.
+  bool fits(std::string_view topic, std::string_view json) const;
   std::optional<std::chrono::milliseconds> wanted_interval(std::string_view topic) const;
   Status publish(std::string_view topic, std::string json, std::string_view of = "");
 

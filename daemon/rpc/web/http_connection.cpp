@@ -153,8 +153,8 @@ void HttpConnection::begin_stream() {
   if (const auto error = subscribe_all()) return refuse(*error);
   const auto resumed = server_.kept.resume(head_->last_event_id);
   seen_ = resumed.after;
-  const int bytes =
-      128 * 1024;  // limits the data that waits in the kernel, because it becomes old there
+  // Limits the data that waits in the kernel, because it becomes old there.
+  const int bytes = 128 * 1024;
   (void)::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes);
   append_stream_head(output_.text());
   output_.text() += "retry: 2000\nid: " + std::to_string(seen_) + "\n\n";
@@ -264,8 +264,8 @@ void HttpConnection::wait() {
   if (is(State::reading)) {
     if (output_.unsent() > 0) return;
     if (input_ended_) return close();
-    if (!input_.empty() && !head_ && scanned_ == 0)
-      return wake();  // the next request was received already
+    // The next request was received already.
+    if (!input_.empty() && !head_ && scanned_ == 0) return wake();
   }
   wait_readable();
 }

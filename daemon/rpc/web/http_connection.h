@@ -78,8 +78,8 @@ class HttpConnection final : public ClientSocket {
   bool calling_ = false;              // a batch contains requests that have not been called yet
   std::vector<std::string> events_;   // topics of a stream that have events
   std::uint64_t seen_ = 0;            // id of the newest event that was sent on the stream
-  Clock::time_point since_ =
-      Clock::now();                  // beginning of the present phase: idle, head, body, draining
+  // Beginning of the present phase: idle, head, body, draining.
+  Clock::time_point since_ = Clock::now();
   Clock::time_point sent_ = since_;  // last output on a stream
   std::optional<Clock::time_point> due_;
 };

@@ -21,8 +21,8 @@ struct HttpServerCore final : ClientSet<HttpConnection> {
   HttpServerCore(std::shared_ptr<EventLoop::Core> event_loop, Service& shared, HttpSetup given);
   ~HttpServerCore() override;
 
-  void adopt(
-      int socket);  // `socket`: a connected client; it is rejected if there are too many clients
+  // `socket`: a connected client; it is rejected if there are too many clients.
+  void adopt(int socket);
   void request_turn(std::shared_ptr<HttpConnection> connection);
   std::size_t stream_count() const;
   static std::string allowed(std::string_view path);  // value of the field Allow
@@ -39,8 +39,8 @@ struct HttpServerCore final : ClientSet<HttpConnection> {
   void wake_due() override;
   std::chrono::milliseconds least_limit() const override;
 
-  std::deque<std::shared_ptr<HttpConnection>>
-      waiting_;  // connections that wait for a turn, the first one first
+  // Connections that wait for a turn, the first one first.
+  std::deque<std::shared_ptr<HttpConnection>> waiting_;
 };
 
 }  // namespace mdof::rpc

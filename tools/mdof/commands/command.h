@@ -22,8 +22,8 @@ struct Command {
   Action (*declare)(CLI::App& command);  // Adds the options. Returns the function that runs after
                                          // mdof has read them.
   const char* section = "";              // Section of the help, from commands.inc.
-  bool reads_all_options =
-      false;  // The command reads the options of all commands (help and completion).
+  // The command reads the options of all commands (help and completion).
+  bool reads_all_options = false;
 };
 
 std::vector<Command> all_commands();  // In the order of the help.

@@ -31,8 +31,8 @@ struct LiveRequest {
   double margin_mm = 0.1;  // Smallest distance between a soft limit and the hard stop of the axis.
   std::string socket;
   bool simulated = false, despite_warnings = false;
-  bool one_approach =
-      false;  // The tables have only one approach; the component applies it in both directions.
+  // The tables have only one approach; the component applies it in both directions.
+  bool one_approach = false;
 };
 
 // Error (bad_input): a setting is unsafe. The message lists section and key of each unsafe setting.

@@ -85,8 +85,8 @@ class FrameSolver {
   std::string why_unsolved_;
   // Smallest and largest travel of the rows that were solved one by one.
   std::optional<std::array<double, 2>> travels_m_;
-  std::vector<std::optional<algo::ReadingSpan>>
-      spans_;  // [probe] range of its readings; nullopt: its record states no calibrated range.
+  // [probe] range of its readings; nullopt: its record states no calibrated range.
+  std::vector<std::optional<algo::ReadingSpan>> spans_;
 };
 
 }  // namespace mdof::tools

@@ -22,8 +22,8 @@ Result<bool> daemon_runs(const std::string& socket) {
   const auto answer = rpc::connect_to_unix(socket);
   if (answer) return true;
   if (answer.error() == ENOENT || answer.error() == ECONNREFUSED) return false;
-  MDOF_TRY(const rpc::Client client,
-           rpc::Client::connect(socket));  // returns the error with its reason
+  // Returns the error with its reason.
+  MDOF_TRY(const rpc::Client client, rpc::Client::connect(socket));
   return true;
 }
 

@@ -12,11 +12,11 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::size_t kColumns = 80;
-constexpr std::size_t kMostRows =
-    20;  // largest number of rows: targets with unusual numbers of visits
+// Largest number of rows: targets with unusual numbers of visits.
+constexpr std::size_t kMostRows = 20;
 constexpr std::size_t kMostStops = 10;  // largest number of listed rejected stops
-constexpr std::size_t kRunsAsDigits =
-    20;  // up to this number of passes, the counts of all passes are written side by side
+// Up to this number of passes, the counts of all passes are written side by side.
+constexpr std::size_t kRunsAsDigits = 20;
 
 std::string number(const char* format, double x) {
   if (!std::isfinite(x)) return "-";

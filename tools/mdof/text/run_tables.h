@@ -23,8 +23,8 @@ std::string noise_only_notice(bool noise_only);
 std::string noise_only_comment(NoiseOnly noise_only);
 std::string noise_only_comment(bool noise_only);
 
-std::string stated_text(
-    const StatedAt& at);  // One line that states the reference point of the straightness errors.
+// One line that states the reference point of the straightness errors.
+std::string stated_text(const StatedAt& at);
 
 // If `means` is true and the run has means: the mean errors at each target, and the points with
 // flags or without errors. Otherwise all points. Then the plausibility of the run.

@@ -18,8 +18,8 @@ struct MapPicture {
   std::string machine, approach;  // name of the machine; "mean", "forward", "reverse"
   bool simulated = false;
   NoiseOnly noise_only = NoiseOnly::none;
-  std::int64_t table =
-      0;  // number of the table whose corrections are drawn; 0: errors of the machine are drawn
+  // Number of the table whose corrections are drawn; 0: errors of the machine are drawn.
+  std::int64_t table = 0;
   std::string place{};  // position of the other axes, "Z = 5 mm"; empty: not stated
 };
 

@@ -25,8 +25,8 @@ struct Mark {
   std::string reason;   // why the errors of the point are unknown; y is then NaN
 };
 
-inline constexpr std::size_t kMostMarks =
-    2000;  // largest number of symbols of one approach; see draw_marks()
+// Largest number of symbols of one approach; see draw_marks().
+inline constexpr std::size_t kMostMarks = 2000;
 
 // Range from the smallest y - U to the largest y + U of all marks.
 Range range_of_marks(std::span<const Mark> marks);

@@ -38,7 +38,7 @@ std::array<Row, 3> rows_of(const OutputSummary& o) {
 }
 
 // The bars of the histogram, with their share of the solved trials in %. If all values are equal,
-// the only bar has no width; it then gets the width of the axis around the value.
+// the only bar has no width; it is then drawn with 1/20 of the width of the axis.
 std::vector<Step> bars_of(const OutputSummary& o) {
   const Histogram& h = o.histogram;
   const bool flat = !(h.width > 0) || !std::isfinite(h.width);

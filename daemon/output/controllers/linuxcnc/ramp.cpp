@@ -55,8 +55,8 @@ void note_unknown_ramp(const Series& s, Export& out) {
     most = std::max(most, reversal);
   }
   if (!(most > 0)) return;
-  const double up_to_m =
-      unapplied_steps({s.along, 1.0, kLinuxCncPeriod_s}).up_to_m;  // if MAX_ACCELERATION is 1 m/s²
+  // The largest step that is not applied if MAX_ACCELERATION is 1 m/s².
+  const double up_to_m = unapplied_steps({s.along, 1.0, kLinuxCncPeriod_s}).up_to_m;
   out.notes.push_back(
       s.error +
       ": MAX_ACCELERATION of the joint is unknown. At some positions, LinuxCNC does not apply the "

@@ -30,8 +30,8 @@ struct CecTable {
 };
 
 constexpr int kDecimalsOfAxis = 6;  // mm
-constexpr int kDecimalsOfVolume =
-    9;  // mm; more decimals, because the control adds about ten tables
+// More decimals of values in mm, because the control adds about ten tables.
+constexpr int kDecimalsOfVolume = 9;
 
 std::string cec_text(std::size_t t, const CecTable& table, const std::string& error,
                      int decimals = kDecimalsOfAxis) {
@@ -256,8 +256,8 @@ Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile
 namespace {
 
 constexpr std::string_view kLinearAxes = "XYZ";
-constexpr double kProductAccuracy_m =
-    2e-9;  // accuracy with which the sum represents the common effect of two axes
+// Accuracy with which the sum represents the common effect of two axes.
+constexpr double kProductAccuracy_m = 2e-9;
 
 // Converts factors in √m to the numbers in the file. The product of two such numbers is in mm.
 std::vector<double> factor_numbers(std::vector<double> factor) {

@@ -11,8 +11,8 @@ namespace mdof::controllers {
 
 constexpr std::size_t kSiemensPointLimit = 200;  // largest number of points in a table of an 808D
                                                  // or 828D; MD38000 states it for other controls
-constexpr std::size_t kResamplingPointLimit =
-    20'000;  // largest number of points in a series before resampling
+// Largest number of points in a series before resampling.
+constexpr std::size_t kResamplingPointLimit = 20'000;
 
 struct EqualSteps {
   double first_m = 0, step_m = 0;

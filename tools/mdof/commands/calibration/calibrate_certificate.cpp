@@ -20,7 +20,8 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kMostDccBytes = std::size_t{64} << 20;  // a DCC may contain its PDF
+constexpr std::size_t kMostDccBytes = std::size_t{64}
+                                      << 20;  // large, because a DCC may contain a PDF file
 
 struct CertificateCommand {
   std::string file, rig, probe, result;

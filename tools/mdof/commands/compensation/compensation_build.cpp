@@ -40,8 +40,8 @@ Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
                                daemon::action_now("compensation.build", daemon::this_process())};
   MDOF_TRY(request.limits, command.limits.limits());
   if (!command.reference.empty())
-    reference_from(command.reference,
-                   request.reference.emplace());  // the option accepts only valid names
+    // The option accepts only valid names.
+    reference_from(command.reference, request.reference.emplace());
   return daemon::build_table(store, request);
 }
 

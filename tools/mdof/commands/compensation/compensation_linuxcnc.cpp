@@ -14,8 +14,8 @@
 namespace mdof::tools {
 namespace {
 
-constexpr double kMostMargin_mm =
-    5;  // much larger than any correction; a larger value is probably a typing error
+// Largest margin. It is much larger than any correction; a larger value is probably a typing error.
+constexpr double kMostMargin_mm = 5;
 
 struct LinuxCncCommand {
   std::string ini, folder;

@@ -15,8 +15,8 @@ struct VolumeOptions {
   std::optional<double> step_mm;
 
   bool asked() const { return !machine.empty(); }
-  Status check_unused()
-      const;  // Error (usage): the user stated one of these options without --machine.
+  // Error (usage): the user stated one of these options without --machine.
+  Status check_unused() const;
 };
 void add_volume_options(CLI::App& command, VolumeOptions& options);
 

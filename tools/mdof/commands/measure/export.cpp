@@ -25,7 +25,7 @@ constexpr auto kToStandardOutput = static_cast<std::size_t>(-1);
 
 struct ExportCommand {
   std::string recording, csv = kStandardOutput, rig;
-  std::string format = "csv", out;  // for runs
+  std::string format = "csv", out;  // used only for runs
   std::vector<std::string> sources;
   ReportRequest request;
 };

@@ -79,8 +79,8 @@ Result<Run> replay_and_store(const ReplayCommand& command) {
   MDOF_TRY(auto mdofd, writing_daemon(command.database, command.socket));
   if (mdofd) return replay_in_daemon(*mdofd, command);
   MDOF_TRY(Run run, replay_locally(command.request));
-  MDOF_CHECK(requested_reference(command,
-                                 run));  // before storing: a run that cannot be shown is not stored
+  // Before storing: a run that cannot be shown is not stored.
+  MDOF_CHECK(requested_reference(command, run));
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(run.header.id,
            store.add_run(run, daemon::action_now("run.replay", daemon::this_process()),

@@ -22,9 +22,9 @@ struct MillingSensitivityRequest {
 
 struct MillingSensitivity {
   std::vector<algo::VaryingInput> inputs;
-  std::vector<std::vector<double>>
-      effects;  // [input][output], change of the output if the input changes by its u
-  std::vector<OutputSummary> outputs;  // By Monte Carlo.
+  // [input][output], change of the output if the input changes by its u.
+  std::vector<std::vector<double>> effects;
+  std::vector<OutputSummary> outputs;  // Distribution of each output by Monte Carlo.
   std::vector<OutputIndices> indices;
 };
 

@@ -22,8 +22,8 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kFirmBaseline =
-    8;  // number of values; with fewer values the limits are provisional
+// With fewer values than this, the control limits are provisional.
+constexpr std::size_t kFirmBaseline = 8;
 
 struct TrendCommand {
   std::string database, axis, figure, plots;

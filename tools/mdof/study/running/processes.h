@@ -28,8 +28,8 @@ class Processes {
 
   std::string broadcast(std::string bytes);         // Returns the bytes of rank 0 to all processes.
   std::uint64_t broadcast_number(std::uint64_t x);  // Returns the number of rank 0 to all.
-  bool any(
-      bool mine);  // Returns, in all processes, whether `mine` is true in at least one process.
+  // Returns, in all processes, whether `mine` is true in at least one process.
+  bool any(bool mine);
   void send(int to, std::string_view bytes);
   std::string receive(int from);
 

@@ -44,8 +44,8 @@ StudyRunner::StudyRunner(const algo::Experiment& experiment, RunnerOptions optio
       processes_(&processes),
       batch_trials_(batch_trials) {
   if (options_.slow) {
-    const bool alone =
-        processes.size() == 1;  // several processes must end a round at the same batch
+    // With several processes, all of them must end a round at the same batch.
+    const bool alone = processes.size() == 1;
     divided_ = std::make_unique<DividedTrials>(
         experiment, options_.threads, [alone] { return !alone || !Interrupt::requested(); });
     experiment_ = divided_.get();

@@ -16,8 +16,8 @@ namespace mdof::tools {
 
 // Settings of a study. If a setting is nullopt, the plan or preset decides.
 struct StudySettings {
-  std::optional<std::uint64_t>
-      trials;  // With an adaptive rule: largest number of trials; nullopt: no limit.
+  // With an adaptive rule: largest number of trials; nullopt: no limit.
+  std::optional<std::uint64_t> trials;
   std::optional<std::uint64_t> seed;  // < 2^63
   std::optional<double> coverage;
   std::optional<algo::AdaptiveTolerance> adaptive;
@@ -31,8 +31,8 @@ Status add_tolerance(const std::string& key_value, algo::AdaptiveTolerance& tole
 
 struct StudyRequest {
   std::string plan_toml;  // A plan, or the options of a preset (tools/mdof/study/preset.h).
-  std::string
-      source;  // File of the plan; the paths in a plan are relative to this file. Empty: a preset.
+  // File of the plan; the paths in a plan are relative to this file. Empty: a preset.
+  std::string source;
   StudySettings settings;
 };
 

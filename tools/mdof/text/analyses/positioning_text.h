@@ -13,8 +13,8 @@ struct PositioningColumn {
   std::string name;  // "EYX"; "deviation" for a file.
   bool angle = false;
   Positioning figures;
-  std::optional<RunPositioningUncertainty> U =
-      std::nullopt;  // nullopt if the readings are not from a run.
+  // Nullopt if the readings are not from a run.
+  std::optional<RunPositioningUncertainty> U = std::nullopt;
 };
 
 // A table with a row for each parameter and a column for each element of `columns`. If U is known,

@@ -23,7 +23,7 @@ enum class Phrase {
 };
 
 const char* phrase(Phrase phrase, Language language);
-// Replaces {0}, {1} ...
+// Replaces {0}, {1} ... in the label by `values`.
 std::string phrase(Phrase phrase, Language language, std::initializer_list<std::string> values);
 
 const char* state_text(RunState state, Language language);

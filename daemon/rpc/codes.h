@@ -14,8 +14,7 @@ inline constexpr int kMethodNotFound = -32601;
 inline constexpr int kInvalidParams = -32602;
 inline constexpr int kInternalError = -32603;
 // Codes of this server.
-inline constexpr int kBusy = -32000;  // too many connections; the connection is closed after this
-                                      // line
+inline constexpr int kBusy = -32000;  // too many connections; the server closes this connection
 // The generation has changed; the client must read the data again.
 inline constexpr int kChanged = -32001;
 // Not possible now, for example because a run is in progress.

@@ -20,7 +20,7 @@ void append_error(std::string& out, std::string_view id, int code, std::string_v
 void append_error(std::string& out, std::string_view id, const Error& error);
 void append_notification(std::string& out, std::string_view method, std::string_view params);
 
-// The method and the params of a message from append_notification().
+// Method and params of a message that append_notification() wrote.
 struct Notification {
   std::string_view method, params;
 };

@@ -17,7 +17,7 @@ struct ServerOptions {
   // Limits of lines and messages.
   std::size_t max_line_bytes = 64 * 1024;   // length of a request without its line end
   std::size_t max_reply_bytes = 48 * 1024;  // length of a sent line with its line end
-  std::size_t max_depth = 32;               // nesting depth of a request
+  std::size_t max_depth = 32;               // nested arrays and objects in a request
   std::size_t max_batch = 100;              // requests in a batch
   std::size_t max_id_bytes = 256;           // length of an id as JSON text
 
@@ -37,8 +37,7 @@ struct ServerOptions {
 
   // Limits of the server.
   std::size_t max_connections = 64;
-  std::size_t max_connections_of_user = 32;  // connections of one uid, over Unix and TCP sockets
-                                             // together
+  std::size_t max_connections_of_user = 32;  // sum of the Unix and TCP connections of one user
   // One of max_connections is reserved for clients in this group. It is the group of the machine's
   // control, which can then connect even if other users have all other connections.
   std::optional<gid_t> kept_for_group;

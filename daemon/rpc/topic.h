@@ -6,8 +6,9 @@
 
 namespace mdof::rpc {
 
-// A message of a topic is a notification: its method is the topic's name, its params are {"missed":
-// n, "value": ...}. `missed` counts the values that were not sent since the previous message.
+// A message of a topic is a JSON-RPC notification. Its method is the name of the topic; its params
+// are {"missed": n, "value": ...}. `missed` counts the values that were not sent since the previous
+// message.
 struct Topic {
   std::string name;
   // false: the topic has values. A newer value of an axis replaces an older value that has not been

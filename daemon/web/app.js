@@ -16,7 +16,8 @@ const links = kViews.map(([name, title]) => h("a", {href: `#${name}`}, title));
 document.getElementById("tabs").append(...links.map((link) => h("li", {}, link)));
 document.getElementById("token").addEventListener("click", () => askToken());
 
-// "#runs/2/with/1" -> view "runs", rest ["2", "with", "1"].
+// Shows the view that the address names: "#runs/2/with/1" is the view "runs" with rest = ["2",
+// "with", "1"].
 async function show() {
   const [name, ...rest] = location.hash.slice(1).split("/");
   if (name === "main") return;  // "#main" is the target of the link for keyboard users, not a view

@@ -51,7 +51,7 @@ export const short = (x) => fixed(x, isNumber(x) && x !== 0 ? Math.min(Math.max(
 export const unitOf = (key) => key.endsWith("_urad") ? "µrad" : key.endsWith("_um") ? "µm" : "";
 export const nameOf = (key) => key.replace(/_(urad|um)$/, "");
 
-// "EYX straightness" from "EYX_straightness_um".
+// Converts "EYX_straightness_um" to "EYX straightness".
 export const titleOf = (key) => nameOf(key).replaceAll("_", " ");
 
 // "1.830 µm, U = 0.089 µm (k = 2.0)". If U is unknown, the text states this.
@@ -132,7 +132,8 @@ export function fill(element, promise) {
 export const problem = (error) => h("p", {class: "notice invalid", role: "alert"},
   h("span", {class: "shape", "aria-hidden": "true"}, "■"), ` ${error.message}`);
 
-// A modal dialog with a form: resolves to its FormData, or to null if it was cancelled.
+// Shows a modal dialog with a form. The promise resolves to the FormData, or to null if the user
+// cancelled.
 export function ask(title, content, action) {
   const dialog = document.getElementById("dialog");
   const form = h("form", {method: "dialog"}, h("h2", {id: "dialog-title"}, title), content,

@@ -7,7 +7,7 @@
 
 namespace mdof::tools {
 
-// The first executable file with this name on PATH.
+// The first executable file with this name in the folders of PATH; nullopt: there is none.
 std::optional<std::filesystem::path> find_program(const std::string& name);
 
 }  // namespace mdof::tools

@@ -25,8 +25,8 @@ struct NamedChart;
 namespace mdof::tools {
 
 void add_json_flag(CLI::App& command, bool& json);
-void add_csv_and_json_flags(CLI::App& command, bool& csv,
-                            bool& json);  // --csv and --json, of which only one may be used
+// --csv and --json, of which only one may be used.
+void add_csv_and_json_flags(CLI::App& command, bool& csv, bool& json);
 void add_all_warnings_flag(CLI::App& command, bool& all);
 // --limit-um and --limit-um-per-mm, for the limits in algo::TableLimits.
 struct LimitOptions {

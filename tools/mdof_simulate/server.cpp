@@ -50,9 +50,10 @@ struct Listener {
   int tcp_port;
 };
 
-// A serial line as a pseudo-terminal.
+// A simulated serial port: a pseudo-terminal.
 struct Line {
-  Descriptor device_end, host_end;  // host_end stays open, so that the line persists
+  // Host_end stays open; otherwise the port would end with its first client.
+  Descriptor device_end, host_end;
   std::string path;
 };
 

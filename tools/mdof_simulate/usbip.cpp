@@ -16,7 +16,7 @@ constexpr std::size_t kHeader = 48;
 // Offsets of the members in the header, bytes.
 constexpr std::size_t kCommandAt = 0, kNumberAt = 4, kDirectionAt = 12, kEndpointAt = 16;
 constexpr std::size_t kLengthAt = 24, kPacketsAt = 32, kSetupAt = 40;  // for kSubmit
-constexpr std::size_t kOtherAt = 20;                                   // for kUnlink: the number
+constexpr std::size_t kOtherAt = 20;  // in kUnlink: number of the cancelled command
 constexpr std::uint32_t kNotIsochronous = 0xFFFFFFFF;
 constexpr std::uint32_t kMostBytes = 1 << 20;
 // Error numbers of Linux; USB/IP uses them on every platform.

@@ -25,8 +25,7 @@ struct Tick {
 };
 
 struct Axis {
-  double low = 0, high = 1;  // values at the two ends; low < high, and 0 < low on a logarithmic
-                             // axis
+  double low = 0, high = 1;  // values at the two ends; low < high; on a logarithmic axis 0 < low
   bool logarithmic = false;
   int exponent = 0;  // a label is the value / 10^exponent
   std::vector<Tick> ticks;
@@ -38,14 +37,15 @@ struct Axis {
 
 double widest_label(const Axis& axis);  // px
 
-// The smallest of 1, 2, 5 times a power of ten that is not below `step` > 0.
+// Rounds `step` (> 0) up to the next number of the form 1, 2 or 5 times a power of ten.
 double round_step(double step);
 
 // Axes with ticks at multiples of a round step. There are as many ticks as have space for their
 // labels. A range whose span is 0 is extended.
 Axis horizontal_axis(const Range& drawn, double length_px);
 Axis vertical_axis(const Range& range, double length_px);
-// For values within 1e±150. Ticks at powers of ten, and at 2 and 5 times them if there is space.
+// A logarithmic axis for values from 1e-150 to 1e150. Ticks are at powers of ten and, if there is
+// space, also at 2 and 5 times these.
 Axis logarithmic_axis(const Range& range, double length_px);
 
 }  // namespace mdof::charts

@@ -1,4 +1,5 @@
-// Words and numbers in plots: UTF-8, independent of the locale, with a true minus sign.
+// Texts and numbers in plots. They are UTF-8, do not depend on the locale, and contain a true minus
+// sign.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@
 
 namespace mdof::charts {
 
-inline constexpr double kMarginPx = 24;  // around the plot
+inline constexpr double kMarginPx = 24;  // margin around the plot
 
 // Height of the title area, px. draw_head() draws the title and, below it, the subtitle in a less
 // prominent colour.
@@ -23,7 +23,7 @@ void draw_head(Svg& svg, std::string_view title, std::string_view subtitle);
 // "simulation-1: " followed by `what`, or only `what` if the study has no name.
 std::string titled(const StudyResult& result, const std::string& what);
 
-// "Monte Carlo, 1 000 000 trials, seed 7", and a remark if the study was interrupted.
+// "Monte Carlo, 1 000 000 trials, seed 7". If the study was interrupted, the text states this.
 std::string study_line(const StudyResult& result);
 
 enum class LegendSign { line, area, dot };

@@ -93,7 +93,7 @@ class Trial {
       }
     return largest;
   }
-  // False if no test point is inside both the measured and the written range.
+  // Whether at least one test point is inside the measured range and inside the range of the file.
   bool has_test_points() const { return !places().empty(); }
   // Largest |E dE/dx|. If the correction moves the measured axis, the error acts at another
   // position, and changes by about this value.

@@ -55,7 +55,7 @@ struct Check {
   // Limits from ExportOptions; the first includes the tolerance.
   double most_residual_m = 0, share = 0;
   bool passed() const;              // whether all errors with a known sign pass
-  bool nothing_to_correct() const;  // no error exceeds a step of the numbers
+  bool nothing_to_correct() const;  // all errors are below the step of the numbers in the file
 };
 
 // Checks the files that `format` wrote for these tables. The simulated axis has the errors of the

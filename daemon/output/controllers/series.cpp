@@ -30,7 +30,8 @@ std::string place_text(double position_m) {
   return plain_number(to_mm(position_m), 9) + " mm";
 }
 
-// First index and last index + 1 of the longest sequence of positions with both values.
+// The longest range of positions at which both values (forward and reverse) are known: its first
+// index, and its last index + 1.
 std::pair<std::size_t, std::size_t> longest_range(const Series& s) {
   std::pair<std::size_t, std::size_t> best{0, 0};
   for (std::size_t i = 0, begin = 0; i <= s.position_m.size(); ++i) {
@@ -60,7 +61,7 @@ Series range_of(const Series& s, std::pair<std::size_t, std::size_t> range) {
   return part_of(s, kept);
 }
 
-// "table 3, EXX"
+// The beginning of an error message: "table 3, EXX".
 std::string of_table(const Series& s, std::int64_t table) {
   return "table " + std::to_string(table) + ", " + s.error;
 }

@@ -33,7 +33,8 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables);
 // values, warnings. The lines contain no comment signs.
 std::vector<std::string> head_lines(const CompensationTable& table, const ExportOptions& options,
                                     const std::string& sense);
-// "tool, 6, -4, -30 mm from the origin of the fixture"
+// Describes the reference point: its name and its position in mm from the origin of the measuring
+// fixture.
 std::string reference_point_text(const StatedAt& at);
 // Converts a text to one line of printable ASCII characters, for a comment in a file.
 std::string plain_ascii_line(std::string_view text);

@@ -19,15 +19,15 @@ Result<double> shear_of(const SquareAxes& axes);
 Result<Export> write_klipper(const SquareAxes& axes, const ExportOptions& options);
 Result<double> read_klipper(const std::vector<ControllerFile>& files);
 
-// M852 I: X moves to x - I y.
+// Marlin: with M852 I the controller moves X to x - I y.
 Result<Export> write_marlin(const SquareAxes& axes, const ExportOptions& options);
 Result<double> read_marlin(const std::vector<ControllerFile>& files);
 
-// M556 S100 X: X / S is the tangent of the angle above 90 deg.
+// RepRapFirmware: in M556 S100 X..., X / S is tan(angle between the axes - 90 deg).
 Result<Export> write_reprapfirmware(const SquareAxes& axes, const ExportOptions& options);
 Result<double> read_reprapfirmware(const std::vector<ControllerFile>& files);
 
-// setp matrixkins.C_xy: joint X = x + C_xy y.
+// LinuxCNC's matrixkins: with setp matrixkins.C_xy the controller moves the joint X to x + C_xy y.
 Result<Export> write_matrixkins(const SquareAxes& axes, const ExportOptions& options);
 Result<double> read_matrixkins(const std::vector<ControllerFile>& files);
 

@@ -15,7 +15,7 @@ namespace mdof::controllers {
 std::vector<std::string_view> lines_of(std::string_view text);
 // Reads a number of the form [-+]digits[.digits]. nullopt: the word has another form.
 std::optional<double> decimal_from(std::string_view word);
-// "X.comp:7: what"
+// The error "X.comp:7: " followed by `what`.
 tl::unexpected<Error> wrong_at(const std::string& file, std::size_t line, const std::string& what);
 const ControllerFile* find_file(const std::vector<ControllerFile>& files, std::string_view name);
 

@@ -13,8 +13,9 @@ namespace mdof::controllers {
 Result<Export> write_isg_csv(const VolumetricTable& table, const ExportOptions& options);
 Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files);
 
-// KMotion's geometric correction: rows along Y, columns along X, in inches. Error (bad_input): a
-// grid with other axes than X and Y, or unequal steps.
+// The geometric correction table of KMotion (Dynomotion). Its rows are along Y, its columns along
+// X, and its values are in inches. Errors (bad_input): the grid has other axes than X and Y; its
+// steps are unequal.
 Result<Export> write_dynomotion(const VolumetricTable& table, const ExportOptions& options);
 Result<VolumetricTable> read_dynomotion(const std::vector<ControllerFile>& files);
 

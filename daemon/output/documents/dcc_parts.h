@@ -1,4 +1,4 @@
-// The parts of a DCC.
+// Writes the parts of a DCC.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace mdof::documents {
 
-// <element><dcc:content lang="en">text</dcc:content></element>
+// Writes <element><dcc:content lang="en">text</dcc:content></element>.
 void write_text(Xml& xml, std::string_view element, std::string_view text,
                 Xml::Attributes attributes = {});
 

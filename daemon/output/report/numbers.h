@@ -1,4 +1,4 @@
-// Values as text for a report.
+// Converts values to texts for a report.
 #pragma once
 
 #include <string>

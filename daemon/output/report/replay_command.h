@@ -7,7 +7,7 @@
 
 namespace mdof::report {
 
-// The file in which the command expects the rig of a run; empty: the run has no rig.
+// The name of the rig file in the command; empty: the run has no rig.
 std::string rig_file(const RunHeader& run);
 
 // A shell command with the rig and the options of the run. They override the rig and the options in

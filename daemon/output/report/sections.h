@@ -1,4 +1,4 @@
-// The sections of a report on one run, and on two runs of an axis.
+// Writes the sections of a report: the sections on one run, and the section on two runs of an axis.
 #pragma once
 
 #include "daemon/output/report/html.h"
@@ -18,7 +18,7 @@ void write_charts(Html& html, const ReportRun& run, Language language);
 void write_points(Html& html, const ReportRun& run, Language language);
 void write_provenance(Html& html, const ReportRun& run, Language language);
 
-// Differences between two runs of an axis.
+// Writes the differences between two runs of an axis.
 void write_comparison(Html& html, const daemon::Comparison& comparison, Language language);
 
 }  // namespace mdof::report

@@ -24,15 +24,15 @@ class LineBuffer {
     std::string_view text;  // without LF or CR LF
     bool too_long = false;  // the rest of the line is unknown, so no other line can follow
   };
-  bool has_line();             // a complete line or a line that is too long
+  bool has_line();  // whether the buffer contains a complete line, or a line that is too long
   std::optional<Line> next();  // valid until space()
   bool partial() { return begin_ < end_ && !has_line(); }
 
  private:
   std::size_t max_line_, capacity_;
   std::unique_ptr<char[]> bytes_;
-  std::size_t begin_ = 0, end_ = 0;  // bytes not yet taken
-  std::size_t scanned_ = 0;          // no LF in [begin_, scanned_)
+  std::size_t begin_ = 0, end_ = 0;  // the bytes [begin_, end_) were not taken yet
+  std::size_t scanned_ = 0;          // there is no LF in [begin_, scanned_)
 };
 
 }  // namespace mdof::rpc

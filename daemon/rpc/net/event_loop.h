@@ -22,20 +22,22 @@ class EventLoop {
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
 
-  // Runs until stop(), also without any work.
+  // Runs functions until stop() is called, also if there is nothing to do.
   void run();
   // Thread-safe. run() returns after the function that runs at this time.
   void stop();
   // Thread-safe. Functions from one thread run in the order in which this thread posted them. Does
   // nothing after the loop has been destroyed.
   void post(std::function<void()> work);
-  // Before run() or on the loop: calls `work` every `period`, at multiples of `period`; missed
-  // calls are skipped.
+  // Call it before run() or on the loop. Calls `work` at multiples of `period`; missed calls are
+  // skipped.
   void call_every(std::chrono::nanoseconds period, std::function<void()> work);
-  // Before run() or on the loop: calls `work(number)` on the loop for each of these signals.
+  // Call it before run() or on the loop. Calls `work(number)` on the loop for each of these
+  // signals.
   void on_signal(const std::vector<int>& signals, std::function<void(int)> work);
-  // Before run() or on the loop: calls `work` whenever the descriptor is readable; `work` must read
-  // the data. The caller keeps the descriptor, which must outlive run().
+  // Call it before run() or on the loop. Calls `work` whenever the descriptor is readable; `work`
+  // must read the data. The descriptor belongs to the caller, who must not close it before run()
+  // returns.
   void on_readable(int descriptor, std::function<void()> work);
 
   const std::shared_ptr<Core>& core() const { return core_; }

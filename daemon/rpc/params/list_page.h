@@ -1,4 +1,5 @@
-// The parameters of methods that return lists; schema/base/json_page.h fills the page.
+// The parameters "offset" and "count" of methods that return a list in pages.
+// schema/base/json_page.h writes the page.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 
 namespace mdof::rpc {
 
-// "offset" and "count". A page reads at most `most` items.
+// `most`: largest number of items in a page.
 Param offset_param();
 Param count_param(std::int64_t most);
 

@@ -24,7 +24,7 @@ class Transport {
   virtual ~Transport() = default;
   // Sends one message. The transport adds the line end, or what else separates messages.
   virtual void send(std::string_view message) = 0;
-  virtual std::size_t unsent() const = 0;  // bytes that the client has not yet taken
+  virtual std::size_t unsent() const = 0;  // bytes that were not sent yet
   // Asks for a turn, because there is something to send, or because a request has space again. The
   // function must not begin the turn itself, because it is called during other work.
   virtual void wake() = 0;

@@ -1,4 +1,5 @@
-// The token of browsers that may write: 256 random bits in a file that only mdofd's user can read.
+// The token with which browsers may write. It has 256 random bits, and is in a file that only the
+// user of mdofd can read.
 #pragma once
 
 #include <filesystem>

@@ -36,7 +36,7 @@ export function request(form) {
 const kNeeded = {even: [["from_mm", "From/mm"], ["to_mm", "To/mm"], ["interval_mm", "Interval/mm"]], list: [["targets_mm", "Targets/mm"]], free: []};
 export const emptyFields = (form) => kNeeded[form.get("kind")].filter(([key]) => !form.get(key)?.trim()).map(([, label]) => label);
 
-// Number of stops of the axis; null: unknown.
+// The number of stops of the axis that a run needs; null: unknown.
 export function expected({from_mm, to_mm, interval_mm, targets_mm, repeats}) {
   const targets = targets_mm ? targets_mm.length
     : interval_mm > 0 && to_mm >= from_mm ? Math.floor((to_mm - from_mm) / interval_mm + 1e-9) + 1 : null;

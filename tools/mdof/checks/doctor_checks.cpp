@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Level = Diagnosis::Level;
 
-constexpr double kMinFreeBytes = 1e9;  // bytes: some hours of recording
+constexpr double kMinFreeBytes = 1e9;  // bytes; enough for some hours of recording
 
 std::string first_line(const fs::path& file) {
   std::ifstream in(file);
@@ -51,8 +51,8 @@ fs::path usb_node(const Machine& machine, const fs::path& device) {
          three(first_line(device / "devnum"));
 }
 
-// "/dev/hidraw0", "/dev/ttyUSB0": the first device node that Linux has made for a device; empty:
-// none.
+// The first device node that Linux has made for a device, such as "/dev/hidraw0" or "/dev/ttyUSB0".
+// Empty: there is none.
 fs::path device_node(const Machine& machine, const fs::path& device,
                      const drivers::UsbDevice& usb) {
   const bool hidraw = usb.node == drivers::UsbNode::hidraw;

@@ -1,4 +1,4 @@
-// Requests to mdofd.
+// Sends requests to mdofd.
 #pragma once
 
 #include <string>

@@ -22,7 +22,7 @@ enum class StudyForm { text, json, csv };
 Status print_study(const StudyResult& result, const std::string& figures_json,
                    std::optional<std::int64_t> study, StudyForm form);
 
-// "EBX_urad" as the head of a column: "EBX/µrad".
+// The title of a column: "EBX/µrad" for "EBX_urad".
 std::string with_unit(const std::string& key);
 
 }  // namespace mdof::tools

@@ -1,6 +1,6 @@
-// Charts of analyses, one function each: it takes results and returns an SVG document. Pure: equal
-// results make equal bytes. Each drawn element has its numbers in data-… attributes, in the units
-// of the result documents.
+// Charts of analyses. Each chart has a function that takes results and returns an SVG document.
+// Pure: equal results make equal bytes. Each drawn element has its numbers in data-… attributes, in
+// the units of the result documents.
 #pragma once
 
 #include <string>

@@ -23,8 +23,8 @@ struct NamedLine {
 
 struct MarkedPanel {
   std::string key;    // attribute data-panel
-  std::string title;  // title of y; empty: the key
-  std::string note;   // above the upper right corner
+  std::string title;  // title of the y axis; empty: `key` is the title
+  std::string note;   // text above the upper right corner of the panel
   std::vector<Mark> marks;
   std::vector<NamedLine> lines;      // each y must be inside the panel
   double vertical_x = std::nan("");  // x of a vertical line over the whole height of the panel

@@ -26,7 +26,8 @@ constexpr int kShades = 10;  // CSS classes height-0 (lowest) to height-9 in sty
 struct Cells {
   std::size_t pixels = 1;  // along one side of a cell
   std::size_t nx = 0, ny = 0;
-  std::vector<double> low_m, high_m;  // ny rows of nx; NaN: no height
+  // Lowest and highest height of each cell, ny rows of nx cells; NaN: no height.
+  std::vector<double> low_m, high_m;
 };
 
 Cells cells_of(const SurfaceMap& map) {

@@ -1,4 +1,4 @@
-// A height map as coloured cells, true to scale, as an SVG document. Pure.
+// Draws a height map as an SVG document with coloured cells and the same scale along x and y. Pure.
 #pragma once
 
 #include <string>

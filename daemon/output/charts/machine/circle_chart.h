@@ -1,4 +1,5 @@
-// The circular test (ISO 230-4) as polar diagrams with a common scale, as an SVG document. Pure.
+// Draws circular tests (ISO 230-4) as an SVG document with polar diagrams that have the same scale.
+// Pure.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The mounted probes of a rig, to scale, as an SVG document. Pure.
+// Draws the mounted probes of a rig to scale as an SVG document. Pure.
 #pragma once
 
 #include <string>

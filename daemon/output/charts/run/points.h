@@ -15,7 +15,7 @@ namespace mdof::charts {
 std::vector<Mark> error_marks(const StatedResults& results, std::size_t named);
 Legend marks_legend(std::span<const Mark> marks);
 
-// "run 3, axis X: five geometric errors against position"
+// The title of a chart: "run 3, axis X: " followed by `what`.
 std::string run_title(const RunHeader& header, const std::string& what, Language language);
 // "model rigid, complete, recording 0f3a…". The text contains no time, because a replay must make
 // the same bytes.

@@ -1,6 +1,6 @@
-// Charts of a stored run, one function each: it takes results and returns an SVG document. Pure:
-// equal results make equal bytes, because a chart does not contain the time when it was made. Each
-// drawn element has its numbers in data-… attributes, in the units of the result documents.
+// Charts of a stored run. Each chart has a function that takes results and returns an SVG document.
+// Pure: equal results make equal bytes, because a chart does not contain the time when it was made.
+// Each drawn element has its numbers in data-… attributes, in the units of the result documents.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Plots of a study, one function each: it takes the study's figures and returns an SVG document.
-// Pure.
+// Plots of a study. Each plot has a function that takes the figures of the study and returns an SVG
+// document. Pure.
 #pragma once
 
 #include <string>

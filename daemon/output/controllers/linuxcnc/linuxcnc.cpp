@@ -140,7 +140,7 @@ struct JointLines {
 
 constexpr std::size_t kMostJoints = 16;
 
-// "[JOINT_12]"
+// The number of the joint in a line such as "[JOINT_12]"; nullopt: another line.
 std::optional<std::size_t> joint_of(std::string_view line) {
   constexpr std::string_view kHead = "[JOINT_";
   if (!line.starts_with(kHead) || !line.ends_with("]")) return std::nullopt;

@@ -96,7 +96,7 @@ Status add_errors(const CompensationTable& table, const ExportOptions& options, 
   return {};
 }
 
-// "(AX2)"
+// The axis in a text such as "(AX2)"; nullopt: another text.
 std::optional<char> axis_in(const std::optional<std::string_view>& text) {
   for (const char axis : {'X', 'Y', 'Z'})
     if (text && *text == "(" + siemens_axis(axis) + ")") return axis;

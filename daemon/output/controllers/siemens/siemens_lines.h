@@ -21,7 +21,7 @@ class SiemensLines {
     ++at_;
     return true;
   }
-  // The value of a line "KEY=value" with this key.
+  // Reads a line "KEY=value" and returns its value. nullopt: the next line has another key.
   std::optional<std::string_view> value(const std::string& key) {
     skip();
     if (at_ >= lines_.size() || !lines_[at_].starts_with(key + "=")) return std::nullopt;

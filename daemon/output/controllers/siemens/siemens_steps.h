@@ -28,17 +28,18 @@ struct EqualSteps {
 // as in the file. Adds a note with the change to `out`, and sets the number of points in the last
 // element of out.written. Error (bad_input): fewer than two points.
 Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Export& out);
-// ExportOptions::siemens_points, or kSiemensPointLimit.
+// Largest number of points in a table: ExportOptions::siemens_points, or kSiemensPointLimit if this
+// is 0.
 std::size_t most_points(const ExportOptions& options);
 
-// Largest absolute error of both approaches.
+// The largest absolute value of the errors in both approaches.
 double largest_error_m(const Series& s);
 
 // Returns the options with the tolerance 0, because no points can be omitted from equal steps. Adds
 // a note if the user stated a tolerance.
 ExportOptions without_tolerance(const ExportOptions& options, Export& out);
 
-// "AX1" for X.
+// The name of an axis in Siemens' files: "AX1" for X.
 std::string siemens_axis(char axis);
 // The control reads the values of LEC and CEC in the units of its basic system; G70 and G71 have no
 // effect on them.

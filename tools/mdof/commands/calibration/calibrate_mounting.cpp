@@ -30,7 +30,7 @@ struct NamedLog {
   std::string file;
 };
 
-// "X=one.csv,Y=other.csv"
+// Reads "X=one.csv,Y=other.csv": the log files of one clamping, by axis.
 Result<std::vector<NamedLog>> parse_log_names(const std::string& clamping) {
   std::vector<NamedLog> logs;
   std::istringstream words(clamping);

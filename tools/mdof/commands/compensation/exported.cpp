@@ -326,7 +326,8 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
           " state that the fixture is on the side of the work; measure with the fixture in the "
           "spindle, or correct the key \"moves\" in the rig");
   }
-  // Tables of these rigs are valid at this point, too; the squareness depends on the point.
+  // The squareness depends on the point at which it is stated. This is the point at which tables of
+  // these rigs are valid, too.
   const StatedAt at = stated_at_by_default(x);
   if (at != stated_at_by_default(y))
     return bad_input(name + ": tool_point_mm differs between the rigs of the runs " +

@@ -1,4 +1,4 @@
-// Option --home-mm of mdof compensation export and check.
+// Reads the option --home-mm of mdof compensation export and check.
 #pragma once
 
 #include <string>

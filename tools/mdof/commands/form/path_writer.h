@@ -12,7 +12,8 @@ namespace mdof::tools {
 
 enum class PathForm {
   table,  // CSV: t_s,rho_mm,theta_deg,z_um,on_part
-  gcode   // inverse time (G93): X radius in mm, C in degrees, Z in mm
+  gcode  // G code with inverse time feed (G93): X is the radius in mm, C the angle in degrees, Z in
+         // mm
 };
 PathForm path_form(const std::string& file);  // The ending of the file name decides the form.
 

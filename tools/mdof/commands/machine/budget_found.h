@@ -39,7 +39,7 @@ struct FoundAllocation {
 };
 
 struct FoundMachineBudget {
-  FoundStage now;                      // With the measured errors.
+  FoundStage now;                      // With the errors as measured.
   std::optional<FoundStage> designed;  // Present if errors are measured and sources are declared.
   std::vector<algo::MeasuredError> measured;
   std::optional<FoundAllocation> allocation;

@@ -25,7 +25,7 @@ struct MachineErrorCommand {
 struct FoundError {
   algo::Command at{};
   algo::ToolError error;
-  std::optional<algo::CompensatingCommand> compensating;  // none: no linear axis
+  std::optional<algo::CompensatingCommand> compensating;  // nullopt: the machine has no linear axis
 };
 
 void write_by_component(JsonWriter& json, const char* key,

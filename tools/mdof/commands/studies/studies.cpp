@@ -26,7 +26,7 @@ struct StudiesCommand {
 
 struct Row {
   store::StudyRecord record;
-  std::string state;  // open: in progress, or its process was killed
+  std::string state;  // "open": the study is in progress, or its process was killed
   std::uint64_t trials = 0;
 };
 

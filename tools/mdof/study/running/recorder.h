@@ -41,7 +41,7 @@ class StudyRecorder {
   // continued.
   Status end(const StudyResult& result, const std::string& figures_json,
              const StudyWork& state) const;
-  // "mdof sensitivity --continue 3 --db FILE"
+  // The command that continues the study: "mdof sensitivity --continue 3 --db FILE".
   std::string continue_command() const;
 
  private:

@@ -11,9 +11,11 @@
 namespace mdof::tools {
 
 enum class Extent {
-  brief,    // means by target, points with flags or without errors, figures with U
-  figures,  // figures by approach and reference line, closure, drift; no points
-  all,      // all points, then as `figures`
+  brief,  // the means at each target, the points with flags or without errors, and the figures with
+          // U
+  figures,  // the figures for each approach and reference line, the closure and the drift; no
+            // points
+  all,      // all points, then the same as `figures`
 };
 
 // `result_sha256` may be empty. Lines of at most `width` characters.

@@ -18,7 +18,7 @@ std::string separation_csv(const SeparationRecord& record);
 // text state the date, the sources, and what is not included.
 std::string separation_plane_toml(const SeparationRecord& record);
 
-// "offset, slope and 2 of period 10 mm"
+// A text with the undetermined components: "offset, slope and 2 of period 10 mm".
 std::string unseen_text(const DeterminedSeries& series);
 
 }  // namespace mdof::tools

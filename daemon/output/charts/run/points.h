@@ -24,9 +24,9 @@ std::string about_run(const RunHeader& header, Language language);
 // Warnings for the top of a chart. Puts a warning that u contains noise only before `marks`, if
 // this is true.
 std::vector<std::string> with_noise_only_mark(NoiseOnly noise_only, std::vector<std::string> marks,
-                                    output::Language language);
+                                              output::Language language);
 std::vector<std::string> with_noise_only_mark(bool noise_only, std::vector<std::string> marks,
-                                    Language language);
+                                              Language language);
 
 // The key of the position axis for draw_axes(): "position_mm" in English.
 std::string position_key(Language language);

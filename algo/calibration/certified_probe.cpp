@@ -10,9 +10,9 @@
 namespace mdof::algo {
 namespace {
 
-// Limits of the ratio of two scales of one probe.
+// Limits of the ratio of two um_per_V of the same probe.
 constexpr double kLeastRatio = 0.5, kMostRatio = 2;
-constexpr double kSameScale = 3;  // in units of u
+constexpr double kSameScale = 3;  // times u: two scales with a smaller difference are equal
 constexpr const char* kMeasured = "basic_measuredValue";
 constexpr const char* kReference = "basic_referenceValue";
 constexpr const char* kError = "basic_measurementError";
@@ -25,7 +25,7 @@ bool is_reading(const DccQuantity& quantity) {
   return quantity.unit.is(1, 0) || quantity.unit.is(0, 1);
 }
 
-// The quantities of a table; `error` or `reference` may be null.
+// The columns of a table; either `error` or `reference` may be null.
 struct Table {
   const DccQuantity *measured = nullptr, *error = nullptr, *reference = nullptr;
   bool whole() const { return measured && (error || reference); }
@@ -53,8 +53,9 @@ double half_span_um(const Rows& rows) {
   return ((*most)[0] - (*least)[0]) / 2;
 }
 
-// Whether the corrections contain this scale: by the two ends of the table or by its least-squares
-// line, because a laboratory may define a sensitivity by either.
+// True: the slope of the corrections is scale_1, within within_1. The slope is calculated from the
+// two end rows and also by a least-squares line. It is sufficient if one of them agrees, because a
+// laboratory may define the sensitivity by either.
 bool contains_scale(const Rows& rows, double scale_1, double within_1) {
   const auto [least, most] = std::minmax_element(rows.begin(), rows.end());
   const double by_ends = ((*most)[1] - (*least)[1]) / ((*most)[0] - (*least)[0]);
@@ -185,7 +186,7 @@ class CertificateReader {
         "the rig");
   }
 
-  // The zero is a voltage. With another scale it is at another raw_um.
+  // The zero of the probe is a voltage. If um_per_V changes, the same voltage has another raw_um.
   void take_zero() {
     const Calibration& c = own_.calibration;
     if (!c.um_per_V || c.offset_um == 0) return;
@@ -196,7 +197,7 @@ class CertificateReader {
         notice(NoticeCode::certified_zero, "", {{"offset_um", *probe.offset_um}}));
   }
 
-  // Scale of a reading or an error, um per unit.
+  // Factor from the unit of a column of readings or errors to um.
   Result<double> scale(const DccQuantity& quantity) const {
     if (quantity.unit.is(1, 0)) return to_um(1);
     const auto& um_per_V =
@@ -209,7 +210,7 @@ class CertificateReader {
   }
 
   struct Column {
-    std::vector<double> um, u_um;  // u_um empty: the certificate states no u
+    std::vector<double> um, u_um;  // u_um is empty if the certificate states no u
   };
   Result<Column> column(const DccQuantity* quantity, std::size_t rows) const {
     Column column;
@@ -257,7 +258,8 @@ class CertificateReader {
     return {};
   }
 
-  // Checks that errors are reading minus reference, and that readings grow with reference values.
+  // Checks that errors are reading minus reference value, and that readings increase with the
+  // reference values.
   Status check_rows(const Table& table, const Column& read, const Column& error,
                     const Column& reference) const {
     if (!table.reference) return {};
@@ -272,7 +274,7 @@ class CertificateReader {
                        own_.id + "\" in " + rig_.source +
                        ", and check the units of the table in the certificate");
     for (std::size_t i = 0; table.error && i < read.um.size(); ++i) {
-      // The rounding of the three columns is smaller than the uncertainty of the error.
+      // The limit also covers the rounding of the three columns.
       const double off = std::abs(read.um[i] - reference.um[i] - error.um[i]);
       if (error.u_um.empty() || off <= 2 * error.u_um[i]) continue;
       return bad_input(
@@ -283,8 +285,9 @@ class CertificateReader {
     return {};
   }
 
-  // The new um_per_V must not correct a scale that the table corrects already. A table that
-  // contains the change of um_per_V was read with the um_per_V of the rig.
+  // Prevents that both the new um_per_V and the table correct the same scale error. If the table
+  // contains the change of um_per_V, its readings were calculated with um_per_V of the rig, and are
+  // converted to the new um_per_V.
   Status match_scale(const DccQuantity& read, double u_um, Rows& rows) {
     const CalibratedProbe& probe = found_.probe;
     const double within_1 =
@@ -310,7 +313,8 @@ class CertificateReader {
     return {};
   }
 
-  // Makes rows of t = reading - offset, ascending, with the correction 0 at t = 0.
+  // Subtracts the offset from the readings, sorts the rows, and shifts the corrections so that the
+  // correction is 0 at reading - offset = 0.
   Status about_zero(Rows& rows, long line) const {
     const double offset_um = found_.probe.offset_um.value_or(own_.calibration.offset_um);
     for (auto& row : rows) row[0] -= offset_um;
@@ -327,7 +331,8 @@ class CertificateReader {
     return {};
   }
 
-  // u of the errors if the certificate states it, otherwise of readings and references combined.
+  // Largest u of the errors if the certificate states u of the errors. Otherwise the largest
+  // combined u of reading and reference value.
   double largest_u(const Table& table, const Column& read, const Column& error,
                    const Column& reference) {
     if (table.error && !error.u_um.empty())

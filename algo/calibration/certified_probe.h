@@ -1,16 +1,18 @@
-// Takes the scale and the linearity of a probe from the certificate of a laboratory
+// Reads the scale and the linearity of a probe from the certificate of a laboratory
 // (schema/dcc/certificate.h).
 //
-// mdof takes
-//  - the sensitivity S, the only quantity in V/m or m/V: it gives um_per_V, with u(S)/|S|;
-//  - the table, the only list with basic_measuredValue r (a length, or a voltage times um_per_V)
-//    and basic_measurementError e = r - x, or basic_referenceValue x instead of e. The correction
-//    is -e minus the correction at the rig's zero, so the zero does not change. The u of the table
+// mdof reads
+//  - the sensitivity S: the only quantity in V/m or m/V. um_per_V is calculated from S; its
+//    relative standard uncertainty is u(S)/|S|.
+//  - the table: the only list with basic_measuredValue r (a length, or a voltage times um_per_V)
+//    and either basic_measurementError e = r - x or basic_referenceValue x. The correction
+//    is -e. It is shifted so that the correction at the rig's zero is 0. The u of the table
 //    is the largest u of the list.
-// The certificate must contain at least one of them. If the readings in um contain, within 3 u, the
-// change from the rig's um_per_V to the new one, they were read with the rig's um_per_V and are
-// converted to the new one. The expanded uncertainty U is divided by the coverage factor that the
-// certificate states with it.
+// The certificate must contain the sensitivity or the table. If both exist, the readings in um may
+// have been calculated with the rig's um_per_V. This is so if the corrections contain, within 3 u,
+// the change from the rig's um_per_V to the new um_per_V. Then the readings are converted to the
+// new um_per_V. u is the expanded uncertainty U of the certificate divided by the coverage factor
+// that the certificate states.
 #pragma once
 
 #include <cstddef>
@@ -28,15 +30,17 @@ namespace mdof::algo {
 struct CertifiedProbe {
   CalibratedProbe probe;
   CertificateFacts facts;
-  Notices taken;      // what was taken, and from where: information
-  Notices not_taken;  // what the certificate does not state: information
+  Notices taken;      // information: values that were read, and their place in the certificate
+  Notices not_taken;  // information: values that the certificate does not state
 };
 
-// `result`: name or refType of the dcc:result to read, if a certificate has several (before and
-// after an adjustment); empty: all results. Errors name the file and the line: neither sensitivity
-// nor table, or two of one kind; a value without uncertainty; a scale that is not the scale of the
-// rig's probe (opposite sign, or more than a factor of 2 from its um_per_V); a table whose rows
-// contradict each other, or whose corrections contain another scale than the sensitivity.
+// `result`: name or refType of the dcc:result to read, if a certificate has several results (before
+// and after an adjustment); empty: all results. Errors state the file and the line:
+//   - neither a sensitivity nor a table, or two sensitivities, or two tables
+//   - a value without uncertainty
+//   - um_per_V has another sign than um_per_V of the rig, or differs by more than a factor of 2
+//   - the rows of the table contradict each other
+//   - the corrections of the table contain another scale than the sensitivity
 Result<CertifiedProbe> certified_probe(const Rig& rig, std::size_t probe,
                                        const DccCertificate& certificate,
                                        const std::string& result);

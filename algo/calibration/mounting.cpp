@@ -16,21 +16,24 @@ namespace mdof::algo {
 namespace {
 
 constexpr int kMaxIterations = 100;
-// Number of steps that may choose the seen combinations. A singular value near kSeenFactor can be
-// above it at one step and below it at the next, and then the steps never end.
+// Only the first iterations select the seen combinations. Without this limit, a singular value near
+// kSeenFactor could be above and below it in turn, and the iteration would not end.
 constexpr int kChoosingSteps = 10;
 constexpr double kLeastShare = 1e-3, kRounding = 1e-12;
-// In units of scale(). Rounding of chi-square limits kDescentDone, used when chi-square must
-// descend.
+// The iteration ends if the change of all unknowns, in units of scale(), is smaller. kDescentDone
+// is used after kChoosingSteps. It is larger, because chi-square must then decrease, and the
+// rounding of chi-square limits the accuracy.
 constexpr double kStepDone = 1e-7, kDescentDone = 1e-4;
 constexpr double kRankTolerance = 1e-9;
-// Root mean square of residuals divided by their uncertainties. Noise that is stated too small does
-// not give such a value. Errors that give it change all readings in the same way, and Birge's
-// factor does not cover them.
+// Limit of the root mean square of residual / u. A noise that is stated too small does not cause a
+// larger value. The cause of a larger value is an error that affects all readings, and Birge's
+// factor does not cover such errors.
 constexpr double kMostMisfit = 20;
-constexpr double kFarthest_m = 1e-3;  // from the rig's position; clamping by hand is closer
+constexpr double kFarthest_m = 1e-3;  // largest distance from the position in the rig; clamping by
+                                      // hand is more accurate
 
-// The space of the unknowns of the clampings, with its least-squares solution.
+// The column space of the derivatives by the unknowns of the clampings, with its least-squares
+// solution.
 struct PoseSpace {
   LeastSquares fit;
   Eigen::MatrixXd basis;
@@ -89,9 +92,10 @@ class Fit {
     return step.cwiseAbs().maxCoeff();
   }
 
-  // Solves for the probes' unknowns as a whole, not only for their change, in the combinations that
-  // are seen at this step. Nothing remains of combinations that were seen only at an earlier step.
-  // After kChoosingSteps the seen combinations are fixed.
+  // Calculates new values of all unknowns. The unknowns of the probes are solved completely, not as
+  // a correction of their last values, and only in the combinations that are seen in this
+  // iteration. Therefore a combination that was seen only in an earlier iteration is 0. After
+  // kChoosingSteps the seen combinations do not change. Returns the largest change.
   double solve_all_unknowns() {
     const auto lines = model_.linearised(pose_, probe_);
     const PoseSpace poses(lines.by_pose);
@@ -116,10 +120,10 @@ class Fit {
     return std::max(change.cwiseAbs().maxCoeff(), step.cwiseAbs().maxCoeff());
   }
 
-  // The readings contain the squares of the angles between the probes and the target. If noise is
-  // as large as these squares, a full Gauss-Newton step can go too far: chi-square descends by less
-  // than half of the descent that the derivatives predict (Armijo's rule). Returns the share of the
-  // step.
+  // Returns the factor (at most 1) for the Gauss-Newton step. The readings contain the squares of
+  // the angles between the probes and the target. If the noise is as large as these squares, the
+  // full step can be too large. The factor is halved until chi-square decreases by at least half of
+  // the predicted decrease (Armijo's rule).
   double descending_share(const MountingModel::Linearised& lines, const Eigen::VectorXd& step,
                           const Eigen::VectorXd& change) const {
     const double now = lines.misfit.squaredNorm();
@@ -147,7 +151,8 @@ class Fit {
   int steps_ = 0;  // number of solve_all_unknowns() calls
 };
 
-// The unseen part keeps the rig's uncertainty; NaN: the rig does not declare it.
+// u of an unknown: from the covariance for its seen part, from the rig for its unseen part. NaN if
+// the rig does not declare the uncertainty of an unknown that is not seen.
 double Fit::u_of(Eigen::Index unknown, const Unseen& unseen,
                  const Eigen::MatrixXd& covariance) const {
   const double share = unseen.share(unknown), scale = model_.scale()(unknown);
@@ -205,8 +210,8 @@ void Fit::report_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
                     [&](const TraverseReading& reading) { return reading.probe == k; }));
 }
 
-// Covariance of the seen positions and directions along the machine's axes and of the seen zeros.
-// Its diagonal agrees with u_of().
+// Covariance of the positions, directions and zeros that are seen. Positions and directions have
+// components along the axes of the machine. The diagonal is consistent with u_of().
 void Fit::report_covariance(const Rig& rig, const Unseen& unseen, const Eigen::MatrixXd& covariance,
                             MountingCalibration& found) const {
   Eigen::MatrixXd all = covariance;
@@ -216,7 +221,8 @@ void Fit::report_covariance(const Rig& rig, const Unseen& unseen, const Eigen::M
   }
   const auto axes = local_axes(rig.axis);
   std::vector<Eigen::VectorXd> rows;
-  // The component along a machine axis of two unknowns, which are along these local vectors.
+  // Adds the component along machine axis m of a vector. The unknowns `first` and `first` + 1 are
+  // the components of this vector along the local vectors `one` and `other`.
   const auto add_component = [&](const std::string& name, std::size_t m, Eigen::Index first,
                                  const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(all.rows());
@@ -247,7 +253,8 @@ void Fit::report_covariance(const Rig& rig, const Unseen& unseen, const Eigen::M
       found.covariance.m2[i][j] = found.covariance.m2[j][i] = rows[i].dot(all * rows[j]);
 }
 
-// If the uncertainties of the readings do not explain the residuals, result() widens all u (Birge).
+// Calculates chi-square. If the uncertainties of the readings do not explain the residuals,
+// result() multiplies the covariance by chi-square / freedom (Birge).
 void Fit::judge(MountingCalibration& found) const {
   const auto lines = model_.linearised(pose_, probe_);
   found.readings = model_.readings().size();

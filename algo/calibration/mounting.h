@@ -1,19 +1,23 @@
-// Calibrates the mounting of the probes of a fixture with a target that is clamped at several small
-// tilts.
+// Calibrates positions, directions and zeros of the probes of a fixture, with a target that is
+// clamped at several small tilts.
 //
-// At each clamping the machine's axes move the target by known distances. The change of the
-// readings gives the tilt of the target, and the readings of a probe over the tilts of all
-// clampings give its position and zero. One weighted least-squares solution (Gauss-Newton) of the
-// readings of the rigid model (algo/model/rigid.h) has these unknowns: for each probe its position
-// (two components in its plane), zero, direction (two components) and scale; for each clamping the
-// three angles of the target; for each traverse the offset of the target. Because of these offsets
-// an axis at another position, or a slow drift between traverses, has no effect.
+// In each clamping the axes of the machine move the target by known distances. The changes of the
+// readings determine the tilt of the target in this clamping. The readings of a probe at all tilts
+// determine position and zero of the probe. The readings of the rigid model (algo/model/rigid.h)
+// are fitted by weighted least squares (Gauss-Newton). Unknowns:
+//   each probe     position (two components in its plane), zero, direction (two components), scale
+//   each clamping  three angles of the target
+//   each traverse  offset of the target (two components)
+// Because of these offsets, the position of the other axes and a slow drift between traverses have
+// no effect.
 //
-// The unknowns of the clampings are eliminated. The singular values of the remaining matrix, in
-// units of the rig's prior uncertainties, show which combinations the logs determine: those that
-// they determine at least twice as well as the rig. All other combinations keep the rig's values,
-// and the result names them. The logs can never determine what a clamping does as well: a common
-// shift of all probes of a plane along this plane, or a common change of their zeros.
+// The unknowns of clampings and traverses are eliminated. The singular values of the remaining
+// matrix, in units of the prior uncertainties of the rig, show how well the logs determine each
+// combination of the unknowns of the probes. A combination is used if the logs determine it at
+// least twice as well as the rig. All other combinations keep the values of the rig, and the result
+// lists them. Some combinations have the same effect as another clamping, so the logs cannot
+// determine them: a common shift of all probes of a plane along this plane, and a common change of
+// their zeros.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,9 +32,9 @@ namespace mdof::algo {
 
 // A stop of the traversing axis.
 struct TraverseStop {
-  double travel_m = 0;              // travel of the target in + of the axis, from any origin
-  std::vector<double> reading_m;    // one for each probe; NaN: do not use
-  std::vector<double> u_reading_m;  // standard uncertainty
+  double travel_m = 0;  // travel of the target in the + direction of the axis, from any origin
+  std::vector<double> reading_m;    // one for each probe; NaN: not used
+  std::vector<double> u_reading_m;  // standard uncertainty of each reading
 };
 struct Traverse {
   Axis axis = Axis::x;
@@ -42,19 +46,23 @@ struct Clamping {
 
 struct MountingFit {
   MountingCalibration found;
-  // Vectors and matrices of all unknowns in the order of the probes: position along the two
-  // directions (m), zero (m), direction (rad, towards the two vectors), scale (1). `change`: found
-  // minus the rig's value; `covariance`: for the part that the logs determine; `seen`: projector
-  // (unknowns x unknowns) onto this part of the true values.
+  // Vectors and matrices of the unknowns of all probes. Order for each probe: position along two
+  // directions (m), zero (m), direction towards two vectors (rad), scale (1).
+  //   change      found value - value of the rig
+  //   covariance  covariance of the part that the logs determine
+  //   seen        projector (unknowns x unknowns) onto the part that the logs determine
   Eigen::VectorXd change;
   Eigen::MatrixXd covariance;
   Eigen::MatrixXd seen;
 };
 inline constexpr Eigen::Index kMountingUnknowns = 6;  // per probe
 
-// Errors: the clampings determine no probe's position (all at one tilt, too few); the positions are
-// farther from the rig's than any clamping by hand (an axis that counts the other way, exchanged
-// probes); the fit does not converge.
+// Errors:
+//   - the clampings do not determine the position of any probe (too few clampings or equal tilts)
+//   - a position is so far from the position in the rig that clamping by hand cannot be the cause
+//     (wrong direction of an axis, exchanged probes)
+//   - the readings do not fit any mounting
+//   - the fit does not converge
 Result<MountingFit> fit_mounting(const Rig& rig, const std::vector<Clamping>& clampings);
 
 }  // namespace mdof::algo

@@ -10,17 +10,18 @@
 namespace mdof::algo {
 namespace {
 
-// Typical uncertainty of clamping by hand, used if the rig does not declare it.
+// Typical standard uncertainty of clamping by hand, used if the rig declares no uncertainty.
 constexpr double kHandClamping_m = 50e-6, kHandClamping_rad = 2e-3;
 constexpr double kAngleUnit_rad = 0.01;
-constexpr double kExactReading_m = 1e-10;  // an exact log has no noise for the weights
+constexpr double kExactReading_m = 1e-10;  // smallest u of a reading; simulated logs can have u = 0
 
 Eigen::Vector3d local(Axis axis, const Vec3& machine) {
   const Vec3 l = to_local(axis, machine);
   return {l[0], l[1], l[2]};
 }
 
-// Two unit vectors perpendicular to v, from the two local axes that are farther from it.
+// Two unit vectors that are perpendicular to v and to each other. They are near the two local axes
+// that have the largest angles to v.
 std::array<Eigen::Vector3d, 2> across(const Eigen::Vector3d& v) {
   Eigen::Index nearest = 0;
   v.cwiseAbs().maxCoeff(&nearest);
@@ -72,8 +73,8 @@ void MountingModel::take(const std::vector<Clamping>& clampings) {
   }
 }
 
-// The zero depends on the height at which the probe was clamped, so the certificate of its
-// amplifier does not give its uncertainty.
+// The prior uncertainty of the zero is half the range. The declared u_calibration_um cannot be
+// used, because the zero depends on the height at which the probe was clamped.
 void MountingModel::set_scales(const Rig& rig) {
   scale_ = Eigen::VectorXd::Zero(unknowns());
   declared_.assign(static_cast<std::size_t>(unknowns()), false);
@@ -85,7 +86,7 @@ void MountingModel::set_scales(const Rig& rig) {
     const ProbeUncertainty& u = rig.probes[k].uncertainty;
     const auto axes = local_axes(rig.axis);
     for (std::size_t j = 0; j < 2; ++j) {
-      double squared = 0;  // along the machine's axes
+      double squared = 0;  // variance along the vector, from the u along the axes of the machine
       for (std::size_t m = 0; m < 3; ++m) {
         double part = 0;
         for (std::size_t l = 0; l < 3; ++l)
@@ -134,8 +135,8 @@ Errors5 MountingModel::clamping_angles(const Eigen::VectorXd& pose, std::size_t 
   return errors;
 }
 
-// The target's travel is part of the carriage's position; its x component is `travel_m` of the
-// model.
+// The y and z components of the travel are added to the offsets δy and δz. The x component is the
+// travel of the model, rigid_readings(..., travel_m, ...).
 Errors5 MountingModel::pose_of(const Eigen::VectorXd& pose, const TraverseReading& at) const {
   Errors5 errors = clamping_angles(pose, at.clamping);
   const auto first = static_cast<Eigen::Index>(3 * clampings_ + 2 * at.traverse);
@@ -178,7 +179,9 @@ MountingModel::Linearised MountingModel::linearised(const Eigen::VectorXd& pose,
     const double weight = gain / seen.u_m;
     out.by_pose.row(row).segment(angles, 3) = by_errors.row(0).tail(3) * kAngleUnit_rad * weight;
     out.by_pose.row(row).segment(offsets, 2) = by_errors.row(0).head(2) * weight;
-    // s n·u = k - n·(P - t): position along e: ds = -n·e / n·u; direction: ds = -s n·du / n·u.
+    // Derivatives of the displacement s, from s n·u = k - n·(P - t):
+    //   shift of the probe along e: ds = -n·e / n·u
+    //   change du of the direction: ds = -s n·du / n·u
     const auto set = [&](MountingUnknown which, double slope) {
       out.by_probe(row, unknown_of(k, which)) = slope / seen.u_m * scale_(unknown_of(k, which));
     };
@@ -187,7 +190,7 @@ MountingModel::Linearised MountingModel::linearised(const Eigen::VectorXd& pose,
     set(kZero, 1);
     for (std::size_t j = 0; j < 2; ++j) {
       const Eigen::Vector3d& e = towards_[k][j];
-      const Eigen::Vector3d du = e - e.dot(p.u_M) * p.u_M;  // keeps the length 1
+      const Eigen::Vector3d du = e - e.dot(p.u_M) * p.u_M;  // so that the length of u stays 1
       set(j == 0 ? kTowards1 : kTowards2, -gain * s * n_M.dot(du) / facing);
     }
     set(kScale, s);

@@ -1,4 +1,4 @@
-// The unknowns of a mounting and the readings that they give.
+// The unknowns of a mounting, and the model of the readings.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,27 +38,30 @@ class MountingModel {
   // Number of unknowns of the poses: three angles of each clamping, δy and δz of each traverse.
   Eigen::Index pose_unknowns() const;
 
-  // In the local frame: the vectors along the plane of a probe, and those that its direction turns
-  // to.
+  // Local frame. along(): two unit vectors in the plane of the target that the probe measures.
+  // towards(): two unit vectors perpendicular to the direction of the probe.
   const Eigen::Vector3d& along(std::size_t probe, std::size_t which) const;
   const Eigen::Vector3d& towards(std::size_t probe, std::size_t which) const;
   Eigen::Vector3d rotated_direction(std::size_t probe, double towards1, double towards2) const;
 
-  // Prior standard uncertainty of each unknown, before the logs; 0: exact.
+  // Prior standard uncertainty of each unknown, from the rig; 0: the unknown is exact.
   const Eigen::VectorXd& scale() const { return scale_; }
-  // True: the rig declares the prior uncertainty; false: it is typical for clamping by hand.
+  // True: the rig declares the prior uncertainty. False: the prior uncertainty is a typical value
+  // for clamping by hand.
   bool declared(Eigen::Index unknown) const;
 
-  // The residuals of the readings divided by their uncertainties, and the derivatives by the
-  // unknowns of the poses (angles in units of 0.01 rad, so that columns are comparable) and of the
-  // probes (in units of scale()). Residuals and derivatives have the sign of the reading.
+  // misfit: residual (reading - model) divided by u, for each reading. by_pose, by_probe:
+  // derivatives of (model reading / u) by the unknowns of the poses and of the probes. Unit of the
+  // angles of a pose: 0.01 rad, so that the columns are comparable. Unit of the unknowns of the
+  // probes: scale().
   struct Linearised {
     Eigen::VectorXd misfit;
     Eigen::MatrixXd by_pose, by_probe;
   };
   Linearised linearised(const Eigen::VectorXd& pose, const Eigen::VectorXd& probe) const;
 
-  // Adds the effect of the encoder's declared uncertainty at a tilt to the u of the readings.
+  // Adds the effect of the encoder's uncertainty on the readings of a tilted target to u of the
+  // readings.
   void widen_by_encoder(const Eigen::VectorXd& pose, double u_encoder_m);
   Errors5 clamping_angles(const Eigen::VectorXd& pose, std::size_t clamping) const;
 

@@ -10,11 +10,14 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kEntirelyUnseen = 0.99;  // share of a combination in the unseen space
+constexpr double kEntirelyUnseen = 0.99;  // a combination with at least this share in `unseen` is
+                                          // unseen
 constexpr double kSamePlane = 1e-9;       // 1 - cosine
-constexpr double kIndependent = 0.1;      // remainder of a combination outside others
+constexpr double kIndependent = 0.1;      // a smaller remainder outside the other combinations is
+                                          // ignored
 
-using Group = std::vector<std::size_t>;  // probes that measure one plane of the target
+using Group = std::vector<std::size_t>;  // indices of the probes that measure the same plane of the
+                                         // target
 
 std::vector<Group> groups_of(const Fixture& fixture) {
   std::vector<Group> groups;
@@ -67,8 +70,8 @@ class Naming {
   Unseen take() { return std::move(out_); }
 
  private:
-  // Whether `v`, in the unknowns' own units, is entirely unseen; if so, adds it to the common
-  // shifts.
+  // Returns true if the combination `v` (m, rad, 1) is unseen, and then adds it to together_. Sets
+  // `length` to the length of `v` in units of scale().
   bool is_unseen(const Eigen::VectorXd& v, double& length) {
     Eigen::VectorXd scaled = v;
     for (Eigen::Index i = 0; i < v.size(); ++i)
@@ -121,7 +124,8 @@ class Naming {
   }
 
   void find_other_unseen() {
-    // Within the precision of kEntirelyUnseen, what remains of a column is all of it or nothing.
+    // The length of each remaining combination is about 1 or about 0, within the tolerance of
+    // kEntirelyUnseen.
     const Eigen::MatrixXd left =
         view_.unseen - together_ * (together_.transpose() * view_.unseen).eval();
     const SingularValues svd = singular_values(left);

@@ -1,4 +1,5 @@
-// Which combinations of a mounting's unknowns the logs determine, and sentences about the others.
+// Combinations of the unknowns of a mounting that the logs determine, and sentences about the
+// combinations that they do not determine.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,26 +10,30 @@
 
 namespace mdof::algo {
 
-// From the singular values of the derivatives, after the unknowns of the clampings are eliminated.
+// Calculated from the singular values of the derivatives, after the unknowns of the clampings are
+// eliminated.
 struct MountingView {
   Eigen::MatrixXd seen, unseen;  // orthonormal columns, in units of MountingModel::scale()
   Eigen::VectorXd singular;      // singular values of the columns of `seen`
 
   Eigen::MatrixXd projector() const { return seen * seen.transpose(); }
 };
-// A combination is seen if the logs determine it at least this many times as well as the rig.
+// A combination is in `seen` if its standard uncertainty from the logs is at most 1/kSeenFactor of
+// the prior uncertainty of the rig.
 inline constexpr double kSeenFactor = 2;
 
 struct Unseen {
-  // Unseen, without common shifts of the probes of a plane; orthonormal columns.
+  // The unseen combinations without the common shifts and zeros of the probes of a plane;
+  // orthonormal columns.
   Eigen::MatrixXd apart;
-  Vec3 u_together_m{};  // common shift, machine axes; NaN: not declared
+  Vec3 u_together_m{};  // u of the common shift, machine axes; NaN: the rig does not declare it
   std::vector<std::string> sentences;
 
-  // Share of this unknown that is not seen, without common shifts; 0 to 1.
+  // Share of this unknown that the logs do not determine, without common shifts and zeros; 0 to 1.
   double share(Eigen::Index unknown) const { return apart.row(unknown).squaredNorm(); }
 };
-inline constexpr double kUnseenShare = 0.05;  // an unknown with a larger share is not seen
+inline constexpr double kUnseenShare = 0.05;  // an unknown with a larger share is reported as not
+                                              // determined
 
 Unseen find_unseen(const MountingModel& model, const MountingView& view);
 

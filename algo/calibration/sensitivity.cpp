@@ -14,11 +14,13 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kFewest = 3;
-constexpr double kShortest = 0.05;           // share of the range
-constexpr double kLeast = 0.5, kMost = 2;    // sensitivities that a probe can have
-constexpr double kSamePositionShare = 1e-3;  // share of the range; nearer stops are one position
+constexpr double kShortest = 0.05;           // smallest range of the readings, relative to the
+                                             // range of the probe
+constexpr double kLeast = 0.5, kMost = 2;    // limits of the sensitivity g
+constexpr double kSamePositionShare = 1e-3;  // relative to the range; stops with a smaller distance
+                                             // are one position
 
-// Displacement along the probe's direction for a travel along the axis.
+// Displacement along the direction of the probe for a travel of 1 m along the axis.
 Result<double> facing(const Rig& rig, std::size_t probe, Axis axis) {
   MDOF_TRY(const Fixture fixture, make_fixture(rig));
   const FixtureProbe& p = fixture.probes[probe];
@@ -32,8 +34,9 @@ struct Reading {
   double true_m, read_m, u_m;
 };
 
-// Groups by position along the axis, ascending. The readings of a group are at most `apart_m`, or a
-// fifth of the mean step if this is more, from its first reading.
+// Groups the readings by their true displacement, ascending. A reading belongs to a group if its
+// distance from the first reading of the group is at most `apart_m` or a fifth of the mean step,
+// whichever is larger.
 std::vector<std::vector<Reading>> group_by_position(std::vector<Reading> all, double apart_m) {
   std::sort(all.begin(), all.end(),
             [](const Reading& a, const Reading& b) { return a.true_m < b.true_m; });
@@ -52,7 +55,7 @@ struct SlopeUncertainty {
   double u = 0, freedom = std::numeric_limits<double>::infinity();
 };
 
-// `u_encoder_m`: as a displacement along the probe.
+// `u_encoder_m`: u of the encoder, converted to a displacement along the probe.
 SlopeUncertainty slope_uncertainty(const std::vector<std::vector<Reading>>& places, double slope,
                                    double u_encoder_m) {
   double n = 0, mean = 0, square = 0;
@@ -99,7 +102,7 @@ std::vector<std::string> blind_to(const Rig& rig) {
   return sentences;
 }
 
-// In the order of the readings; the readings of one position are replaced by their mean.
+// Sorts by reading, and replaces the readings of one position by their mean.
 std::vector<Reading> places_of(std::vector<Reading> all, double apart_m) {
   std::sort(all.begin(), all.end(),
             [](const Reading& a, const Reading& b) { return a.read_m < b.read_m; });
@@ -130,9 +133,9 @@ Status check(const Probe& probe, const Line& line) {
   return fail(ErrorCode::check, wrong + "; check um_per_V in the rig and the unit of the encoder");
 }
 
-// Extends the corrections to the range with the slope of the line. Without this a rig would keep
-// the correction of the last position, but a wrong sensitivity acts everywhere. `slope`: of the
-// correction.
+// Extends the corrections to the ends of the range. Without the extension, the correction outside
+// the table is constant, although a wrong sensitivity acts over the whole range. `slope`: slope of
+// the correction.
 void extend_to_range(const Probe& probe, double slope, SensitivityCalibration& found) {
   const auto [low_um, high_um] = readings_of_range(probe);
   auto& table = found.linearity;
@@ -144,7 +147,8 @@ void extend_to_range(const Probe& probe, double slope, SensitivityCalibration& f
     table.push_back({high_um, last_correction_um + slope * (high_um - last_um)});
 }
 
-// If the probe reads volts, um_per_V takes the sensitivity; the table takes the rest.
+// Sets the proposed values of the rig. If the rig has um_per_V, the sensitivity is included in
+// um_per_V, and the table contains only the nonlinearity. Otherwise the table contains both.
 void propose(const Probe& probe, const std::vector<Reading>& places, const Line& line,
              SensitivityCalibration& found) {
   const Calibration& c = probe.calibration;

@@ -1,16 +1,18 @@
-// Calibrates the sensitivity of a mounted probe: the approaching axis moves the target along the
-// direction of the probe, and the encoder of this axis gives the travel.
+// Calibrates the sensitivity of a mounted probe. An axis moves the target towards the probe or away
+// from it. The encoder of this axis measures the travel.
 //
-// n is the normal of the probe's plane, e the axis and u the direction of the probe. A travel x
-// gives the displacement z = x (n·e)/(n·u) along u. The line is reading = a + g z by least squares.
-// A correction is true - reading; it is 0 where the line reads 0, so the zero does not change. If
-// the rig has no scale in um/V, the corrections contain the sensitivity, too: outside the
-// calibrated positions they continue with the slope 1/g - 1 to the ends of the range.
+// n is the normal of the plane that the probe measures, e the direction of the axis, u the
+// direction of the probe. A travel x causes the displacement z = x (n·e)/(n·u) along u. The line
+// reading = a + g z is fitted by least squares; g is the sensitivity. A correction is true
+// displacement - reading. It is 0 where the line has the reading 0, so that the zero does not
+// change. If the rig has no um_per_V, the corrections also contain the sensitivity. They are then
+// extended to the ends of the range with the slope 1/g - 1.
 //
-// u(g) is the larger of two values. The first is from the noise of the stops and the declared
-// [encoder] u_um; the encoder's error is the same at each visit of a position. The second is from
-// the residuals of the mean of each position, s/√Σ(z - z̄)², with (positions - 2) degrees of
-// freedom.
+// u(g) is the larger one of two values:
+//   - from the noise of the stops and the declared [encoder] u_um; the error of the encoder is the
+//     same at each visit of a position
+//   - from the residuals of the means of the positions: s/√Σ(z - z̄)², with (number of positions -
+//     2) degrees of freedom
 #pragma once
 
 #include <vector>
@@ -20,10 +22,10 @@
 
 namespace mdof::algo {
 
-// `rig`: without linearity and polynomial of this probe, because they are determined here; the
-// readings of the stops are calculated with this rig. Errors: fewer than three positions; travel
-// too short; an axis that does not approach; a sensitivity outside 0.5 to 2 (other unit, other
-// direction).
+// `rig`: must not contain linearity or polynomial of this probe, because they are determined here.
+// The readings of the stops must be calculated with the same rig. Errors: fewer than three
+// positions; a travel that is too short, or an axis that does not move the target towards the
+// probe; a sensitivity outside 0.5 to 2 (wrong unit or wrong direction).
 Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe,
                                                const Traverse& traverse);
 

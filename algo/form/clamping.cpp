@@ -16,7 +16,7 @@ SurfaceMap scaled(const SurfaceMap& map, double factor) {
   return result;
 }
 
-// Marks pixels without a height in `other` as missing, so that all parts have the same pixels.
+// Sets the pixels of `map` that are missing in `other` to missing.
 void keep_common(SurfaceMap& map, const SurfaceMap& other) {
   for (std::size_t k = 0; k < map.z_m.size(); ++k)
     if (std::isnan(other.z_m[k])) map.z_m[k] = SurfaceMap::kMissing;

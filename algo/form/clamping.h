@@ -1,7 +1,7 @@
-// Effects of clamping on a surface: the elastic part, which springs back, the plastic part, which
-// remains, and the stress. Wang et al., A high-precision machining method of weak-stiffness mirror
-// based on fast tool servo error compensation strategy, Micromachines 12 (2021) 607; README.md has
-// the equations. SI.
+// Deformation of a surface by clamping, and the stress of a bent plate. The elastic part of the
+// deformation springs back after the release. The plastic part remains. Wang et al., A
+// high-precision machining method of weak-stiffness mirror based on fast tool servo error
+// compensation strategy, Micromachines 12 (2021) 607; README.md has the equations. SI.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,20 @@
 namespace mdof::algo {
 
 struct ClampingParts {
-  SurfaceMap clamping, elastic, plastic;  // without piston and tilt
+  SurfaceMap clamping, elastic, plastic;  // the whole deformation and its two parts, without piston
+                                          // and tilt
   double K = 0;                           // plastic = K elastic
-  // RMS of plastic - K elastic, measured; only with `released`.
+  // RMS of plastic - K elastic. Only of clamping_by_release().
   std::optional<double> K_unexplained_rms_m;
 };
 
-// Maps before clamping, after clamping, and after the release: elastic = after - released, plastic
-// = released - before, K by least squares. Without `released` both parts follow from K. Errors: K
-// at or below -1, maps that do not overlap.
+// `before`: map before clamping. `after`: map of the clamped part. `released`: map after the
+// release.
+//   clamping = after - before
+//   elastic = after - released
+//   plastic = released - before
+// clamping_by_release() calculates K by least squares. clamping_by_K() calculates both parts from
+// `clamping` and K. Errors: K at or below -1; maps that do not overlap.
 Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const SurfaceMap& after,
                                           const SurfaceMap& released);
 Result<ClampingParts> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K);
@@ -30,15 +35,15 @@ struct Plate {
 };
 
 struct PlateStress {
-  double max_Pa = 0;  // von Mises, at the face
+  double max_Pa = 0;  // largest von Mises stress at the face
   double x_m = 0, y_m = 0;
-  std::size_t pixels = 0;  // pixels with a known curvature
+  std::size_t pixels = 0;  // pixels whose curvature is known
 };
 
-// The stress of a thin plate whose face is bent by `form`. The curvature is that of a parabola
-// fitted over a square of side `smooth_m` about each pixel; pixels with less than half of the
-// square measured are omitted. Error bad_input: no pixel remains, or the square is smaller than 3
-// pixels.
+// The stress of a thin plate whose face is bent by `form`. The curvature at a pixel is the
+// curvature of a parabola that is fitted over a square of side `smooth_m` about the pixel. Omits a
+// pixel if less than half of its square is measured. Errors: no pixel remains (bad_input); the
+// square is smaller than 3 x 3 pixels (usage).
 Result<PlateStress> plate_stress(const SurfaceMap& form, const Plate& plate, double smooth_m);
 
 }  // namespace mdof::algo

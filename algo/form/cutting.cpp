@@ -13,11 +13,12 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kGrowth = 1.5;  // tolerated growth of an error that varies at its floor
+constexpr double kGrowth = 1.5;  // the last error may exceed the smallest error by this factor,
+                                 // because random errors vary
 constexpr double kLeastSmoothingShare =
-    0.2;  // share of the square; a quarter of it is inside at a corner
+    0.2;  // share of the square that must be measured; at a corner of the map only a quarter is
 
-// Actual - wanted of each pass, over the pixels that all passes have.
+// Actual - wanted of each pass, at the pixels that all passes have.
 Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
   std::vector<SurfaceMap> errors;
   for (const SurfaceMap& cut : passes.cuts) {
@@ -36,7 +37,8 @@ Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
   return errors;
 }
 
-// Pixels that do not determine a parabola are not changed.
+// Smooths a map with LocalParabola. Keeps the height of a pixel whose square does not determine a
+// parabola.
 SurfaceMap smoothed(const SurfaceMap& map, double side_m) {
   if (side_m <= 0) return map;
   const LocalParabola square(map, side_m, kLeastSmoothingShare);
@@ -49,15 +51,16 @@ SurfaceMap smoothed(const SurfaceMap& map, double side_m) {
   return result;
 }
 
-// Error of each pass relative to its own path, and the correction of the next path.
+// Error of each pass relative to the path of that pass (`left`), and the correction of the next
+// path.
 struct Shares {
   std::vector<SurfaceMap> left;
-  SurfaceMap correction;  // the next path is wanted - correction
-  double factor = 1;      // factor of the mean
+  SurfaceMap correction;  // next path = wanted - correction
+  double factor = 1;      // factor on the mean error
   double left_by_smoothing_rms_m = 0;
 };
 
-// RMS of repeated passes about their mean.
+// Standard deviation of one repeated pass about the mean of the passes, RMS over the pixels.
 double spread_rms_m(const std::vector<SurfaceMap>& left, const SurfaceMap& mean) {
   double variance = 0;
   for (SurfaceMap off : left) {
@@ -67,8 +70,9 @@ double spread_rms_m(const std::vector<SurfaceMap>& left, const SurfaceMap& mean)
   return std::sqrt(variance);
 }
 
-// Removes the random share of the correction, given by its RMS over n passes: Wiener's filter with
-// one number. The piston is kept.
+// Multiplies the correction by 1 - (random_rms_m^2 / n) / rms^2, at least 0 (Wiener's filter with
+// one factor). random_rms_m is the RMS of the random error of one pass, n the number of passes. The
+// mean height is kept. Returns the factor.
 double shrink(SurfaceMap& correction, double random_rms_m, std::size_t n) {
   const MapFigures figures = figures_of(correction);
   const double random = random_rms_m * random_rms_m / static_cast<double>(n);
@@ -128,8 +132,9 @@ void split(std::vector<SurfaceMap>& left, CuttingResult& result) {
   if (result.factor) result.floor_optimal_m = random * std::sqrt(1 + *result.factor / n);
 }
 
-// For repeated passes: whether the next pass will be better than they are. Else: whether the passes
-// became better.
+// For repeated passes, true if the expected error of the next pass is smaller than the RMS error of
+// the passes. For other passes, true if the error of the last pass is smaller than the error of the
+// first pass.
 bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
   const std::vector<MapFigures>& error = result.error;
   if (passes.repeated) {
@@ -141,7 +146,7 @@ bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
                                                             : *result.floor_optimal_m;
     return floor < std::sqrt(square) || square == 0;
   }
-  if (error.back().rms_m == 0) return true;  // no error is left
+  if (error.back().rms_m == 0) return true;  // the last pass has no error
   double least = error[1].rms_m;
   for (std::size_t k = 1; k < error.size(); ++k) least = std::min(least, error[k].rms_m);
   return error.back().rms_m < error.front().rms_m && error.back().rms_m <= kGrowth * least;

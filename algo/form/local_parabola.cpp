@@ -9,12 +9,13 @@ namespace mdof::algo {
 namespace {
 
 constexpr int kTerms = 6;
-// z = c0 + c1 u + c2 v + c3 u^2 + c4 u v + c5 v^2, u and v in half sides of the square.
+// z = c0 + c1 u + c2 v + c3 u^2 + c4 u v + c5 v^2. u and v are coordinates about the centre, in
+// units of half the side of the square.
 std::array<double, kTerms> terms(double u, double v) {
   return {{1, u, v, u * u, u * v, v * v}};
 }
 
-// Pixels in half a side; a square larger than the map is as large as the map.
+// Number of pixels in half a side, at most the number of pixels of the map.
 std::ptrdiff_t pixels(double half_side_m, double pixel_m, std::size_t of_map) {
   return static_cast<std::ptrdiff_t>(
       std::min(std::floor(half_side_m / pixel_m + 1e-9), static_cast<double>(of_map)));

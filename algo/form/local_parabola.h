@@ -1,6 +1,6 @@
-// Least-squares parabola through the heights about a pixel, over a square of given side: its height
-// and curvatures. It reduces noise, and is exact for constant curvature, also at edges and holes.
-// README.md describes the effect on waves. SI.
+// Height and curvatures of a least-squares parabola through the heights in a square about a pixel.
+// The parabola reduces noise. It is exact for a surface of constant curvature, also at edges and
+// holes. README.md describes the effect on waves. SI.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class LocalParabola {
 
   // False: the side is below two pixels, so the square is smaller than 3 x 3.
   bool is_large_enough() const { return ni_ >= 1 && nj_ >= 1; }
-  // False: too few pixels, or pixels that do not determine a parabola.
+  // False: the square has too few measured pixels, or they do not determine a parabola.
   bool at(std::size_t i, std::size_t j, Parabola& found) const;
 
  private:
@@ -33,7 +33,8 @@ class LocalParabola {
   const SurfaceMap& map_;
   std::ptrdiff_t ni_, nj_;
   double half_x_m_, half_y_m_, least_share_;
-  std::array<std::vector<double>, 4> weight_;  // for 1, u^2, u v, v^2 in a complete square
+  std::array<std::vector<double>, 4> weight_;  // of the pixels of a complete square, for the
+                                               // coefficients of 1, u^2, u v and v^2
 };
 
 }  // namespace mdof::algo

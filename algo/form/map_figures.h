@@ -1,4 +1,4 @@
-// Figures of a map: peak to valley and root mean square; removal of a plane. SI.
+// Peak to valley and root mean square of a map, and removal of its least-squares plane. SI.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,15 @@ namespace mdof::algo {
 
 struct MapFigures {
   double pv_m = 0;   // largest - smallest height
-  double rms_m = 0;  // about the mean
+  double rms_m = 0;  // root mean square about mean_m
   double mean_m = 0;
   std::size_t pixels = 0;  // measured pixels
 };
 MapFigures figures_of(const SurfaceMap& map);
 
-// z = piston + tilt_x (x - x_mean) + tilt_y (y - y_mean) by least squares over the measured pixels.
-// A tilt that the pixels do not determine (a single row or column) is 0.
+// Least-squares plane of the measured pixels:
+//   z = piston + tilt_x (x - x_mean) + tilt_y (y - y_mean)
+// In a map with a single row or column, the tilt that is not determined is 0.
 struct Plane {
   double x_mean_m = 0, y_mean_m = 0, piston_m = 0, tilt_x = 0, tilt_y = 0;
   double at(double x_m, double y_m) const {

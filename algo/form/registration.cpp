@@ -18,25 +18,28 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kForSearch = 1500, kForCourse = 50'000, kForFit = 250'000;  // pixels
-constexpr double kLeastOverlap = 0.1;   // share of A's pixels
-constexpr double kSearchOverlap = 0.6;  // the same for poses found by search
-constexpr double kSearchShift = 0.2;    // part of the size of A, to each side
-constexpr int kSearchSteps = 10;        // to each side
-constexpr double kSearchTurn_deg = 2;   // in each step; five steps to each side
-// All other turns use fewer pixels and larger steps; only the best are fitted.
+constexpr std::size_t kForSearch = 1500, kForCourse = 50'000,
+                      kForFit = 250'000;  // numbers of pixels
+constexpr double kLeastOverlap = 0.1;   // least share of the pixels of A that have a counterpart in
+                                        // B
+constexpr double kSearchOverlap = 0.6;  // the same for a pose that the search finds
+constexpr double kSearchShift = 0.2;  // largest shift, relative to the size of A, in each direction
+constexpr int kSearchSteps = 10;  // number of shifts from 0 to the largest shift, in each direction
+constexpr double kSearchTurn_deg = 2;  // step of the turn; five steps in each direction
+// The search over all other turns uses fewer pixels and larger steps. It fits only the best poses.
 constexpr std::size_t kForTurns = 400;
-constexpr int kTurnSteps = 4;  // for the shift, to each side
+constexpr int kTurnSteps = 4;  // number of shifts from 0 to the largest shift, in each direction
 constexpr double kTurnStep_deg = 5;
 constexpr std::size_t kTurnsFitted = 6;
-constexpr double kAlike = 5e-3;  // part of the mean size of A: below it no search is needed
+constexpr double kAlike = 5e-3;  // relative to the mean absolute height of A: no search if the
+                                 // residual is smaller
 constexpr double kPlaceResidualLimit =
-    4;  // times the mean size of A: limit of the residual of one place
-// A pose found by search must leave less than this part of the first residual, and of the mean size
-// of A.
+    4;  // times the mean absolute height of A: a larger residual of one place enters as this limit
+// The residual at a pose that the search finds must be less than this factor times the first
+// residual, and less than this factor times the mean absolute height of A.
 constexpr double kMuchBetter = 0.5;
 
-// The best pose of a grid of shifts and turns, with few pixels.
+// The pose with the smallest residual in a grid of shifts and turns.
 MapPose searched(const Places& a, const Surface& b) {
   MapPose best;
   double least = -1;
@@ -53,8 +56,8 @@ MapPose searched(const Places& a, const Surface& b) {
   return best;
 }
 
-// The best shift for each turn outside the grid of searched(), the best turn first: the part may
-// lie in the machine in another orientation.
+// The best shifts of the best turns outside the grid of searched(), the best turn first. These
+// turns occur if the part was measured in another orientation.
 std::vector<MapPose> turned_starts(const Places& a, const Surface& b) {
   std::vector<std::pair<double, MapPose>> starts;
   const double step_m = kSearchShift * a.size_m / kTurnSteps;
@@ -77,7 +80,7 @@ std::vector<MapPose> turned_starts(const Places& a, const Surface& b) {
   return poses;
 }
 
-// Registration of B to A. Poses are about the middle of A.
+// Finds the pose of B relative to A. Inside this class, all poses are about the middle of A.
 class Registration {
  public:
   Registration(const SurfaceMap& a, const SurfaceMap& b, const Surface& surface)
@@ -125,9 +128,10 @@ class Registration {
     return map;
   }
 
-  // Starts at pose 0, in the directions that the shape determines there. If the shape determines
-  // fewer directions at the end, the fit starts again in these directions; if it determines more,
-  // the fit continues from there.
+  // Fits from shift and turn 0, in the directions that the shape determines there. If the shape
+  // determines fewer directions at the fitted pose, the fit starts again from shift and turn 0 in
+  // the fewer directions. If the shape determines more directions there, the fit continues from the
+  // fitted pose in these directions.
   MapPose fitted_at_rest() const {
     MapPose pose;
     Eigen::MatrixXd directions = evidence_.determined(b_, pose);
@@ -148,7 +152,8 @@ class Registration {
   PoseFit fitted_at_search_places(const MapPose& start, const Eigen::MatrixXd& directions) const {
     return fitted_from(search_places_, b_, start, directions, pixel_m_, 30);
   }
-  // Fit from another start; directions that the shape does not determine at its end are taken as 0.
+  // Fits from another start. If the shape does not determine a direction at the fitted pose, the
+  // movement in this direction is set to 0 and the fit is repeated.
   PoseFit fitted_from_other_start(const MapPose& start) const {
     PoseFit fit = fitted_at_search_places(start, Eigen::MatrixXd::Identity(3, 3));
     const Eigen::MatrixXd directions = evidence_.determined(b_, fit.pose);
@@ -169,8 +174,9 @@ class Registration {
            j < static_cast<double>(flat_.ny) &&
            !std::isnan(flat_.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j)));
   }
-  // Places that are measured in both poses, and whose counterpart in one pose is measured in the
-  // other pose too. Otherwise a difference at the border of B would be ignored.
+  // Places that have a counterpart in B in both poses, where moreover the counterpart in pose `fit`
+  // belongs to a measured place of A in pose `other`. Without the second condition, a difference at
+  // the border of B would be ignored.
   std::vector<bool> common(const PoseFit& fit, const PoseFit& other) const {
     std::vector<bool> counts(fit.left_m.size());
     const Turn here(fit.pose.turn_rad), back(-other.pose.turn_rad);
@@ -194,8 +200,8 @@ class Registration {
     return mean_left(fit, counts, most_m_);
   }
 
-  // The forms of both maps may differ, so the pose must be much better, and must be so where both
-  // are measured.
+  // The forms of A and B may differ. Therefore the residual must be much smaller, also over the
+  // places that are common to both poses.
   bool is_much_better(const PoseFit& other, const PoseFit& fit) const {
     if (overlap(other) < kSearchOverlap) return false;
     const std::vector<bool> counts = measured(other);
@@ -210,7 +216,8 @@ class Registration {
            left(fit, counts).size_m <= kAlike * left(own_, counts).size_m;
   }
 
-  // True: a pose found elsewhere is much better.
+  // Searches other poses. Returns true, with the best pose in `fit`, if another pose is much
+  // better.
   bool search(PoseFit& fit) const {
     if (is_found(fit) || !evidence_.has_shape()) return false;
     bool is_elsewhere = false;
@@ -232,7 +239,7 @@ class Registration {
   SurfaceMap flat_;
   Places search_places_, fit_places_;
   ShapeEvidence evidence_;
-  PoseFit own_;  // A itself at `search_places_`
+  PoseFit own_;  // the heights of A at `search_places_`, as a residual
   double most_m_ = 0;
   std::size_t undetermined_ = 0;
   double residual_ratio_ = 1, moved_m_ = 0;

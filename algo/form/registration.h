@@ -22,23 +22,24 @@ struct MapPose {
 struct Comparison {
   SurfaceMap difference;  // B - A, over the pixels of A
   MapPose pose;
-  // Number of directions among shift x, shift y and turn that were taken as 0: the shape does not
-  // determine them (a sphere can turn, and be tilted instead of shifted), or the slopes of the two
-  // maps have nothing in common in them.
+  // Number of directions, among shift x, shift y and turn and their combinations, in which the
+  // movement of B is set to 0, because the maps do not determine it. Example: the turn of a sphere
+  // about its axis. Another example: a direction in which the slopes of the two maps are not
+  // correlated.
   std::size_t undetermined = 0;
-  // Mean size of the residual at common places, divided by the residual without a movement of B
-  // (piston and tilt removed in both); 1 without a movement.
+  // Mean absolute residual with the movement of B, divided by the mean absolute residual without
+  // it. Piston and tilt are removed in both cases. 1 if B is not moved.
   double residual_ratio = 1;
-  double moved_m = 0;          // upper bound of the displacement of a place of A by that movement
-  double pv_m = 0, rms_m = 0;  // rms about the mean
+  double moved_m = 0;          // upper bound of the displacement of any place of A by the movement
+  double pv_m = 0, rms_m = 0;  // of `difference`; rms_m about the mean
   std::size_t pixels = 0;
 };
 
-// Error bad_input: less than a tenth of A's pixels has a counterpart in B.
+// Error bad_input: less than a tenth of the pixels of A have a counterpart in B.
 Result<Comparison> compare(const SurfaceMap& a, const SurfaceMap& b, Register how);
 
-// B - A where both have pixels, with B interpolated between its pixels; nothing is removed. Error:
-// as compare().
+// B - A at the pixels of A, with B interpolated between its pixels. Piston and tilt are not
+// removed. Error: as compare().
 Result<SurfaceMap> difference(const SurfaceMap& a, const SurfaceMap& b);
 
 }  // namespace mdof::algo

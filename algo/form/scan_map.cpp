@@ -11,12 +11,13 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kLeastReach = 1.5, kFarthestReach = 6, kReachStep = 1.5;  // in pixels
-constexpr double kMostOneSided = 0.3;  // largest offset of the points' mean, relative to the reach
+constexpr double kMostOneSided = 0.3;  // largest distance of the points' mean from the pixel,
+                                       // relative to the radius
 constexpr double kRankTolerance = 0.02;
 constexpr int kParabolaTerms = 6, kLeastCells = 9;
 constexpr std::size_t kCellsPerPixel = 4;
 
-// Mean place and height of the points of a quarter of a pixel.
+// Number, mean place and mean height of the points in a square of a quarter of a pixel side.
 struct Cell {
   double n = 0, x = 0, y = 0, z = 0;
 };
@@ -42,8 +43,8 @@ class Cells {
         if (cell.n > 0) *sum /= cell.n;
   }
 
-  // Finds cells whose mean place is within the reach; x and y are relative to (x_m, y_m), in units
-  // of the reach.
+  // Finds the cells whose mean place is nearer to (x_m, y_m) than the radius reach_m. x and y of
+  // the found cells are relative to (x_m, y_m), in units of the radius.
   void around(double x_m, double y_m, double reach_m, std::vector<Cell>& found) const {
     found.clear();
     const std::size_t left = row(x_m - reach_m, x0_m_, nx_), right = row(x_m + reach_m, x0_m_, nx_);
@@ -77,10 +78,10 @@ bool is_one_sided(const std::vector<Cell>& cells) {
   return std::hypot(x, y) > kMostOneSided * static_cast<double>(cells.size());
 }
 
-// Fitted parabola at the middle of its points.
+// Height of the fitted parabola at the pixel.
 struct Fitted {
-  double z_m = SurfaceMap::kMissing;  // missing: the points do not determine it
-  double variance = 0;                // variance of z, for points of variance 1
+  double z_m = SurfaceMap::kMissing;  // missing if the points do not determine the parabola
+  double variance = 0;                // variance of z_m if each point has the variance 1
   // Sum of squares of the residuals, for the variance of one point, and its degrees of freedom.
   double squares = 0, freedom = 0;
 };
@@ -120,7 +121,8 @@ Fitted pixel_height(const Cells& cells, double x_m, double y_m, double pixel_m,
   return {};
 }
 
-// Pixels are at integer multiples, one beyond the points.
+// Range of the pixels in one direction. Pixels are at integer multiples of pixel_m, up to the first
+// multiple beyond the points.
 void set_range(const std::vector<double>& at_m, double pixel_m, double& from_m, double& count) {
   const auto [least, most] = std::minmax_element(at_m.begin(), at_m.end());
   const double first = std::floor(*least / pixel_m), last = std::ceil(*most / pixel_m);
@@ -128,7 +130,7 @@ void set_range(const std::vector<double>& at_m, double pixel_m, double& from_m, 
   count = last - first + 1;
 }
 
-// Removes outer rows and columns without a height, so that the map ends where the scan ends.
+// Removes the outer rows and columns that have no height.
 ScanMap without_empty_edges(ScanMap scan) {
   const SurfaceMap map = scan.map, u = scan.u;
   std::size_t left = map.nx, right = 0, low = map.ny, high = 0;

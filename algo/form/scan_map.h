@@ -14,17 +14,18 @@ struct ScanPoints {
 
 struct ScanMap {
   SurfaceMap map;
-  // Standard uncertainty of each height by noise that is independent from point to point, from the
-  // scatter about the parabolas. It does not include noise that neighbours have in common.
+  // Standard uncertainty of each height. It contains only noise that is independent from point to
+  // point, and is calculated from the scatter about the parabolas.
   SurfaceMap u;
-  double noise_m = 0;  // standard deviation of one point
+  double noise_m = 0;  // standard deviation of the noise of one point
 };
 
-// The height of a pixel is that of a parabola z(x, y) fitted by least squares to the points around
-// it. The radius is 1.5 to 6 pixels, the smallest that determines the parabola. A pixel with points
-// on one side only has no height. Points are first averaged over quarters of a pixel. Pixels are at
-// integer multiples of `pixel_m` from (0, 0); the outermost rows and columns have heights. Error:
-// no pixel has a height; more pixels than the limit of a map.
+// The height of a pixel is the height of a parabola z(x, y) that is fitted by least squares to the
+// points around the pixel, within the smallest radius from 1.5 to 6 pixels that determines the
+// parabola. A pixel with points on one side only has no height. The points are first averaged over
+// squares of a quarter of a pixel side. Pixels are at integer multiples of `pixel_m` from (0, 0).
+// Each outermost row and column contains a height. Errors: no pixel has a height; more pixels than
+// the limit.
 Result<ScanMap> scan_map(const ScanPoints& points, double pixel_m);
 
 }  // namespace mdof::algo

@@ -16,21 +16,24 @@ namespace {
 
 constexpr double kMostPoints = 1e10;
 constexpr double kContactConverged =
-    1e-6;  // last step of the iteration, relative to the tool's radius
+    1e-6;  // limit for the last change of the iteration, relative to the tool's radius
 constexpr int kMostSteps = 40;
 constexpr double kNoContact_m = -std::numeric_limits<double>::infinity();
-constexpr double kContactDifference_m = 1e-9;  // above the place that the iteration found
-constexpr double kBetweenPixels = 4;  // largest curvature between pixels relative to that at pixels
+constexpr double kContactDifference_m = 1e-9;  // a higher place counts only if it is higher by more
+                                               // than this
+constexpr double kBetweenPixels = 4;  // assumed ratio of the largest curvature between pixels to
+                                      // the largest curvature at pixels
 constexpr int kFewestPlaces = 64, kMostPlaces = 2000;
 
-// Eq. 9 over s in [0, L], with height and slope at both ends.
+// Eq. 9: cubic over s in [0, L], from the heights and slopes at both ends.
 double hermite(double s, double L, double z0, double slope0, double z1, double slope1) {
   const double t = s / L, u = 1 - t;
   return (1 + 2 * t) * u * u * z0 + (3 - 2 * t) * t * t * z1 +
          L * t * u * (u * slope0 - t * slope1);
 }
 
-// Largest second derivative along rows, columns and diagonals: curvature of the narrowest valley.
+// Largest second derivative along rows, columns and diagonals. It is the curvature of the narrowest
+// valley.
 double sharpest_valley_per_m(const SurfaceMap& map) {
   double sharpest = 0;
   const auto nx = static_cast<std::ptrdiff_t>(map.nx), ny = static_cast<std::ptrdiff_t>(map.ny);
@@ -49,8 +52,8 @@ double sharpest_valley_per_m(const SurfaceMap& map) {
   return sharpest;
 }
 
-// The offset with |off| < r and the largest height(off): the best of equally spaced places, refined
-// between its neighbours.
+// The offset with the largest height(offset) for |offset| < r. Takes the best of equally spaced
+// offsets, and refines it by a ternary search between its two neighbours.
 template <class Height>
 double highest(const Height& height, double r, int places) {
   const double step = 2 * r / (places + 1);
@@ -97,10 +100,10 @@ Result<SpiralPath> SpiralPath::over(const SurfaceMap& map, const SpiralRequest& 
                     plain_number(kMostPoints) +
                     "); use a smaller radius, a larger feed or fewer points per turn");
   SpiralPath path(map, request);
-  // A radius of a whole number of turns ends in the centre, in spite of rounding.
+  // If the radius is an integer multiple of the feed, the path ends in the centre. The small
+  // numbers compensate rounding.
   path.points_ = static_cast<std::size_t>(std::floor(steps * (1 + 1e-12) + 1e-9)) + 1;
-  // The first point on the part is not stored: each() searches for it again, which costs little
-  // near the edge.
+  // Checks only that a point with contact exists. each() finds this point again.
   Touch found;
   for (std::size_t k = 0; k < path.points_; ++k)
     if (path.touch(k, found)) return path;
@@ -126,10 +129,10 @@ bool SpiralPath::at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part
   return request_.extend_pixels > 0 && surface_.at(x_m, y_m, request_.extend_pixels, point);
 }
 
-// In the plane of rho and z: the circle of the tool's edge touches the surface at the distance d
-// from the tool's lowest point, where the slope is d / sqrt(r^2 - d^2); z is the height of the
-// lowest point. If the surface is curved more than the tool, there are several such places. The
-// highest of them stops the tool.
+// Calculates z, the height of the tool's lowest point, in the plane of rho and z. The circle of the
+// tool's edge touches the surface where the slope is d / sqrt(r^2 - d^2); d is the distance from
+// the lowest point along rho. If the surface is curved more than the tool, several places have this
+// slope. The tool touches the place that gives the largest z.
 bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) const {
   const double r = request_.tool_radius_m;
   const auto surface_at = [&](double rho, SurfacePoint& point, OnPart& on_part) {
@@ -164,7 +167,7 @@ bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) con
       found.is_too_sharp = true;
     }
   }
-  // The direction of the rotating path is perpendicular to rho.
+  // The path is perpendicular to rho, except for the small feed.
   found.along = point.slope_y * cos - point.slope_x * sin;
   return true;
 }
@@ -175,7 +178,8 @@ bool SpiralPath::touch(std::size_t index, Touch& found) const {
   return contact(rho_m(index), cos_[k], sin_[k], found);
 }
 
-// Length in the projection onto the plane: rho dtheta, and the feed, which is small in comparison.
+// Length of the path in the XY plane. Combines the length around the centre (mean rho times angle)
+// and the change of rho.
 double SpiralPath::arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const {
   const double steps = static_cast<double>(to - from);
   const double angle = 2 * std::numbers::pi * steps / static_cast<double>(request_.points_per_turn);
@@ -186,11 +190,15 @@ double SpiralPath::arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const {
   return std::sqrt(around * around + across * across);
 }
 
-// Bridges points that are on no pixel, between two that are: Eq. 9 over their arc. A gap of more
-// than a turn goes to the mean of both heights within half a turn and stays there, because a slope
-// would carry a cubic of that length far away. A gap at the end of the path keeps the height before
-// it. For a gap at the beginning, the end of the first turn is used as the height before it, as if
-// a turn with the same radius preceded it: a servo that held the first height would have to jump.
+// Path over a gap (successive points without contact), between the contact before and the contact
+// after the gap:
+// - Gap of at most one turn: the cubic of Eq. 9 over the arc of the gap.
+// - Longer gap: within half a turn, a cubic leads to the mean of both heights of the gap. The path
+//   keeps this mean until half a turn before the end of the gap. One cubic over the whole gap could
+//   have very large heights.
+// - Gap at the end of the path: keeps the height before the gap.
+// - Gap at the beginning of the path: the last contact of the first turn, one turn earlier, is the
+//   contact before the gap. A constant height would cause a jump after a turn.
 struct SpiralPath::Gap {
   const SpiralPath& path;
   bool has_before = false, has_after = false;
@@ -218,7 +226,8 @@ struct SpiralPath::Gap {
 
 void SpiralPath::find_touch_before(std::size_t first, Gap& gap) const {
   const std::size_t turn = request_.points_per_turn;
-  for (std::size_t k = std::min(turn, points_); k-- > first;)  // back from the end of the turn
+  for (std::size_t k = std::min(turn, points_); k-- > first;)  // from the end of the first turn
+                                                               // backwards
     if (touch(k, gap.before)) {
       gap.has_before = true;
       gap.before_at = static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(turn);
@@ -293,7 +302,7 @@ bool is_edge_missing(const SurfaceMap& map) {
 
 FeedRoughness feed_roughness(double tool_radius_m, double feed_m) {
   const double r = tool_radius_m, half = feed_m / 2;
-  if (!(r > half)) return {r, r};  // no arc is left between two turns
+  if (!(r > half)) return {r, r};  // the arcs of two turns do not intersect
   const double Rt = half * half / (r + std::sqrt(r * r - half * half));
   return {Rt, 4 * Rt / (9 * std::numbers::sqrt3)};
 }

@@ -1,7 +1,7 @@
-// The path of a fast tool servo over a map: a spiral from outside to inside, with the round tool in
-// contact with the surface, and with bridges over gaps outside the part. README.md has the
-// equations. SI, rad. Points are calculated one by one, so the memory does not grow with the length
-// of the path.
+// The path of a fast tool servo over a map: a spiral from outside to inside. The round tool touches
+// the surface. Where the surface has no heights, the path is a bridge between the heights before
+// and after. README.md has the equations. SI, rad. The points are calculated one by one and are not
+// stored.
 #pragma once
 
 #include <cstddef>
@@ -18,33 +18,33 @@ namespace mdof::algo {
 struct SpiralRequest {
   double x_centre_m = 0, y_centre_m = 0;  // axis of the spindle, in the coordinates of the map
   double outer_radius_m = 0;
-  double feed_m = 0;  // towards the centre, for each turn
+  double feed_m = 0;  // motion towards the centre in each turn
   std::size_t points_per_turn = 720;
   double tool_radius_m = 0;       // 0: a pointed tool
-  std::size_t extend_pixels = 3;  // extrapolation beyond the edge
+  std::size_t extend_pixels = 3;  // number of extrapolated pixels beyond the measured pixels
 };
 
 enum class OnPart : std::uint8_t { bridged = 0, measured = 1, extended = 2 };
 
 struct PathPoint {
   double rho_m = 0, z_m = 0;
-  std::size_t index = 0;  // number of turns times points per turn
+  std::size_t index = 0;  // number of points before this point
   OnPart on_part = OnPart::bridged;
 };
 
 struct SpiralCounts {
   std::size_t points = 0, measured = 0, extended = 0, bridged = 0;
-  std::size_t too_sharp = 0;  // the surface is sharper than the tool, so the tool touches elsewhere
+  std::size_t too_sharp = 0;  // points where the surface is curved more than the tool
 };
 
 class SpiralPath {
  public:
-  // Errors: no point of the spiral is on the part (it lies in holes, or the centre is elsewhere);
-  // more than 10^10 points.
+  // Errors: no point of the spiral is on a pixel with a height; more than 10^10 points.
   static Result<SpiralPath> over(const SurfaceMap& map, const SpiralRequest& request);
 
   std::size_t points() const { return points_; }
-  // Calls `take` for each point, from the outermost inwards; an error of `take` stops it.
+  // Calls `take` for each point, from the outermost point inwards. Stops if `take` returns an
+  // error, and returns this error.
   Result<SpiralCounts> each(const std::function<Status(const PathPoint&)>& take) const;
 
  private:
@@ -61,18 +61,19 @@ class SpiralPath {
   bool at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part) const;
   // Length of the path between two indices.
   double arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const;
-  // Searches the last contact before `first`, as if another turn preceded the first turn.
+  // Sets the height before a gap at the beginning of the path; `first` is the first point with
+  // contact. Uses the last contact of the first turn, one turn earlier.
   void find_touch_before(std::size_t first, Gap& gap) const;
 
   SpiralRequest request_;
   Surface surface_;
-  bool has_sharp_valleys_ = false;  // the surface is somewhere curved more than the tool
-  int places_ = 0;                  // places over the tool's width, to search the highest
+  bool has_sharp_valleys_ = false;  // the surface may be curved more than the tool somewhere
+  int places_ = 0;  // number of places over the tool's width where a contact is searched
   std::size_t points_ = 0;
-  std::vector<double> cos_, sin_;  // for the points of a turn
+  std::vector<double> cos_, sin_;  // of the angle of each point of a turn
 };
 
-// The middle of the measured part.
+// The middle of the smallest rectangle that contains all measured pixels.
 struct MapMiddle {
   double x_m = 0, y_m = 0;
 };
@@ -84,12 +85,12 @@ struct FarthestPixel {
 };
 FarthestPixel farthest_pixel(const SurfaceMap& map, double x_centre_m, double y_centre_m);
 
-// True: no pixel of the outermost rows and columns has a height, so the part may be larger than its
-// map.
+// True: no pixel of the outermost rows and columns has a height.
 bool is_edge_missing(const SurfaceMap& map);
 
-// Roughness that a round tool leaves between two turns: height and mean deviation of arcs of radius
-// r at the distance feed: Rt = r - sqrt(r^2 - feed^2 / 4), Ra = 4 Rt / (9 sqrt 3).
+// Roughness between two turns of the path of a round tool with radius r:
+//   Rt = r - sqrt(r^2 - feed^2 / 4)   height of the ridge between two arcs
+//   Ra = 4 Rt / (9 sqrt 3)            mean deviation
 struct FeedRoughness {
   double Rt_m = 0, Ra_m = 0;
 };

@@ -7,10 +7,11 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kForSlopes = 6;  // more rings, so that slopes at corners have their pixels
-constexpr double kOnPixel = 1e-9;      // in pixels: no neighbour contributes
-// Part of a pixel: a neighbour with a smaller contribution may be missing. Otherwise the rounding
-// of a movement would remove the outermost pixels.
+constexpr std::size_t kForSlopes = 6;  // additional rounds of extrapolation, for the pixels that
+                                       // slopes at corners use
+constexpr double kOnPixel = 1e-9;  // in pixels: a place this near to a pixel uses only that pixel
+// In pixels: a pixel may be missing if the place is nearer than this to its neighbour. Without this
+// tolerance, the rounding of a movement would remove the outermost pixels.
 constexpr double kLittle = 0.01;
 
 // Weights of the pixels -2 ... 3 of a row for the height at t in [0, 1] between pixels 0 and 1, and
@@ -19,7 +20,8 @@ struct Weights {
   std::array<double, 6> value{}, slope{};
 };
 
-// Hermite: h00 f0 + h10 d0 + h01 f1 + h11 d1 with d = (f-2 - 8 f-1 + 8 f1 - f2) / 12.
+// Adds the terms with derivatives of Hermite's cubic h00 f0 + h10 d0 + h01 f1 + h11 d1. The
+// derivative at pixel 0 is d0 = (f(-2) - 8 f(-1) + 8 f(1) - f(2)) / 12.
 void add_derivative(double at_0, double at_1, std::array<double, 6>& w) {
   constexpr std::array<double, 5> kFive = {{1. / 12, -8. / 12, 0, 8. / 12, -1. / 12}};
   for (std::size_t k = 0; k < 5; ++k) {
@@ -51,7 +53,8 @@ Weights two(double t) {
   return {{{0, 0, 1 - t, t, 0, 0}}, {{0, 0, -1, 1, 0, 0}}};
 }
 
-// Weights from the next pixel outwards, seen from the filled pixel.
+// Weights for the extrapolation from n = 1 ... 4 pixels: weights[n - 1], from the nearest pixel to
+// the farthest.
 constexpr std::array<std::array<double, 4>, 4> kLine = {
     {{{1, 0, 0, 0}}, {{2, -1, 0, 0}}, {{4. / 3, 1. / 3, -2. / 3, 0}}, {{1, 0.5, 0, -0.5}}}};
 constexpr std::array<std::array<double, 4>, 4> kParabola = {
@@ -85,7 +88,8 @@ void Surface::extend(std::size_t rings, Extension how) {
   const std::array<std::ptrdiff_t, 4> ways = {
       {1, -1, static_cast<std::ptrdiff_t>(nx_), -static_cast<std::ptrdiff_t>(nx_)}};
   std::vector<std::size_t> front, next;
-  // All missing pixels beside a measured one; in later rounds those beside the pixels filled last.
+  // The first round extrapolates the missing pixels beside a measured pixel. A later round
+  // extrapolates the missing pixels beside the pixels of the round before.
   for (std::size_t k = 3 * nx_; k + 3 * nx_ < z_m_.size(); ++k)
     if (ring_[k] == kNone)
       for (const auto way : ways)
@@ -167,7 +171,7 @@ bool Surface::at(double x_m, double y_m, std::size_t rings, SurfacePoint& point)
     return !std::isnan(value) && !std::isnan(slope_x) && !std::isnan(slope_y);
   };
   if (sum(six(tx), six(ty), 0, 5) || sum(four(tx), four(ty), 1, 4)) return true;
-  // Pixels that do not contribute at this place may be missing.
+  // Linear interpolation. A pixel with a negligible contribution may be missing.
   const auto pixel = [&](std::size_t a, std::size_t b, double otherwise) {
     const double found = z[(b + 2) * nx_ + a + 2];
     return std::isnan(found) ? otherwise : found;

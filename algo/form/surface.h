@@ -1,5 +1,5 @@
-// A height map as a smooth surface: heights and slopes between the pixels, and on extrapolated
-// pixels beyond the measured ones.
+// A height map as a smooth surface. It has heights and slopes between the pixels, and also on
+// extrapolated pixels beyond the measured pixels.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,12 @@
 
 namespace mdof::algo {
 
-// How a missing pixel gets its height from measured pixels beside it in its row or column. If
-// several sides have measured pixels, the mean is used.
+// How the height of a missing pixel is extrapolated along its row or column. If several sides have
+// measured pixels, the height is the mean of the extrapolations from the sides that have the most
+// pixels (at most 4).
 enum class Extension {
-  line,     // line through the last four pixels (least squares): little noise
-  parabola  // through the last three: interpolates at the edge as it does inside
+  line,     // least-squares line through the nearest four pixels: amplifies noise little
+  parabola  // parabola through the nearest three pixels, as smooth as the surface inside the map
 };
 
 struct SurfacePoint {
@@ -22,15 +23,17 @@ struct SurfacePoint {
 };
 
 // Cubic Hermite polynomials between the pixels. The slopes at the pixels are differences over five
-// pixels (fourth order). The surface and its slopes are continuous, and it is exact at the pixels.
-// If pixels are missing, the differences are over three pixels, or the interpolation is linear.
+// pixels (fourth order). The surface and its slopes are continuous, and the surface is exact at the
+// pixels. If pixels are missing, the differences are over three pixels, or the interpolation is
+// linear.
 class Surface {
  public:
   // Extends the map by `extension` pixels, and by a few more that are used for the slopes only.
   Surface(const SurfaceMap& map, std::size_t extension, Extension how);
 
-  // False: a pixel that contributes at this place is more than `rings` pixels away from a measured
-  // one (0: all contributing pixels must be measured).
+  // Calculates height and slopes at a place. Returns false if a pixel that contributes there was
+  // extrapolated in a later round than `rings`. With `rings` = 0, all contributing pixels must be
+  // measured.
   bool at(double x_m, double y_m, std::size_t rings, SurfacePoint& point) const;
 
  private:
@@ -39,7 +42,7 @@ class Surface {
   std::size_t nx_ = 0, ny_ = 0;
   double x0_m_ = 0, y0_m_ = 0, dx_m_ = 0, dy_m_ = 0;
   std::vector<double> z_m_;
-  std::vector<std::uint8_t> ring_;  // 0 measured, k: filled in round k, kNone
+  std::vector<std::uint8_t> ring_;  // 0: measured, k: extrapolated in round k, kNone: no height
 };
 
 }  // namespace mdof::algo

@@ -10,12 +10,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Relative to the largest height; smaller amplitudes count as 0.
+// Amplitudes that are smaller than this factor times the largest height are taken as 0.
 constexpr double kRounding = 1e-13;
 constexpr double kBendRemainder =
-    1.0 / 16;  // part of a bend between turns that its line leaves: 1 / 2 pi^2
+    1.0 / 16;  // relative to the change of slope between two turns: amplitude that remains after
+               // subtraction of the line (1 / (2 pi^2), rounded up)
 
-// The operator of the library tests for infinities first.
+// Faster than operator* of the standard library, which also handles infinities.
 Complex times(const Complex& a, const Complex& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
@@ -34,7 +35,7 @@ Dft::Dft(std::size_t n) : n_(n), out_(n) {
   room_.resize(factors_.empty() ? 1 : factors_.back());
 }
 
-// Transforms every stride-th value of `in`; n is the remaining length.
+// Transforms n values of `in`: every stride-th value.
 void Dft::step(const Complex* in, Complex* out, std::size_t n, std::size_t stride,
                std::size_t factor, bool inverse) const {
   if (n == 1) {
@@ -44,7 +45,7 @@ void Dft::step(const Complex* in, Complex* out, std::size_t n, std::size_t strid
   const std::size_t p = factors_[factor], m = n / p;
   for (std::size_t q = 0; q < p; ++q)
     step(in + q * stride, out + q * m, m, stride * p, factor + 1, inverse);
-  const auto root = [&](std::size_t k) {  // root of order n
+  const auto root = [&](std::size_t k) {  // k-th power of the n-th root of unity
     const Complex& w = root_[k % n * stride];
     return inverse ? Complex(w.real(), -w.imag()) : w;
   };

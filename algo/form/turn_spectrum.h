@@ -1,5 +1,5 @@
-// Harmonics of a path, turn by turn: the bandwidth that a servo needs, and the part that a slow
-// servo omits.
+// Harmonics of each turn of a path. They show which bandwidth a servo needs, and which motion a
+// slower servo does not make.
 #pragma once
 
 #include <complex>
@@ -8,12 +8,13 @@
 
 namespace mdof::algo {
 
-// Discrete Fourier transform of any length, by its prime factors (Cooley, Tukey, Mathematics of
-// Computation 19 (1965) 297). The same bits in every build.
+// Discrete Fourier transform of any length, calculated by the prime factors of the length (Cooley,
+// Tukey, Mathematics of Computation 19 (1965) 297). The results have the same bits in every build.
 class Dft {
  public:
   explicit Dft(std::size_t n);
-  // X[k] = sum of x[j] exp(-2 pi i j k / n); `inverse` with + and without 1 / n.
+  // X[k] = sum over j of x[j] exp(-2 pi i j k / n). `inverse`: with + in the exponent, not divided
+  // by n.
   void transform(std::vector<std::complex<double>>& x, bool inverse) const;
 
  private:
@@ -26,22 +27,25 @@ class Dft {
 };
 
 struct PassedBand {
-  double pv = 0, rms = 0;  // figures of the omitted part
+  double pv = 0, rms = 0;  // of the motion above the band
 };
 
 // Receives the heights of a path point by point.
 class TurnSpectrum {
  public:
-  // The omitted part is that above `band_harmonic`; if it is negative, there is no low pass.
+  // left_out() evaluates the harmonics above `band_harmonic`. If `band_harmonic` is negative,
+  // left_out() is 0.
   TurnSpectrum(std::size_t points_per_turn, double band_harmonic);
-  // Points of an incomplete last turn are ignored. The feed makes the end of a turn higher or lower
-  // than its start: the line from its start to the start of the next turn is subtracted.
+  // Ignores the points of an incomplete last turn. Because of the feed, the end of a turn has
+  // another height than its start. Therefore the line from the start of the turn to the start of
+  // the next turn is subtracted.
   void add(double z);
-  // Ends the path. A complete last turn without a next one gets the drift of the turn before.
+  // Ends the path. A complete last turn has no next turn; its line has the slope of the turn
+  // before.
   void finish();
 
-  // The largest harmonic whose amplitude in any turn is at least `share` of the largest amplitude
-  // of all harmonics and turns; 0: no motion.
+  // The highest harmonic whose amplitude in any turn is at least `share` times the largest
+  // amplitude of all harmonics and turns. 0: no motion.
   std::size_t undulations(double share) const;
   PassedBand left_out() const;
   std::size_t turns() const { return turns_; }
@@ -50,11 +54,12 @@ class TurnSpectrum {
   void finish_turn(double next);
   Dft dft_;
   double band_harmonic_;
-  std::vector<double> turn_, largest_;  // largest_[n]: amplitude of harmonic n over all turns
+  std::vector<double> turn_, largest_;  // largest_[n]: largest amplitude of harmonic n in any turn
   std::vector<std::complex<double>> work_;
   std::size_t turns_ = 0;
   double squares_ = 0, least_ = 0, most_ = 0, height_ = 0;
-  double change_ = 0;               // from the start of a turn to the start of the next
+  double change_ = 0;               // height of the start of the next turn minus height of the
+                                    // start of this turn
   double largest_change_step_ = 0;  // largest difference of `change_` between successive turns
 };
 

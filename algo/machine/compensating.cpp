@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kMostSteps = 50;
 constexpr double kConverged_m = 1e-12;
-// Axes nearer to parallel than this count as parallel: cos 90° is 6e-17, and places are rounded.
+// Linear axes with a smaller angle (rad) between them are treated as parallel. The places are not
+// exact: they are rounded, and the computed cos 90° is 6e-17.
 constexpr double kParallel = 1e-9;
 
 using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic>;
@@ -22,7 +23,8 @@ std::vector<std::size_t> linear_axes(const Machine& machine) {
   return directions;
 }
 
-// The nominal machine is linear in the commands of its linear axes.
+// Derivatives of the tool's place by the commands of the linear axes. The nominal place is linear
+// in these commands, so a difference over 1 m has no truncation error.
 Jacobian jacobian(const Machine& machine, const Command& at,
                   const std::vector<std::size_t>& directions) {
   Jacobian J(3, static_cast<Eigen::Index>(directions.size()));
@@ -35,8 +37,8 @@ Jacobian jacobian(const Machine& machine, const Command& at,
   return J;
 }
 
-// Motion of the nominal tool relative to the work by a command of 1 m while all rotary axes are at
-// 0. It has no rounding of a difference of places.
+// Motion of the nominal tool relative to the work by a command of 1 m, with all rotary axes at 0.
+// Exact, because it is not calculated as a difference of places.
 Eigen::Vector3d motion_by_command(const Machine& machine, std::size_t direction) {
   Command unit{};
   unit[direction] = 1;
@@ -54,7 +56,7 @@ char axis_of(const MachineFrame& frame) {
   return frame.kind == FrameKind::fixed ? '\0' : frame.id.front();
 }
 
-// Axes with an error that differs between the approaches.
+// Letters of the axes that have an error with different values for forward and reverse approach.
 std::string axes_by_approach(const Machine& machine) {
   std::string axes;
   for (const MachineFrame& frame : machine.frames) {

@@ -9,39 +9,44 @@ namespace mdof::algo {
 
 struct CompensatingCommand {
   Command command{};
-  Eigen::Vector3d residual_m;  // tool's point, by the full product, in the work's coordinates
-  Eigen::Vector3d angles_rad;  // remaining angles: linear axes turn nothing
+  Eigen::Vector3d residual_m;  // remaining error of the tool's point by the full product of the
+                               // frames, in the coordinates of the work
+  Eigen::Vector3d angles_rad;  // remaining angles of the tool; linear axes cannot correct angles
   int steps = 0;
-  bool converged = false;           // another step changes less than 1e-12 m
-  std::vector<std::string> beyond;  // as in ToolError, at the new command
+  bool converged = false;           // the last step changed the commands by less than 1e-12 m
+  std::vector<std::string> beyond;  // as ToolError::beyond, at `command`
 };
 
-// Fixed-point iteration over the linear axes, c ← c + J⁻¹ (wanted - reached), with J of the nominal
-// machine; rotary axes keep their commands. With fewer than three linear axes the residual contains
-// the directions that they cannot reach. The contraction factor is about the slope of the errors
-// over the travel, at most 1e-3 for machines. Error: the chain has no linear axis.
+// Corrects the commands c of the linear axes by the fixed-point iteration
+//   c ← c + J⁻¹ (wanted place - reached place),   J: Jacobian of the nominal machine
+// The commands of rotary axes do not change. With fewer than three linear axes, the residual
+// contains the directions that these axes cannot move. In each step the residual decreases by about
+// the slope of the errors over the travel, at most 1e-3 in machines. Error: the chain has no linear
+// axis.
 Result<CompensatingCommand> compensating_command(const Machine& machine, const Command& wanted,
                                                  MachineApproach approach);
 
-// The command at which the nominal tool is at `place_m` in the work's coordinates, measured from
-// its place when all commands are 0: place / s_k for an axis along X, Y or Z (s_k of
-// schema/rig/correction.h). The commands of rotary axes, and of axes that the chain does not have,
-// are 0.
+// The command at which the nominal tool is at `place_m`. The origin of `place_m` is the place of
+// the tool when all commands are 0; its directions are those of the work. For an axis along X, Y or
+// Z the command is place / s_k (s_k of schema/rig/correction.h). The commands of rotary axes, and
+// of axes that the chain does not have, are 0.
 Command command_at_place(const Machine& machine, const Eigen::Vector3d& place_m);
 
-// Directions of the work's coordinates (orthonormal columns) in which no linear axis moves the tool
-// while the rotary axes keep their positions: two axes are parallel there, or the chain has fewer
-// than three. Without columns the axes move the tool in all directions.
+// Directions (orthonormal columns, coordinates of the work) in which no linear axis can move the
+// tool while the rotary axes do not move. There are such directions if the chain has fewer than
+// three linear axes, or if two linear axes are parallel at this command. No column: the linear axes
+// can move the tool in all directions.
 Eigen::MatrixXd fixed_directions(const Machine& machine, const Command& command);
 
-// derivatives() with the place in the commands of X, Y, Z instead of the work's coordinates, whose
-// directions a rotary axis changes: the effect of a unit of each error on the correction, except
-// for its sign. 0 for an axis that the chain does not have.
+// Like derivatives(), but the first three components are the changes of the commands X, Y and Z
+// that have the same effect on the tool's place as one unit of the error. The correction of the
+// error is the opposite change. 0 for an axis that the chain does not have.
 std::vector<ErrorDerivative> command_derivatives(const Machine& machine, const Command& command);
 
-// Difference of the corrections of X, Y, Z between the approaches of the axes at a command, m. For
-// each axis it is forward minus reverse with the other axes at their means; the magnitudes are
-// added, because each axis may come from either side. First order in the errors.
+// Largest difference of the corrections of X, Y and Z between forward and reverse approach at a
+// command, m. For each axis, the correction is calculated for both approaches of this axis, with
+// the mean errors of the other axes. The absolute differences of all axes are added, because the
+// approaches of the axes are independent. First order in the errors.
 std::array<double, 3> command_reversal(const Machine& machine, const Command& command);
 
 }  // namespace mdof::algo

@@ -17,10 +17,11 @@ double value_at(const ErrorFunction& f, const TablePlace& place, MachineApproach
 
 using Matrix6 = Eigen::Matrix<double, kBodyErrors, kBodyErrors>;
 
-// Root of a covariance: L Lᵀ. A pivot that is only rounding counts as 0. No part exceeds the
-// remaining variance, in case rounding has made the matrix indefinite.
+// The lower triangle L with L Lᵀ = covariance (Cholesky's method). A pivot that is only rounding is
+// taken as 0. Each element is limited to the remaining variance, because rounding can make the
+// covariance indefinite.
 Matrix6 root_of(const Matrix6& covariance) {
-  constexpr double kNothing = 1e-12;  // relative to the variance
+  constexpr double kNothing = 1e-12;  // a pivot below this share of the variance is rounding
   Matrix6 L = Matrix6::Zero();
   const auto left = [&](Eigen::Index k, Eigen::Index q) {
     return covariance(k, k) - L.row(k).head(q).squaredNorm();
@@ -46,8 +47,9 @@ Matrix6 matrix_of(const Covariance6& covariance) {
   return matrix;
 }
 
-// The covariance between two positions: an interpolation whose standard deviations are linear. So
-// no correlation of two values makes the interpolated value less certain.
+// The covariance between two positions: the interpolated covariance, scaled so that the standard
+// deviations are linear between the positions. The interpolated error has at most this standard
+// deviation, whatever the correlation of the errors at the two positions is.
 Matrix6 between(const std::vector<Covariance6>& by_position, const TablePlace& place) {
   Matrix6 low = matrix_of(by_position[place.cell]);
   if (place.part == 0) return low;
@@ -76,7 +78,7 @@ SharedErrors shared_at(const ErrorCovariance& covariance, const TablePlace& plac
   return all;
 }
 
-// u of the error of the straight-line interpolation between two positions.
+// Standard uncertainty by the straight-line interpolation between two positions.
 double u_interpolation(const ErrorFunction& f, const TablePlace& place) {
   if (place.cell >= f.curvature.size() || place.part == 0 || place.part == 1) return 0;
   const double interval = f.position[place.cell + 1] - f.position[place.cell];
@@ -87,7 +89,7 @@ double squared(double x) {
   return x * x;
 }
 
-// u of the errors of the body, for FrameValues.
+// Sets the uncertainties of the errors of the body in `v`.
 void set_uncertainty(const MachineFrame& frame, double at, FrameValues& v) {
   const ErrorCovariance& known = frame.covariance;
   Matrix6 all = Matrix6::Zero(), noise = Matrix6::Zero();
@@ -111,7 +113,7 @@ void set_uncertainty(const MachineFrame& frame, double at, FrameValues& v) {
   v.noise_parts = root_of(noise);
 }
 
-// Rotation of the axis line; its angles are those of successive rotations.
+// Rotation of the axis line by its location errors EA0, EB0, EC0.
 Eigen::Matrix3d line_rotation(const FrameValues& v) {
   return tiny_rotation(v.location[3], v.location[4], v.location[5]);
 }

@@ -1,4 +1,4 @@
-// One frame of the chain: its motion, its errors, and their effect on a point (README.md).
+// Motion and errors of one frame of the chain, as the displacement of a point (README.md).
 #pragma once
 
 #include <array>
@@ -12,54 +12,59 @@ namespace mdof::algo {
 
 // Commands of X Y Z (m) and A B C (rad); 0 for an axis that the chain does not have.
 using Command = std::array<double, 6>;
-enum class MachineApproach { mean, forward, reverse };  // approach of all axes
+enum class MachineApproach { mean, forward, reverse };  // the same for all axes
 
 // Values of a frame's description at a command.
 struct FrameValues {
-  double travel = 0;                             // travel of the body along + of its axis, m or rad
+  double travel = 0;  // motion of the body in the + direction of its axis, m or rad
   std::array<double, kBodyErrors> error{};       // 0 where not measured
   std::array<double, kBodyErrors> location{};    // 0 where not measured
   std::array<double, kBodyErrors> u_location{};  // 0 where not declared
-  // u of the errors of the body as independent parts: element (k, q) is the effect of one standard
-  // uncertainty of part q on error k; lower triangle, diagonal if no errors are correlated. Between
-  // positions it is linear, and includes the error of the straight-line interpolation. `shared`:
-  // additional parts that other frames have too, by number.
+  // The uncertainty of the errors of the body, as a sum of independent parts. Element (k, q) is the
+  // effect of one standard uncertainty of part q on error k. The matrix is a lower triangle, and a
+  // diagonal if no errors are correlated. Between the positions of the tables, the standard
+  // uncertainty is linear, plus the uncertainty of the straight-line interpolation. Parts that
+  // several frames have in common are not in `u_parts`, but in `shared`: shared[p][k] is the effect
+  // of common part p on error k. A part has the same p in all frames.
   Eigen::Matrix<double, kBodyErrors, kBodyErrors> u_parts =
       Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
   std::vector<std::array<double, kBodyErrors>> shared;
-  // The same for the part that is independent from position to position of the axis.
+  // Like u_parts, for the noise only. The noise is independent from position to position of the
+  // axis.
   Eigen::Matrix<double, kBodyErrors, kBodyErrors> noise_parts =
       Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
-  std::array<bool, kBodyErrors> beyond{};  // as in TablePlace
+  std::array<bool, kBodyErrors> beyond{};  // the command is beyond the table of the error; see
+                                           // TablePlace
 };
 FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach);
 std::vector<FrameValues> values_at(const Machine& machine, const Command& command,
                                    MachineApproach approach);
 
-// A position outside a table by less than this part of the last interval counts as its end, because
-// a stop deviates as much from its target.
+// A command can be outside a table by this share of the last interval and is still treated as the
+// end of the table. Measured stops deviate from their targets by about this share.
 constexpr double kEndTolerance = 0.02;
 
-// Place of a command in a table of an error: the position below it, and the part of the way to the
-// next one.
+// Place of a command in the table of an error: index `cell` of the position below the command, and
+// the share `part` (0 to 1) of the interval to the next position.
 struct TablePlace {
   std::size_t cell = 0;
   double part = 0;
-  bool beyond = false;  // outside by more than kEndTolerance
+  bool beyond = false;  // the command is outside the table by more than kEndTolerance
 };
 TablePlace place_of(const std::vector<double>& position, double at);
 // Linear interpolation between two values; 0 without values.
 double value_at(const std::vector<double>& values, const TablePlace& place);
 
 double command_of(const MachineFrame& frame, const Command& command);
-// Travel of the frame's body along + of its axis.
+// Motion of the frame's body in the + direction of its axis, m or rad.
 double travel_of(const MachineFrame& frame, const Command& command);
 
 Pose nominal_pose(const MachineFrame& frame, double travel);
-// The true displacement of the frame's body: the motion along the true line of the axis, then the
-// body's errors, stated at holding_point().
+// The actual displacement of the frame's body: first the motion along the actual axis line, then
+// the errors of the body. The translations of the errors are stated at holding_point().
 Pose actual_pose(const MachineFrame& frame, const FrameValues& values);
-// The point at which the errors of the body are stated, at this travel.
+// The point at which the translations of the body's errors are stated, after this travel (Q in
+// README.md).
 Eigen::Vector3d holding_point(const MachineFrame& frame, double travel);
 
 }  // namespace mdof::algo

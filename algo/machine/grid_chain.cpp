@@ -8,7 +8,7 @@
 namespace mdof::algo {
 namespace {
 
-// Part of the largest variance; smaller values are rounding of a parabola.
+// Relative to the largest variance of a parabola: smaller values are rounding.
 constexpr double kParabolaRounding = 2e-15;
 
 bool moves_along(const MachineFrame& frame, std::size_t direction) {
@@ -17,7 +17,7 @@ bool moves_along(const MachineFrame& frame, std::size_t direction) {
   return frame.kind == FrameKind::linear && frame.id[0] == axis;
 }
 
-// Coordinates from -1 at the start of a range to 1 at its end.
+// Coordinate of each command: -1 at the start of the range, 1 at its end.
 std::vector<double> parts_of_range(const std::vector<double>& range) {
   std::vector<double> parts;
   const double middle = (range.front() + range.back()) / 2, half = range.back() - middle;
@@ -90,13 +90,15 @@ void GridErrors::add_frame(const MachineFrame& frame, const GridPlan& plan) {
 GridErrors::GridErrors(const Machine& machine, const GridPlan& plan)
     : actual_{vector_of(machine.tool_m), {}, 0, 0, {}},
       nominal_{vector_of(machine.tool_m), {}, 0, 0, {}} {
-  // From the tool to the bed, then from the bed to the work. The list of frames begins at the work.
+  // Adds first the frames from the tool to the bed, then the frames from the bed to the work. In
+  // Machine::frames the first frame is the frame next to the work.
   for (const bool of_work : {false, true})
     for (std::size_t i = machine.frames.size(); i-- > 0;)
       if (machine.frames[i].carries_work == of_work) add_frame(machine.frames[i], plan);
 }
 
-// Values of the frames that move with the first axis, or of all others.
+// Values of all frames, but only one group of frames keeps its uncertainties. of_first = true: the
+// frames that move with the first axis; false: all other frames.
 std::vector<FrameValues> GridVariances::values(const Command& command, bool of_first) const {
   auto all = values_at(machine_, command, plan_.approach);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -108,7 +110,7 @@ std::vector<FrameValues> GridVariances::values(const Command& command, bool of_f
   return all;
 }
 
-// Variance without the shared parts.
+// Variance of the tool's place, without the parts that several frames have in common.
 Eigen::Vector3d GridVariances::variance(const Command& command, bool of_first) const {
   auto alone = values(command, of_first);
   for (FrameValues& v : alone) v.shared.clear();

@@ -1,6 +1,6 @@
-// The chain over a grid of the commands of two linear axes. The effect of one axis on a point
-// depends on its own command only, so it is calculated once for each command and not for each
-// point.
+// Errors and uncertainties of the chain over a grid of commands of two linear axes. The
+// displacement by one axis depends only on the command of this axis. Therefore it is calculated
+// once for each command, and not once for each point of the grid.
 #pragma once
 
 #include <vector>
@@ -22,21 +22,24 @@ struct GridPlan {
 class GridErrors {
  public:
   GridErrors(const Machine& machine, const GridPlan& plan);
-  void begin_line(std::size_t j);  // line j of the second axis; call it before at()
+  void begin_line(std::size_t j);  // selects the points whose second command is second_m[j]; call
+                                   // it before at()
   Eigen::Vector3d at(std::size_t i) const { return actual_.at(i) - nominal_.at(i); }
 
  private:
   enum class Varies { nowhere, with_first, with_second };
-  // Neighbouring frames that vary with the same axis, or with none, are one displacement.
+  // Neighbouring frames whose displacements depend on the same axis, or on no axis, combined into
+  // one displacement.
   struct Segment {
     Varies varies = Varies::nowhere;
-    std::vector<Pose> poses;  // by command of that axis; one pose for Varies::nowhere
+    std::vector<Pose> poses;  // for each command of the axis; one pose for Varies::nowhere
   };
   struct Chain {
     Eigen::Vector3d tool;
-    std::vector<Segment> segments;  // in the order from the tool's point to the work
+    std::vector<Segment> segments;  // from the tool's point to the work
 
-    // The current line: its number, the tool's point after its first segments, and their number.
+    // For the current line j. The first `in_line` segments do not depend on the first axis; `begin`
+    // is the tool's point after these segments.
     std::size_t line = 0, in_line = 0;
     Eigen::Vector3d begin;
 
@@ -60,20 +63,21 @@ class GridErrors {
   Chain actual_, nominal_;
 };
 
-// Standard uncertainty of the tool's place, as in error_uncertainty(). The arm of a linear axis'
-// errors is linear in the other axis' command, so the variance by an axis is a polynomial of second
-// order in it. The effect of a part that frames share (frames.h) on the place is linear.
+// Standard uncertainty of the tool's place, as in error_uncertainty(). The lever arm of the errors
+// of one linear axis is linear in the command of the other axis. Therefore the variance by the
+// errors of one axis is a polynomial of second order in the command of the other axis. The effect
+// of a part that several frames have in common (frames.h) is linear in this command.
 class GridVariances {
  public:
   GridVariances(const Machine& machine, const GridPlan& plan);
-  void begin_line(std::size_t j);                            // call it before u_at()
+  void begin_line(std::size_t j);  // selects second_m[j]; call it before u_at()
   Eigen::Vector3d u_at(std::size_t i, std::size_t j) const;  // m; NaN: no u is declared
 
  private:
-  // Over a range as a coordinate from -1 to 1.
+  // Polynomials of a coordinate that is -1 at the start of the range of an axis and 1 at its end.
   struct Parabola {
     Eigen::Vector3d constant, linear, square;
-    double rounding = 0;  // smaller values are rounding
+    double rounding = 0;  // a smaller variance is only rounding
     Eigen::Vector3d at(double part) const { return constant + part * (linear + part * square); }
   };
   struct Line {
@@ -92,9 +96,10 @@ class GridVariances {
   const GridPlan& plan_;
   std::vector<double> first_part_, second_part_;
   std::vector<Parabola>
-      first_axis_variances_;  // by frames that move with the first axis, along the second
-  Parabola line_variance_;    // by all others, along the first axis
-  std::size_t shared_ = 0;    // number of parts that frames share
+      first_axis_variances_;  // for each command of the first axis: variance by the frames that
+                              // move with the first axis, as a function of the second command
+  Parabola line_variance_;    // variance by all other frames, as a function of the first command
+  std::size_t shared_ = 0;    // number of parts that several frames have in common
   std::vector<std::vector<Line>> first_axis_shared_;
   std::vector<Line> line_shared_;
 };

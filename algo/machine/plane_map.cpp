@@ -37,8 +37,9 @@ void add_points(const Machine& machine, const PlaneMapRequest& request, PlaneMap
   map.extremes = extremes.found();
 }
 
-// A derivative is linear in the commands of two linear axes, so a derivative that is not 0
-// somewhere is not 0 at a corner. A command beyond a table is also found at a corner.
+// Collects names at the four corners only. This is sufficient for derivatives: they are linear in
+// the commands of the two axes, so a derivative that is 0 at all corners is 0 everywhere. It is
+// also sufficient for commands beyond a table: the corners have the smallest and largest commands.
 void add_names(const Machine& machine, const PlaneMapRequest& request, PlaneMap& map) {
   Command command = request.others;
   for (const double b : {map.second_m.front(), map.second_m.back()})
@@ -60,7 +61,7 @@ std::vector<double> steps_over(const std::array<double, 2>& range, double step_m
   const double count = std::max(1.0, std::round((range[1] - range[0]) / step_m));
   std::vector<double> at;
   for (double i = 0; i <= count; ++i) at.push_back(range[0] + (range[1] - range[0]) * i / count);
-  at.back() = range[1];  // removes rounding beyond the range
+  at.back() = range[1];  // exactly the end of the range, without rounding
   return at;
 }
 

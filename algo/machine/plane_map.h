@@ -9,16 +9,16 @@
 namespace mdof::algo {
 
 struct PlanePoint {
-  Eigen::Vector3d error, u;  // at the tool's place, m; u: NaN if no error has one
+  Eigen::Vector3d error, u;  // of the tool's place, m; u is NaN if no error has a declared u
 };
 
-// The largest magnitude of a component of the error, with its sign and its u, and the range of the
-// component (largest minus smallest).
+// Largest value of one component of the error by magnitude, with its sign, its u and the number of
+// its point. `range` is the largest minus the smallest value of the component.
 struct MapExtreme {
   std::size_t point = 0;
   double value = 0, u = 0, range = 0;
 };
-// Extremes of x, y, z over points that are added one after the other.
+// Finds the extremes of x, y and z over all points that are added.
 class MapExtremes {
  public:
   void add(const PlanePoint& point);
@@ -35,20 +35,21 @@ class MapExtremes {
 struct PlaneMap {
   std::size_t first = 0, second = 1;  // directions of the two axes
   std::vector<double> first_m, second_m;
-  std::vector<PlanePoint> points;  // the first axis varies fastest; empty with extremes_only
+  std::vector<PlanePoint> points;  // the first axis varies fastest; empty if extremes_only
   std::array<MapExtreme, 3> extremes;
-  std::vector<std::string> not_measured, no_u, beyond;  // for the shown components, at any point
+  std::vector<std::string> not_measured, no_u, beyond;  // names of errors, as in ToolError, for x,
+                                                        // y and z at any point
 
   // Command of each axis at a point.
   double first_at(std::size_t point) const { return first_m[point % first_m.size()]; }
   double second_at(std::size_t point) const { return second_m[point / first_m.size()]; }
 };
 
-// Range of the axis' command: the range in the description, otherwise the common range of the axis'
-// tables. Error: neither is given.
+// Range of the command of the axis: the range in the machine file, or otherwise the common range of
+// the error tables of the axis. Error: the axis has neither.
 Result<std::array<double, 2>> range_of(const MachineFrame& frame);
 
-// Positions from end to end, in equal steps of about step_m, at least one step.
+// Positions over the whole range, in one or more equal steps of about step_m.
 std::vector<double> steps_over(const std::array<double, 2>& range, double step_m);
 
 struct PlaneMapRequest {
@@ -56,15 +57,16 @@ struct PlaneMapRequest {
   double step_m = 0.01;
   Command others{};  // commands of the other axes
   MachineApproach approach = MachineApproach::mean;
-  bool without_angles = false;  // only positions, straightness and squareness (Eq. 1 of Hwang)
-  bool extremes_only = false;   // storing a million points takes longer than calculating them
+  bool without_angles = false;  // use only position errors, straightness and squareness (Eq. 1 of
+                                // Hwang)
+  bool extremes_only = false;   // does not store the points
 };
-// As tool_error() at each point, to rounding (1e-16 m; u to 1e-9 of its largest value), in a time
-// that hardly depends on the chain (grid_chain.h). Error: an axis that the chain does not have; no
-// range; a million points or more.
+// Calculates error and u at each point as tool_error() does, but faster (grid_chain.h). The
+// rounding is 1e-16 m for the error, and 1e-9 of the largest u for u. Errors: an axis that the
+// chain does not have; an axis without a range; a million points or more.
 Result<PlaneMap> plane_map(const Machine& machine, const PlaneMapRequest& request);
 
-// Removes the errors that turn a body; squareness is kept.
+// Sets the angle errors of all bodies to 0. Keeps the squareness errors.
 Machine without_angles(Machine machine);
 
 }  // namespace mdof::algo

@@ -10,15 +10,14 @@ namespace {
 
 constexpr double kTurn_rad = 2 * std::numbers::pi;
 
-// asin of a small number: the root of sin(x) = s by Newton's method, which gains two orders or more
-// in each step.
+// asin of a small number: solves sin(x) = s by Newton's method.
 double small_asin(double s) {
   double x = s + s * s * s / 6;
   for (int i = 0; i < 4; ++i) x -= (tiny_sin(x) - s) / tiny_cos(x);
   return x;
 }
 
-// atan of a small quotient y / x.
+// atan(y / x), for a small quotient.
 double small_atan(double y, double x) {
   return small_asin(y / std::sqrt(x * x + y * y));
 }

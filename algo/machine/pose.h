@@ -1,4 +1,4 @@
-// Rigid displacements: x' = R x + p.
+// A rigid displacement moves a point x to R x + p.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,12 +19,11 @@ struct Pose {
 
 Eigen::Vector3d vector_of(const Vec3& v);
 
-// Rz(c) Ry(b) Rx(a) of the errors of a body, |angles| <= 0.1 rad.
+// Rz(c) Ry(b) Rx(a), for the angle errors of a body; |angles| <= 0.1 rad.
 Eigen::Matrix3d tiny_rotation(double a_rad, double b_rad, double c_rad);
-// Rotation of any size about X, Y, Z (0, 1, 2).
+// Rotation by any angle about the axis `direction`: 0 is X, 1 is Y, 2 is Z.
 Eigen::Matrix3d turn_about(std::size_t direction, double angle_rad);
-// The angles a, b, c of R = Rz(c) Ry(b) Rx(a), exact to rounding below 0.1 rad. To first order they
-// are the axial vector of R.
+// The angles a, b, c of R = Rz(c) Ry(b) Rx(a), exact to rounding if they are below 0.1 rad.
 Eigen::Vector3d small_angles_of(const Eigen::Matrix3d& R);
 
 }  // namespace mdof::algo

@@ -12,14 +12,14 @@ Motion operator*(double factor, const Motion& a) {
   return {factor * a.position, factor * a.velocity, factor * a.acceleration};
 }
 
-// f sin B and its derivatives.
+// Motion of the end of the arm: arm sin B and its time derivatives.
 Motion arm_end(double arm_m, const Motion& b) {
   const double s = std::sin(b.position), c = std::cos(b.position);
   return {arm_m * s, arm_m * c * b.velocity,
           arm_m * (c * b.acceleration - s * b.velocity * b.velocity)};
 }
 
-// B and its derivatives from f sin B = end.
+// Solves arm sin B = end for the angle B and its time derivatives.
 Result<Motion> arm_angle(double arm_m, const Motion& end) {
   const double s = end.position / arm_m;
   if (!(std::abs(s) < 1))

@@ -12,11 +12,11 @@
 namespace mdof::algo {
 
 struct CoPlanarDrive {
-  double tilt_rad = 0;  // between a screw and its sliding rod, in (0, π/2)
+  double tilt_rad = 0;  // angle between a screw and its sliding rod, between 0 and π/2
   double arm_m = 0;     // from the platform's centre to the rods that turn it
 };
 
-// Position, and its first and second derivative by time.
+// Position (m or rad) and its first and second time derivatives.
 struct Motion {
   double position = 0, velocity = 0, acceleration = 0;
 };
@@ -30,17 +30,18 @@ Result<ScrewMotion> screws_for(const CoPlanarDrive& drive, const PlatformMotion&
 // Error: screws A and C so far apart that sin B would reach 1.
 Result<PlatformMotion> platform_for(const CoPlanarDrive& drive, const ScrewMotion& screws);
 
-// Factor from a step or an error of a screw to the motion of the platform (X and Z), or of the
-// spindle seat (Y).
+// Motion of the platform (X and Z) or of the spindle seat (Y), divided by the motion of the screw.
 double platform_ratio(const CoPlanarDrive& drive);
 double spindle_ratio(const CoPlanarDrive& drive);
 
-// The rotation from `angle_rad` upwards by one step of the platform's edge (Eq. 5 and 6 of the
-// paper). Error: the arm cannot turn by the whole step.
+// The rotation of the platform, from `angle_rad` in the + direction, by one step of the screws (Eq.
+// 5 and 6 of the paper). Error: the arm cannot turn by the whole step.
 Result<double> rotation_step(const CoPlanarDrive& drive, double angle_rad, double screw_step_m);
 
-// Change of position at a travel of the platform, or of the spindle seat, by an error of the tilt
-// angle while the screw does not move: -X tan θ δθ; Y δθ / (sin θ cos θ).
+// Change of the position of the platform (X) or of the spindle seat (Y) by an error δθ of the tilt
+// angle θ, while the screw does not move. `travel_m` is X or Y:
+//   platform: -X tan θ δθ
+//   spindle seat: Y δθ / (sin θ cos θ)
 double platform_tilt_effect(const CoPlanarDrive& drive, double travel_m, double tilt_error_rad);
 double spindle_tilt_effect(const CoPlanarDrive& drive, double travel_m, double tilt_error_rad);
 

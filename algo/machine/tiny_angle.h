@@ -1,10 +1,10 @@
-// Sine and cosine of small angles, without Eigen: the vector kernels include it too.
+// Sine and cosine of small angles. Without Eigen, because the vector kernels include this header.
 #pragma once
 
 namespace mdof::algo {
 
-// Sine and cosine for |x| <= 0.1 rad, within 1 ulp, by additions and products only: the same bits
-// everywhere. V: double, or a vector of double.
+// Sine and cosine for |x| <= 0.1 rad, within 1 ulp. They use only additions and products, so the
+// result has the same bits on every processor. V: double, or a vector of double.
 template <class V>
 inline V tiny_sin(V x) {
   const V z = x * x;

@@ -13,8 +13,8 @@ double size_of(const std::array<double, kBodyErrors>& errors, std::size_t from) 
   return std::abs(errors[from]) + std::abs(errors[from + 1]) + std::abs(errors[from + 2]);
 }
 
-// Pose of the bodies between the bed and the work, or between the bed and the tool. `pose`: pose of
-// one frame.
+// Product of the poses of the frames from the bed to the work (of_work), or from the bed to the
+// tool. pose(i): pose of frame i.
 template <class PoseOf>
 Pose bodies(const Machine& machine, bool of_work, PoseOf pose) {
   Pose all;
@@ -35,8 +35,9 @@ Eigen::Vector3d unit(std::size_t k) {
   return Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k % 3));
 }
 
-// Effect of a unit of an error on a point whose place after the motion of the body is `at`:
-// displacement and rotation, before the bodies nearer to the bed move it.
+// Displacement and rotation of a point by one unit of an error of a body, without the motions of
+// the bodies nearer to the bed. In the functions below, `at` is the place of the point after the
+// motion of the body.
 struct Effect {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
 };
@@ -58,12 +59,12 @@ Effect effect_of_line(const MachineFrame& frame, std::size_t k, const Eigen::Vec
   return {about.cross(arm), about};
 }
 
-// The nominal machine: the tool's point after each frame, and the rotations of the frames nearer to
-// the bed.
+// Places and rotations of the nominal machine at a command.
 struct Walk {
-  std::vector<Eigen::Vector3d> at;     // by frame, after its own motion
-  std::vector<Eigen::Matrix3d> outer;  // rotations of the frames nearer to the bed
-  Eigen::Matrix3d to_work;             // from bed to work coordinates
+  std::vector<Eigen::Vector3d> at;  // at[i]: place of the tool's point after the motion of frame i
+  std::vector<Eigen::Matrix3d> outer;  // outer[i]: rotation by the frames between frame i and the
+                                       // bed
+  Eigen::Matrix3d to_work;  // rotation from the coordinates of the bed to those of the work
 };
 
 Walk walk(const Machine& machine, const Command& command) {
@@ -86,7 +87,7 @@ Walk walk(const Machine& machine, const Command& command) {
   Eigen::Vector3d point = vector_of(machine.tool_m);
   for (std::size_t i = n; i-- > 0;)
     if (!machine.frames[i].carries_work) w.at[i] = point = pose(i) * point;
-  point = work.inverse() * point;  // the point of the work at the tool
+  point = work.inverse() * point;  // the point of the work that is at the tool's point
   for (std::size_t i = 0; i < n; ++i)
     if (machine.frames[i].carries_work) w.at[i] = point = pose(i) * point;
   w.to_work = work.R.transpose();
@@ -101,7 +102,8 @@ bool has_u(const MachineFrame& frame, const ErrorDerivative& d) {
   return d.of_line ? frame.location[d.k].u.has_value() : !frame.error[d.k].u.empty();
 }
 
-// One of the two errors of a squareness is sufficient.
+// Two location errors describe one squareness. True: `d` is not missing, because the other error is
+// known, or is reported as missing instead.
 bool is_implied_by_other_squareness(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
   if (!d.of_line || frame.kind != FrameKind::linear || is_known(frame, d)) return false;
@@ -115,7 +117,7 @@ std::string name_of(const Machine& machine, const ErrorDerivative& d) {
   return d.of_line ? location_name(frame, d.k) : error_name(frame, d.k);
 }
 
-// For a fixed frame only the given errors count; no other error is missing.
+// True: the error should have been measured. Errors of fixed frames are optional.
 bool counts_as_missing(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
   return frame.kind != FrameKind::fixed && !is_known(frame, d) &&
@@ -145,7 +147,7 @@ void add_new(const std::vector<std::string>& names, std::vector<std::string>& to
 const MachineFrame* squareness_partner(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
   if (!d.of_line || frame.kind != FrameKind::linear) return nullptr;
-  const std::size_t other = 3 - frame.direction - d.k % 3;  // rotation k is about the third
+  const std::size_t other = 3 - frame.direction - d.k % 3;  // rotation k is about the third axis
   return machine.find(std::string(1, "XYZ"[other]));
 }
 
@@ -200,7 +202,8 @@ Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
 
 namespace {
 
-// Sums the squares by frame and by independent part of its body's errors.
+// Variance by the errors of the bodies: the sum of the squared effects of all independent parts of
+// all frames.
 Vector6 body_variance(const std::vector<ErrorDerivative>& derivatives,
                       const std::vector<FrameValues>& values) {
   std::vector<Eigen::Matrix<double, 6, kBodyErrors>> parts(
@@ -243,15 +246,15 @@ LinearBound linear_bound(const Machine& machine, const Command& command,
   for (std::size_t i = 0; i < machine.frames.size(); ++i) {
     const MachineFrame& frame = machine.frames[i];
     const FrameValues& v = values[i];
-    // A rotation or shift of a rotary axis' line counts twice, because the body goes there and
-    // back.
+    // Location errors of a rotary axis count twice. The body is displaced to the actual axis line,
+    // turned, and displaced back.
     const double twice = frame.kind == FrameKind::rotary ? 2 : 1;
     shifts += size_of(v.error, 0) + twice * size_of(v.location, 0);
     turns += size_of(v.error, 3) + twice * size_of(v.location, 3);
     arm = std::max(arm, (w.at[i] - holding_point(frame, v.travel)).norm());
     if (moves_along(frame)) arm = std::max(arm, std::abs(v.travel));
   }
-  const double more = 1 + 4 * turns;  // higher orders
+  const double more = 1 + 4 * turns;  // factor for the terms of higher order
   return {(2 * turns * shifts + 3 * turns * turns * arm) * more, turns * turns * more};
 }
 
@@ -266,7 +269,8 @@ ToolError tool_error(const Machine& machine, const Command& command, MachineAppr
                   {},
                   {}};
   name_missing_errors(machine, all, error);
-  for (std::size_t c = 0; c < 6; ++c)  // u stays 0 if all contributing errors are declared as 0
+  for (std::size_t c = 0; c < 6; ++c)  // u is 0, not NaN, if all contributing errors are declared
+                                       // with u = 0
     if (double& u = error.u[static_cast<Eigen::Index>(c)];
         u == 0 && !(error.no_u[c].empty() && error.not_measured[c].empty()))
       u = kNaN;

@@ -8,10 +8,10 @@
 namespace mdof::algo {
 namespace {
 
-// §7.9.2: u = c 10^l, where c is an integer with that many digits; the tolerance is half of 10^l.
-// Powers of ten are products, so they have the same bits everywhere.
+// Tolerance of §7.9.2: u = c 10^l, where c is an integer with `digits` digits. The tolerance is
+// 10^l / 2. Powers of ten are calculated as products, so they have the same bits on every computer.
 double tolerance_of(double u, int digits) {
-  double least = 1;  // least c: 10^(digits-1)
+  double least = 1;  // smallest c: 10^(digits-1)
   for (int i = 1; i < digits; ++i) least *= 10;
   if (!(u > 0) || !std::isfinite(u)) return 0;
   double unit = 1;
@@ -54,7 +54,7 @@ void AdaptiveRule::Spread::add(double x, bool is_first) {
   squares += (x - first) * (x - first);
 }
 
-// Twice the standard deviation of the average over h blocks, §7.9.4 g-h.
+// Twice the standard deviation of the mean over the blocks, §7.9.4 g-h.
 double AdaptiveRule::Spread::twice_s(std::uint64_t blocks) const {
   const auto h = static_cast<double>(blocks);
   const double about_mean = squares - sum * sum / h;

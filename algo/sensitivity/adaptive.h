@@ -1,6 +1,6 @@
 // Adaptive Monte Carlo, JCGM 101:2008 §7.9. Blocks of trials are added until the mean, the standard
 // uncertainty and both ends of the coverage interval of every output are stable within the
-// numerical tolerance. The rule depends only on the figures of the blocks, in the order of the
+// numerical tolerance. The decision depends only on the figures of the blocks, in the order of the
 // blocks.
 #pragma once
 
@@ -15,26 +15,27 @@
 
 namespace mdof::algo {
 
-// One output over the trials of one block: JCGM 101 §7.9.4 c-f, in the output's unit.
+// Figures of one output in one block: JCGM 101 §7.9.4 c-f, in the unit of the output.
 struct BlockFigures {
-  std::uint64_t n = 0;  // solved trials
+  std::uint64_t n = 0;  // number of solved trials
   double mean = 0, u = 0;
   double low = 0, high = 0;  // probabilistically symmetric coverage interval, §7.7
 };
 
-// Number of trials of a block of the rule: the least multiple of block_trials() that is at least
-// max(100 / (1 - coverage), 10^4), §7.9.4 b. Error: a coverage that needs more than 10^7, because
-// the values of a block are kept for sorting.
+// Number of trials of one block: the smallest multiple of block_trials(experiment) that is at least
+// 100 / (1 - coverage) (§7.9.4 b; block_trials(experiment) is at least 10^4). Error: a coverage
+// that needs more than 10^7 trials, because the values of a block are stored for sorting.
 Result<std::uint64_t> adaptive_block_trials(const Experiment& experiment, double coverage);
 
-// One element for each output, by sorting. StudyStatistics::add_block_with_figures() gives the same
-// figures.
+// Figures of one block by sorting, one element for each output.
+// StudyStatistics::add_block_with_figures() returns the same figures.
 std::vector<BlockFigures> block_figures(const Experiment& experiment, std::uint64_t first_trial,
                                         std::uint64_t trials, double coverage);
 
 struct AdaptiveTolerance {
-  int digits = 2;                          // significant digits of u; §7.9.2 gives the tolerance
-  std::map<std::string, double> absolute;  // replaces it for an output, by key, in its unit
+  int digits = 2;  // significant digits of u, from which §7.9.2 calculates the tolerance
+  std::map<std::string, double> absolute;  // tolerances that replace the calculated tolerance: key
+                                           // of the output, value in its unit
 };
 
 class AdaptiveRule {
@@ -43,32 +44,33 @@ class AdaptiveRule {
   static Result<AdaptiveRule> create(const std::vector<std::string>& outputs,
                                      const AdaptiveTolerance& tolerance);
 
-  // Adds the next block, one element for each output.
+  // Adds the figures of the next block, one element for each output.
   void add(const std::vector<BlockFigures>& block);
-  // True after at least two blocks, if every 2 s (§7.9.4 j) is below its tolerance.
+  // True after at least two blocks, if all values 2 s (§7.9.4 j) are below their tolerances.
   bool settled() const;
-  // The first output that has fewer than two values in a block: it never settles.
+  // The first output that has fewer than two solved trials in a block. Such an output never
+  // settles.
   std::optional<std::size_t> unsettled_output() const;
   std::uint64_t blocks() const { return blocks_; }
 
   struct Progress {
-    double worst = 0;       // the largest 2 s
-    double tolerance = 0;   // δ, the limit of worst, §7.9.2, from u so far
-    bool constant = false;  // all trials are equal: no digits to settle
+    double worst = 0;       // the largest 2 s of mean, u, low and high
+    double tolerance = 0;   // limit δ for `worst` (§7.9.2), from u of all blocks so far
+    bool constant = false;  // all trials are equal, so u is 0
     bool settled() const { return constant || worst < tolerance; }
   };
   // One element for each output; `worst` is infinite before the second block.
   std::vector<Progress> progress() const;
 
  private:
-  // Σ and Σ² of a figure relative to its first value.
+  // Sum and sum of squares over the blocks of a figure minus its value in the first block.
   struct Spread {
     double first = 0, sum = 0, squares = 0;
     void add(double x, bool is_first);
     double twice_s(std::uint64_t blocks) const;
   };
   struct Output {
-    double absolute = 0;  // 0: the tolerance follows from the digits
+    double absolute = 0;  // 0: the tolerance is calculated from the digits
     Spread mean, u, low, high;
     double square_sum = 0;       // Σ u²
     bool never_settles = false;  // a block had fewer than two solved trials

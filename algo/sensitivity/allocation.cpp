@@ -11,14 +11,15 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kChunk = 128;  // trials of one task: about a second for whole runs
-constexpr double kSettled = 5e-4;    // bisection ends at this part of the scale
+constexpr std::size_t kChunk = 128;  // number of trials of one task; they take about a second for
+                                     // whole runs
+constexpr double kSettled = 5e-4;    // the bisection ends at this relative accuracy of the scale
 constexpr double kLargest = 0x1p20, kSmallest = 0x1p-20;
 constexpr double kTwoSided95 = 1.95996398454005423552;
 constexpr std::size_t kFrontierPoints = 8;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// Counts the trials within the limit, for any scales of the quantities.
+// Counts the trials whose output is within the limit, for given scales of the quantities.
 class TrialsWithinLimit {
  public:
   TrialsWithinLimit(const ScalableExperiment& experiment, const PlannedAllocation& planned,
@@ -34,7 +35,9 @@ class TrialsWithinLimit {
       Columns out(experiment_.outputs().size(), n);
       experiment_.run_scaled(scale, first, 1, n, out.place());
       for (std::size_t j = 0; j < n; ++j)
-        if (std::abs(out.at(output_, j)) <= planned_.limit) ++within[c];  // NaN does not count
+        if (std::abs(out.at(output_, j)) <= planned_.limit)
+          ++within[c];  // NaN is not within the
+                        // limit
     });
     return std::accumulate(within.begin(), within.end(), std::uint64_t{0});
   }
@@ -46,15 +49,17 @@ class TrialsWithinLimit {
   const ForEach& for_each_;
 };
 
-// Finds the largest factor of some quantities by this count, the others at `base`. Stores the
-// counts, because the three searches of one tolerance use the same factors.
+// Finds the largest common factor of the quantities `which`, with the other quantities at the
+// scales `base`. Stores the counts, because the three searches for one tolerance use the same
+// factors.
 class FactorSearch {
  public:
   FactorSearch(const TrialsWithinLimit& within, std::vector<double> base,
                std::vector<std::size_t> which)
       : within_(within), base_(std::move(base)), which_(std::move(which)) {}
 
-  // The largest factor with at least `needed` trials within the limit; 0: no factor, infinite: any.
+  // The largest factor for which at least `needed` trials are within the limit. 0: no factor is
+  // small enough. Infinite: all factors are small enough.
   double largest(std::uint64_t needed) {
     if (count(0) < needed) return 0;
     double low = 1, high = 1;
@@ -93,7 +98,8 @@ class FactorSearch {
   std::map<double, std::uint64_t> known_;
 };
 
-// Numbers of trials within the limit: for the probability, and for its order-statistic bounds.
+// Necessary numbers of trials within the limit: for the probability (nominal), and for the two ends
+// of its sampling uncertainty (more, fewer).
 struct CountsNeeded {
   std::uint64_t nominal, more, fewer;
   CountsNeeded(std::uint64_t trials, double p) {
@@ -105,7 +111,7 @@ struct CountsNeeded {
   }
 };
 
-// A tolerance of size 0 (a constant 0) keeps this size for any factor.
+// factor * size. A tolerance of size 0 has size 0 also for an infinite factor.
 double times(double factor, double size) {
   return size == 0 ? 0 : factor * size;
 }

@@ -10,7 +10,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLeastEigenvalue = 1e-10;  // below it, rounding decides whether a factor exists
+constexpr double kLeastEigenvalue = 1e-10;  // with a smaller eigenvalue, rounding decides whether
+                                            // the factor exists
 
 tl::unexpected<Error> not_positive_definite(const PlannedCorrelation& group, double smallest) {
   std::array<char, 32> number{};

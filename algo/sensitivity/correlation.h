@@ -1,7 +1,7 @@
-// Correlated quantities by a Gaussian copula. The Cholesky factor of the correlation matrix mixes
-// independent normal scores; each quantity then takes the quantile of its own distribution at its
-// score. Normal quantities are jointly normal with exactly this correlation (JCGM 101 §6.4.8); for
-// other distributions the scores have this correlation.
+// Correlated quantities by a Gaussian copula. Independent normal scores are multiplied by the
+// Cholesky factor of the correlation matrix. The value of a quantity is the quantile of its
+// distribution at its score. Normal quantities have exactly this correlation (JCGM 101 §6.4.8). For
+// other distributions, the scores have this correlation.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace mdof::algo {
 
-// Lower triangular L, row-major, L Lᵀ = matrix. Error: a matrix that is not positive definite, with
-// its smallest eigenvalue.
+// Lower triangular matrix L, row-major, with L Lᵀ = matrix. Error: the matrix is not positive
+// definite; the message contains the smallest eigenvalue.
 Result<std::vector<double>> cholesky_factor(const PlannedCorrelation& group);
 
 }  // namespace mdof::algo

@@ -13,10 +13,11 @@ namespace {
 using Kind = Distribution::Kind;
 
 constexpr double kNodesPerScore = 256;
-constexpr double kLastScore = 8.5;  // above any 52-bit uniform number
+constexpr double kLastScore = 8.5;  // larger than the score of any uniform number with 52 bits
 
-// The quantile of t with the same upper tail as the normal score, by Newton's method on the
-// logarithm of the tail. The logarithm is nearly linear there, so any near start converges.
+// The quantile of t that has the same upper tail probability as the normal score. Newton's method
+// is applied to the logarithm of the tail probability, because this logarithm is nearly linear.
+// `start` must be near the quantile.
 double t_node(double score, double dof, double start) {
   const double tail = normal_cdf(-score);
   double x = start;
@@ -31,10 +32,10 @@ double t_node(double score, double dof, double start) {
 
 }  // namespace
 
-// t quantiles over the normal score, with their slope φ(score) / f(x). They are odd, so half are
-// stored.
+// Table of t quantiles x for normal scores >= 0, with the slopes φ(score) / f(x). For negative
+// scores the quantile is negative.
 struct QuantileFunction::StudentTable {
-  std::vector<double> x, slope;  // slope per node, not per score
+  std::vector<double> x, slope;  // slope: change of x from node to node
 
   explicit StudentTable(double dof) {
     const double h = 1 / kNodesPerScore;
@@ -104,7 +105,7 @@ double QuantileFunction::t_at_score(double score) const {
   return d_.centre + d_.spread * (score < 0 ? -x : x);
 }
 
-// JCGM 101 §6.4.4, each ramp (1 - β)/2 of the width.
+// JCGM 101 §6.4.4. The width of each ramp is (1 - β)/2 times the total width.
 double QuantileFunction::trapezoidal(double p) const {
   const double width = d_.high - d_.low, ramp = width * (1 - d_.beta) / 2;
   const double height = 2 / (width * (1 + d_.beta));

@@ -1,6 +1,6 @@
-// Quantile functions of the distributions of a plan (JCGM 101 §6.4). Every random number comes from
-// one uniform number by the inverse of the distribution function, so stratified, correlated and
-// exchanged (Sobol) numbers need no special case.
+// Quantile functions of the distributions of a plan (JCGM 101 §6.4). Every random number is
+// calculated from one uniform number by the inverse of the distribution function. Therefore
+// stratified, correlated and exchanged (Sobol) numbers need no special functions.
 #pragma once
 
 #include <memory>
@@ -10,20 +10,26 @@
 
 namespace mdof::algo {
 
-// Accuracy relative to the spread: 1e-15 for closed forms; for normal see gaussian(); for t 4e-9 of
-// the value (cubic interpolation between exact nodes at distances of 1/256 of a standard deviation
-// of the normal score). Empirical is exact: value r of n sorted values is the quantile at (r -
-// 1/2)/n, linear between them, constant beyond the ends.
+// Errors of the quantiles:
+//   closed formulas  1e-15 of the spread
+//   normal           as gaussian()
+//   t                4e-9 of the value; cubic interpolation between exact values, whose normal
+//     scores have a distance of 1/256
+//   empirical        exact: value r of n sorted values is the quantile at (r - 1/2)/n, linear
+//     between two values, constant beyond the first and last value
 class QuantileFunction {
  public:
   explicit QuantileFunction(const Distribution& distribution);
 
   double at(double p) const;  // p in (0, 1)
-  // At p = Φ(score), for correlated quantities. Normal and t do not calculate p.
+  // at(Φ(score)), for correlated quantities. For normal and t, p is not calculated.
   double at_score(double score) const;
 
-  // Size of a tolerance with this distribution: |value| of a constant, standard deviation, scale of
-  // t, the largest |value| of a limited distribution.
+  // Size of a tolerance with this distribution:
+  //   constant  |value|
+  //   normal    standard deviation
+  //   t         scale
+  //   limited   largest |value|
   double size() const;
 
  private:

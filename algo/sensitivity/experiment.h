@@ -1,5 +1,5 @@
-// One trial of a sensitivity study: from its number to its outputs, independent of other trials,
-// threads and the time.
+// The trials of a sensitivity study. The outputs of a trial depend only on its number, and not on
+// other trials, threads or the time.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace mdof::algo {
 
-// Results are also given in bins of this quantity with equal width, usually the travel. Trial i
-// draws the quantity from bin i % bins, uniformly within the bin: every bin gets the same number of
-// trials, and over all bins the quantity is uniform.
+// A quantity whose range is divided into bins of equal width, usually the travel. Results are also
+// calculated for each bin. Trial i draws the quantity from a uniform distribution in bin i % bins.
+// Therefore every bin has the same number of trials, and the quantity is uniform over its range.
 struct BinnedQuantity {
-  std::string key;          // "travel_mm"; "" with one bin: results without bins
+  std::string key;          // "travel_mm"; empty, with one bin, if results have no bins
   double from = 0, to = 0;  // in the unit of the key
   std::size_t bins = 1;
 };
@@ -28,19 +28,20 @@ class Experiment {
   virtual const BinnedQuantity& binned() const = 0;
 
   // Runs n trials: first, first + step, ... out[k][j] is output k of trial j; all outputs are NaN
-  // if the trial has no solution. The bits depend only on the experiment and the number of the
-  // trial. Any thread, several at once.
+  // if the trial has no solution. The bits of a trial depend only on the experiment and the number
+  // of the trial. Thread-safe.
   virtual void run(std::uint64_t first, std::uint64_t step, std::size_t n,
                    std::span<double* const> out) const = 0;
 };
 
-// An experiment that names the causes of its outputs, for variance-based indices.
+// An experiment with a list of the causes of its outputs, for variance-based indices.
 class CausalExperiment : public Experiment {
  public:
-  // The causes are independent of each other; a correlated group is one cause.
+  // Names of the causes. The causes are independent of each other; a group of correlated quantities
+  // is one cause.
   virtual const std::vector<std::string>& causes() const = 0;
-  // Like run(), but cause c takes its random numbers from a second, independent stream if second[c]
-  // is not 0. If all are 0, the bits are those of run().
+  // As run(), but cause c uses random numbers of a second, independent stream if second[c] is not
+  // 0. If all second[c] are 0, the results have the bits of run().
   virtual void run_mixed(std::span<const std::uint8_t> second, std::uint64_t first,
                          std::uint64_t step, std::size_t n, std::span<double* const> out) const = 0;
 };

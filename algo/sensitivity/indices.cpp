@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-// Ratio of sums over blocks, and its standard error from their residuals (Cochran, Sampling
-// Techniques, §6.4).
+// Ratio of two sums over blocks, and the standard error of this ratio from the residuals of the
+// blocks (Cochran, Sampling Techniques, §6.4).
 struct Ratio {
   double value = 0, se = kNotKnown;
 };
@@ -94,7 +94,7 @@ OutputIndices SobolSums::result_of(std::size_t output) const {
     s1 += sums[output].s1;
   }
   const double mean = n > 0 ? s1 / (2 * n) : 0;
-  // For each block, the variance of A and B about their common mean, times n.
+  // For each block: n times the variance of f_A and f_B together about `mean`.
   std::vector<double> variance;
   for (const auto& [block, sums] : blocks_) {
     const Sums& s = sums[output];

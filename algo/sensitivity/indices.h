@@ -1,6 +1,7 @@
 // Variance-based sensitivity (Sobol): the share of each cause in the variance of an output.
 //
-// f_A and f_B are two independent evaluations, f_ABi is f_A with cause i from B, c is a centre:
+// f_A and f_B are two independent evaluations, f_ABi is f_A with the numbers of cause i from B, c
+// is a constant near the mean:
 //   first order  S_i = mean((f_B - c)(f_ABi - f_A)) / V      (Saltelli et al., Comput. Phys.
 //                                                             Commun. 181 (2010), table 2 (b))
 //   total        T_i = mean((f_A - f_ABi)²) / 2V             (Jansen 1999, ibid. (f))
@@ -18,18 +19,20 @@
 
 namespace mdof::algo {
 
-// Sums of blocks of trials. The blocks are stored separately and added in their order, so the bits
-// are the same for any number of threads. Block b has the trials b * block_trials ...; each trial
-// costs 2 + causes evaluations. sum_block_trials() gives a good block length.
+// Sums over blocks of trials. The sums of each block are stored separately and are added in the
+// order of the blocks. Therefore the results have the same bits for any number of threads. Block b
+// begins with trial b * block_trials. Each trial needs 2 + number of causes evaluations. For
+// `block_trials` use sum_block_trials().
 class SobolSums {
  public:
-  // Runs the first block, at least 16 trials, to find the centres.
+  // Runs the first block, or 16 trials if this is more, to calculate the centres c.
   SobolSums(const CausalExperiment& experiment, std::uint64_t block_trials);
   void add_block(const CausalExperiment& experiment, std::uint64_t block);
-  void merge(const SobolSums& other);  // must be of the same experiment
+  void merge(const SobolSums& other);  // `other` must have the same experiment
   std::uint64_t blocks() const { return blocks_.size(); }
-  // Standard errors come from the scatter of the blocks, NaN for fewer than two. An output that
-  // does not vary has indices of 0. An output ignores trials that it could not solve.
+  // Standard errors are calculated from the scatter of the blocks; they are NaN for fewer than two
+  // blocks. If an output does not vary, its indices are 0. Trials without a solution of an output
+  // are ignored for this output.
   std::vector<OutputIndices> result() const;
 
  private:

@@ -71,8 +71,8 @@ Result<SmallAngleFixture> nominal_fixture(const SimulationOptions& o) {
   return make_small_angle_fixture(fixture);
 }
 
-// The paper's small rotation and offset of the fixture, at the point of each probe: z = 0 for the
-// top probes, y = h for the side probes.
+// Moves the probes by the small rotations and offsets of their unit, as in the paper. The place of
+// a probe has z = 0 for the top probes and y = h for the side probes.
 void install(const SimulationOptions& o, SimulationConstants& s) {
   const double theta_y = from_mrad(o.theta_y_mrad), theta_p = from_mrad(o.theta_p_mrad);
   const double theta_r = from_mrad(o.theta_r_mrad);
@@ -162,7 +162,7 @@ Result<SimulationTrial> simulation_trial(const SimulationOptions& options, std::
   }
   kernels_baseline().simulate(constants, trial, 1, 1, error, &draws);
   t.travel_mm = to_mm(t.travel_mm);
-  for (double& truth : t.truth) truth *= 1e6;  // m and rad to µm and µrad
+  for (double& truth : t.truth) truth *= 1e6;  // converts m to µm and rad to µrad
   return t;
 }
 

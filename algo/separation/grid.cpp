@@ -16,8 +16,8 @@ std::string in_mm(double m) {
 }
 
 struct Clusters {
-  std::vector<double> at;       // ascending means
-  std::vector<std::size_t> of;  // cluster of each value
+  std::vector<double> at;       // mean of each cluster, ascending
+  std::vector<std::size_t> of;  // index of the cluster of each value
 };
 
 Clusters clusters_of(const std::vector<double>& values, double match_m) {
@@ -40,7 +40,7 @@ Clusters clusters_of(const std::vector<double>& values, double match_m) {
   return found;
 }
 
-// Moves the positions onto equal steps and returns the step.
+// Rounds the positions to equal steps and returns the step.
 Result<double> snap_to_steps(std::vector<double>& position_m, double match_m) {
   double least = position_m[1] - position_m[0];
   for (std::size_t i = 1; i < position_m.size(); ++i)
@@ -60,8 +60,8 @@ Result<double> snap_to_steps(std::vector<double>& position_m, double match_m) {
   return step;
 }
 
-// Number of the step on the target's length, counted from the place at the first position without a
-// shift.
+// Place on the target as a number of steps. Step 0 is the place that an unshifted set-up measures
+// at the first position.
 Result<long> step_on_target(const ReadAt& at, const SetUp& set_up, std::size_t number,
                             const Grid& grid, double position_m, double match_m) {
   const double origin = place_on_target(at, {}, grid.position_m.front());
@@ -79,7 +79,7 @@ bool moved_along(const SetUp& set_up) {
   return set_up.shift_m != 0 || set_up.turn.end_for_end;
 }
 
-// Places on the target correspond one to one to the positions.
+// For set-ups without shift along the motion: each position has exactly one place on the target.
 void add_unshifted_places(const ReadAt& at, Grid& grid) {
   const std::size_t n = grid.position_m.size();
   for (const double x : grid.position_m) grid.place_m.push_back(place_on_target(at, {}, x));

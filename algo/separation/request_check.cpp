@@ -26,7 +26,7 @@ Status check_set_up(const SetUp& set_up, std::size_t number) {
   return {};
 }
 
-// True: all set-ups are the same, so nothing distinguishes them.
+// True: the target has the same pose in all set-ups.
 bool are_set_ups_identical(const SeparationRequest& request) {
   return std::all_of(request.set_ups.begin(), request.set_ups.end(), [&](const SetUp& s) {
     return std::abs(s.shift_m) <= request.match_m && !s.turn.end_for_end && s.turn.height_sign > 0;

@@ -12,11 +12,12 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAcrossPlane = 0.5;  // cosine
+constexpr double kAcrossPlane = 0.5;  // cosine of the angle between a plane's normal and the axis
+                                      // `normal`
 
-// The points with a probe's reading instead of the first named error, so that means and
-// uncertainties are calculated as for every other figure. `along`: direction of the reading, +1 or
-// -1.
+// Replaces the first named error of each point by the reading of one probe. Then means and
+// uncertainties are calculated by the usual functions. `along`: +1 if the probe measures in the +
+// direction of the axis `normal`, otherwise -1.
 std::vector<MeasuredPoint> with_reading(const Run& run, std::size_t probe, double along) {
   const MovingAxis moving = run.header.moving();
   const auto local = static_cast<std::size_t>(error_names(moving.axis)[0].local);
@@ -43,7 +44,7 @@ SetUp series_of(const Run& run, const std::vector<MeasuredPoint>& points, std::s
   return set_up;
 }
 
-// Changes at the targets if the local errors of the points change by `shifts`.
+// Changes of the means of one named error if the local errors of the points change by `shifts`.
 std::vector<double> at_targets(const TargetChanges& changes, const std::vector<Errors5>& shifts,
                                std::size_t named) {
   std::vector<double> at;
@@ -51,12 +52,13 @@ std::vector<double> at_targets(const TargetChanges& changes, const std::vector<E
   return at;
 }
 
-// Each part of a contributor is a separate quantity.
+// Text for DeclaredShift::common_as. Each part of a contributor is a separate quantity.
 std::string name_of_part(const Contributor& contributor, std::size_t part) {
   return contributor.common_as.empty() ? "" : contributor.common_as + " " + std::to_string(part);
 }
 
-// Declared uncertainties of the readings themselves, as in with_reading().
+// Changes of the readings of one probe, as in with_reading(), by the declared sensitivity and drift
+// of this probe.
 Result<std::vector<DeclaredShift>> declared_probe_shifts(const Run& run, const Rig& rig,
                                                          std::size_t probe, double along) {
   MDOF_TRY(const auto declared, contributors(rig, run));
@@ -107,7 +109,7 @@ SetUp error_series(const Run& run, std::size_t named) {
 
 Result<ProbeSeries> probe_series(const Run& run, const Rig& rig, const std::string& probe,
                                  Axis normal) {
-  constexpr double kAcross = 1e-6;  // 1.4 mrad
+  constexpr double kAcross = 1e-6;  // 1 - cosine of 1.4 mrad
   const auto index = rig.probe_index(probe);
   if (!index) {
     std::string ids;

@@ -1,4 +1,5 @@
-// A stored run as a set-up of a separation: means of both approaches at its targets.
+// Converts a stored run to a set-up of a separation. The readings of the set-up are the means of
+// both approaches at the targets of the run.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +13,24 @@
 
 namespace mdof::algo {
 
-// The error with index `named` in error_names(), at the point where the run states it, with u by
-// its noise and repeatability. The caller sets turn and shift.
+// Uses the error with index `named` in error_names(), stated at the point of the run. u contains
+// noise and repeatability. The caller sets turn and shift.
 SetUp error_series(const Run& run, std::size_t named);
 
-// Changes of that series by the uncertainties that the rig declares, except the flatness of planes
-// across `normal`: the separation determines this surface. Error: as contributors().
+// Changes of error_series() by the uncertainties that the rig declares. Does not include the
+// flatness of planes perpendicular to `normal`, because the separation determines this surface.
+// Error: as contributors().
 Result<std::vector<DeclaredShift>> declared_shifts(const Run& run, const Rig& rig,
                                                    std::size_t named, Axis normal);
 
-// The readings of one probe alone: the error of the moving body at the probe, without the surfaces
-// of other probes.
+// The readings of one probe as the error of the moving body at this probe. They do not depend on
+// the surfaces that other probes measure.
 struct ProbeSeries {
   SetUp set_up;
   Vec3 position_m{};  // position of the probe in M, machine axes
 };
-// The declared uncertainties are its sensitivity, and its drift since the start of the run. Errors:
-// the rig has no such probe; the probe does not measure along `normal`.
+// The declared uncertainties are the sensitivity of the probe and its drift since the start of the
+// run. Errors: the rig has no such probe; the probe does not measure along `normal`.
 Result<ProbeSeries> probe_series(const Run& run, const Rig& rig, const std::string& probe,
                                  Axis normal);
 

@@ -25,16 +25,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kMostUnknowns = 1000;  // takes some seconds
-// Coefficients are of the order of 1, and places are on an exact grid: singular values of
-// undetermined shapes are at the rounding, those of determined shapes far above this limit.
+constexpr std::size_t kMostUnknowns = 1000;  // the solution then takes some seconds
+// Limit for singular values. The coefficients are about 1 and the places are on an exact grid.
+// Therefore singular values of undetermined shapes are only rounding, and singular values of
+// determined shapes are much larger than this limit.
 constexpr double kSeenAbove = 1e-9;
 
 Index in(std::size_t i) {
   return static_cast<Index>(i);
 }
 
-// Columns: places of the machine, places of the target, then offset and slope of each set-up.
+// The equations A x = errors. Columns of A: places of the machine, places of the target, then
+// offset and slope of each set-up.
 struct Equations {
   Grid grid;
   MatrixXd A;
@@ -98,15 +100,16 @@ Equations equations_of(const SeparationRequest& request, Grid grid) {
   return e;
 }
 
-// Equal weights if u is unknown; a reading has at most 1e6 times the weight of another.
+// Square roots of the weights of the readings. All weights are equal if u is unknown. Otherwise the
+// largest weight is at most 1e6 times the smallest weight.
 VectorXd root_weights(const VectorXd& u) {
   if (!u.allFinite()) return VectorXd::Ones(u.size());
   return (u.minCoeff() / u.array()).max(1e-3);
 }
 
 struct Solution {
-  MatrixXd from_readings;  // unknowns = this times the readings
-  MatrixXd null;           // orthonormal shapes that no reading determines
+  MatrixXd from_readings;  // unknowns = from_readings * readings
+  MatrixXd null;  // orthonormal columns: combinations of unknowns that no reading determines
   Index rank = 0;
 };
 
@@ -116,7 +119,7 @@ Solution solve(const Equations& e) {
   return {fit.inverse() * w.asDiagonal(), fit.null_space(), fit.rank()};
 }
 
-// Orthonormal columns that span these rows of the null space.
+// Orthonormal columns that span `count` rows of the null space, starting at row `from`.
 MatrixXd unseen_part(const MatrixXd& null, Index from, Index count) {
   constexpr double kLeast = 1e-7;
   if (null.cols() == 0) return MatrixXd(count, 0);
@@ -125,7 +128,7 @@ MatrixXd unseen_part(const MatrixXd& null, Index from, Index count) {
   return svd.U.leftCols(rank);
 }
 
-// u of each reading for the u of the results, and its degrees of freedom.
+// u of each reading, with its degrees of freedom, from which u of the results is calculated.
 struct ReadingUncertainty {
   VectorXd u;
   double freedom = std::numeric_limits<double>::infinity();
@@ -156,9 +159,10 @@ DeterminedSeries seen_part(const Equations& e, const Solution& solution, Index f
   return series;
 }
 
-// χ² of all set-ups together: the minimum of ((errors - A x - declared q)/u)² + q² over the
-// unknowns and the declared quantities q, each with standard uncertainty 1. The fit has the weights
-// 1/u, so x is eliminated from the residuals of errors and declared.
+// χ² of all set-ups: the minimum over x and q of |(errors - A x - declared q)/u|² + |q|². q are the
+// declared quantities, each with the standard uncertainty 1. `left`: residuals of the errors after
+// the weighted fit. The columns of `declared` are replaced by their residuals in the same way. Then
+// only q is unknown.
 double chi_square_of(const Equations& e, const Solution& solution, const VectorXd& left) {
   const VectorXd weight = e.u.cwiseInverse();
   const VectorXd misfit = weight.asDiagonal() * left;
@@ -199,9 +203,10 @@ ReadingUncertainty judge(const Equations& e, const Solution& solution, Separatio
   return {VectorXd::Constant(e.u.size(), result.residual_m), static_cast<double>(freedom)};
 }
 
-// Shifts between two set-ups with the same height sign: a shape that repeats after such a shift is
-// hidden. If there are no such set-ups, a shape that changes its sign over the shift is hidden; it
-// repeats after twice the shift.
+// Distances after which a shape must repeat so that the set-ups cannot determine it. Two set-ups
+// with the same height sign hide a shape that repeats after the shift between them. If all shifted
+// set-ups have opposite height signs, they hide a shape that changes its sign after the shift. Such
+// a shape repeats after twice the shift.
 std::vector<double> hidden_shifts(const std::vector<SetUp>& set_ups, double step_m) {
   std::vector<double> alike, turned;
   for (const SetUp& a : set_ups)

@@ -1,4 +1,5 @@
-// Pose of the target in each measurement, and its effect on a reading (README.md derives it).
+// Pose of the target in each set-up, and the effect of the pose on a reading (derivation in
+// README.md).
 #pragma once
 
 #include <string>
@@ -11,16 +12,17 @@ namespace mdof::algo {
 
 // Effect of a half turn of the target on the measured surface.
 struct HalfTurn {
-  double height_sign = 1;  // -1: the surface faces the opposite direction, so hills read as valleys
-  bool end_for_end = false;  // the order along the motion is reversed
+  double height_sign = 1;  // -1: the surface faces the opposite direction, so the heights have the
+                           // opposite sign
+  bool end_for_end = false;  // true: the target's direction along the motion is reversed
 };
 
-// Half turn (180°) about a machine axis. `motion`: the axis that moves; `normal`: across the
-// surface, another axis.
+// Effect of a half turn (180°) about the machine axis `about`. `motion`: axis that moves. `normal`:
+// axis perpendicular to the surface, not `motion`.
 HalfTurn half_turn(Axis motion, Axis normal, Axis about);
 
-// The machine axis across this surface, whose + direction is that of heights and errors, and the
-// index of the error along it in error_names().
+// The machine axis perpendicular to the surface, and the index in error_names() of the error along
+// this axis. Heights and errors are positive in the + direction of the axis.
 struct AcrossSurface {
   Axis normal = Axis::y;
   std::size_t named = 0;
@@ -29,28 +31,30 @@ AcrossSurface across(Axis motion, Surface surface);
 
 // Change of each reading of a set-up by one standard uncertainty of a declared quantity.
 struct DeclaredShift {
-  std::string common_as;  // set-ups with the same text share the quantity; empty: not shared
+  std::string common_as;  // set-ups with the same text have the same quantity; empty: only this
+                          // set-up has it
   std::vector<double> shift_m;
 };
 
-// One measurement: errors of the moving body at positions of the encoder, and the target's pose.
+// Errors of the moving body at positions of the encoder, and the pose of the target.
 struct SetUp {
   std::vector<double> position_m, error_m;
-  std::vector<double> u_m;  // standard uncertainties; empty: not known
+  std::vector<double> u_m;  // standard uncertainties of error_m; empty: unknown
   std::vector<DeclaredShift> declared;
   HalfTurn turn;
-  // Zero of the target's own length, in C along the motion; in the first set-up it is the zero of
-  // C.
+  // Position in frame C, along the motion, of the zero of the target's length scale. 0 in the first
+  // set-up.
   double shift_m = 0;
 };
 
 // Place of the readings, common to all set-ups.
 struct ReadAt {
   Sides sides;
-  double place_m = 0;  // place of the probe in M along the motion
+  double place_m = 0;  // position of the probe in frame M along the motion
 };
 
-// The measured place on the target at this position of the encoder, in the target's own length.
+// The place on the target that is measured at this position of the encoder, on the target's length
+// scale.
 double place_on_target(const ReadAt& at, const SetUp& set_up, double position_m);
 
 }  // namespace mdof::algo

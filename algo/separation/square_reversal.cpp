@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// Part of u²: a smaller declared part is rounding.
+// Relative to u²: a smaller declared part is rounding.
 constexpr double kLeastPart = 1e-12;
 
 double declared(const Budget& b) {

@@ -15,15 +15,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNothing = 1e-6;  // relative to a shape of length 1
+constexpr double kNothing = 1e-6;  // a shorter remainder of a shape of length 1 is rounding
 
-// Orthonormal directions of the unseen shapes that already have a name.
+// Collects the unseen shapes that have a name, as an orthonormal basis.
 class Named {
  public:
   explicit Named(const MatrixXd& unseen) : unseen_(unseen), basis_(unseen.rows(), 0) {}
 
-  // Number of new directions of these shapes if all of them are unseen; 0: one is seen, or none is
-  // new.
+  // Adds `shapes` to the basis if all of them are unseen. Returns the number of new directions; 0
+  // if one of the shapes is not unseen, or if no direction is new.
   std::size_t take(const std::vector<VectorXd>& shapes) {
     MatrixXd fresh(unseen_.rows(), 0);
     for (VectorXd v : shapes) {
@@ -36,7 +36,7 @@ class Named {
     return static_cast<std::size_t>(fresh.cols());
   }
 
-  // Orthonormal directions of the unseen shapes without a name.
+  // The unseen shapes that have no name, as orthonormal columns.
   MatrixXd rest() const {
     MatrixXd rest(unseen_.rows(), 0);
     for (Index i = 0; i < unseen_.cols(); ++i)
@@ -45,7 +45,8 @@ class Named {
   }
 
  private:
-  // Twice, because Gram-Schmidt loses digits the first time.
+  // Removes the components along `basis` from `v`. The second removal corrects the rounding of the
+  // first one (Gram-Schmidt).
   static VectorXd less(const VectorXd& v, const MatrixXd& basis) {
     const VectorXd once = v - basis * (basis.transpose() * v);
     return once - basis * (basis.transpose() * once);
@@ -60,7 +61,7 @@ class Named {
   MatrixXd basis_;
 };
 
-// The places, scaled to -1 ... 1.
+// The places, converted to -1 ... 1.
 VectorXd scaled(const std::vector<double>& places_m) {
   const double middle = (places_m.front() + places_m.back()) / 2;
   const double half = std::max((places_m.back() - places_m.front()) / 2, 1e-12);
@@ -84,7 +85,8 @@ std::string mm_text(double m) {
   return plain_number(to_mm(m), 7) + " mm";
 }
 
-// +1, -1: all columns are symmetric or antisymmetric about the middle of the places; 0: neither.
+// +1 if all columns are symmetric about the middle of the places, -1 if all are antisymmetric;
+// otherwise 0.
 int symmetry(const std::vector<double>& places_m, const MatrixXd& shapes) {
   const std::size_t n = places_m.size();
   const double sum = places_m.front() + places_m.back();

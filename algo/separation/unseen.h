@@ -1,4 +1,4 @@
-// Names of the shapes of a series that no reading determines.
+// Describes the shapes of a series that the readings do not determine.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,15 +8,15 @@
 
 namespace mdof::algo {
 
-// `unseen`: orthonormal columns, one row for each place. The names are tried in this order: offset,
-// slope, parabola, the periods `periods_m`. The name of the rest is its symmetry about the middle,
-// or its range of places.
+// `unseen`: the undetermined shapes as orthonormal columns, one row for each place. Names are given
+// in this order: offset, slope, parabola, the periods `periods_m`. The remaining shapes are
+// described together, by their symmetry about the middle or by their range of places.
 std::vector<UndeterminedShape> named_shapes(const std::vector<double>& places_m,
                                             const Eigen::MatrixXd& unseen,
                                             const std::vector<double>& periods_m);
 
-// Periods that may be hidden if a shape repeats after each of these distances: s, s/2, s/3 ... down
-// to two steps, with their greatest common divisor s.
+// Periods of shapes that repeat after each of the distances `ways_m`: s, s/2, s/3 ... down to two
+// steps. s is the greatest common divisor of the distances.
 std::vector<double> hidden_periods(const std::vector<double>& ways_m, double step_m,
                                    double match_m);
 

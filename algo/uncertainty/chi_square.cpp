@@ -16,9 +16,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLinearity = 1e-4;   // relative to the range
+constexpr double kLinearity = 1e-4;   // relative to the range of the probe
 constexpr double kLever_m = 0.02;     // converts an angle to a length
-constexpr double kLeastPart = 1e-11;  // relative to the largest variance; less is rounding
+constexpr double kLeastPart = 1e-11;  // relative to the largest variance: a smaller variance is
+                                      // rounding
 
 bool flagged(const MeasuredPoint& p) {
   return has_flag(p.point, Flag::residual);
@@ -105,8 +106,8 @@ void Residuals::test(MeasuredPoint& p) const {
   if (!explained(p, point.probe_m, p.errors)) add_flag(p.point, Flag::residual);
 }
 
-// Tests noise and linearity alone first, which costs little. If they do not explain the readings,
-// the declared uncertainties are included.
+// Tests first with noise and linearity only, which is fast. If they do not explain the residuals,
+// tests again with the declared uncertainties included.
 bool Residuals::explained(const MeasuredPoint& p, const std::vector<double>& readings_m,
                           const AxisErrors& errors) const {
   const double travel_m = sides_.target_travel_m(p.point.position_m);
@@ -120,9 +121,10 @@ bool Residuals::explained(const MeasuredPoint& p, const std::vector<double>& rea
   return agreement(solver_, travel_m, readings_m, covariance, errors).explained();
 }
 
-// Infinite if the other readings contradict each other too. Otherwise the mean square distance of
-// the errors from those of the unflagged points of the same target. The distance selects among
-// several probes if the readings agree without any one of them.
+// Measure of how well the readings agree without `probe`. Infinite if the other readings do not
+// agree. Otherwise the mean square distance between the errors without `probe` and the errors of
+// the unflagged points of the same target. This distance is needed if the readings agree without
+// any one of several probes.
 double Residuals::misfit_without(std::size_t probe, const MeasuredPoint& p,
                                  const std::vector<MeasuredPoint>& all) const {
   const double travel_m = sides_.target_travel_m(p.point.position_m);
@@ -160,7 +162,7 @@ std::optional<std::size_t> Residuals::suspect(const std::vector<const MeasuredPo
       next = std::min(next, misfit);
     }
   }
-  // No probe is named if two fit about equally well.
+  // Empty if two probes are about equally suspect.
   return best && 2 * least < next ? best : std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-// Tests whether more than five probes agree with each other within their uncertainties.
+// Tests whether the readings of more than five probes agree within their uncertainties.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,34 +16,36 @@
 namespace mdof::algo {
 
 struct Agreement {
-  int freedom = 0;        // probes in use - 5; 0: nothing to test
+  int freedom = 0;        // number of probes in use - 5; 0: no test is possible
   double chi_square = 0;  // sum of (residual / u)²
   bool explained() const;
 };
 
-// `u_m`: standard uncertainty of each reading, not 0; `errors`: solution of the rigid model, stated
+// `u_m`: standard uncertainty of each reading, not 0. `errors`: solution of the rigid model, stated
 // at the carriage.
 Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
                     const std::vector<double>& u_m, const AxisErrors& errors);
 
-// The same with a covariance of the readings, m², which may correlate probes. χ² is that of the
-// part of the readings that no set of five errors explains. The model is linearised at `travel_m`
-// and `errors`.
+// The same with a covariance of the readings, m², for correlated probes. χ² is calculated from the
+// part of the readings that five errors cannot explain. The model is linearised at `travel_m` and
+// `errors`.
 Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
                     const Eigen::MatrixXd& covariance, const AxisErrors& errors);
 
-// Flags the points whose residual is not explained ("residual") and reports them in one notice that
-// names the most suspect probe. Without this probe the other readings agree, and the errors are
-// closest to those of the unflagged points of the same target. The test allows for the noise of
-// each probe, for a linearity of 1e-4 of its range (rectangular), and for the uncertainties that
-// the rig declares. Only for the rigid model: the other models use five probes.
+// Sets the flag "residual" of points whose readings do not agree, and reports these points in one
+// notice. The notice also names the most suspect probe, if one probe is clearly the most suspect.
+// Without this probe the other readings agree, and the errors are closest to the errors of the
+// unflagged points of the same target. The test includes the noise of each probe, a linearity of
+// 1e-4 of the range of the probe (rectangular), and the uncertainties that the rig declares. Only
+// for the rigid model, because the other models use five probes.
 class Residuals {
  public:
   Residuals(const Solver& solver, const std::vector<double>& range_m, const Sides& sides = {});
-  // `start_ns`: time of the run's first point, where its drift begins. Keeps references.
+  // `start_ns`: time of the first point of the run, where the drift begins. Keeps references to
+  // `solver` and `rig`.
   Residuals(const Solver& solver, const std::vector<double>& range_m, const Rig& rig,
             std::int64_t start_ns);
-  // Call this right after a point is solved, while its errors are still those of the carriage.
+  // Call this directly after a point is solved, while its errors are still stated at the carriage.
   void test(MeasuredPoint& point) const;
   std::optional<Notice> contradiction(const std::vector<MeasuredPoint>& points) const;
 
@@ -59,7 +61,7 @@ class Residuals {
   const Solver& solver_;
   Sides sides_;
   std::vector<double> linearity_m_;
-  const Rig* rig_ = nullptr;  // only if it declares an uncertainty
+  const Rig* rig_ = nullptr;  // null if the rig declares no uncertainty
   std::int64_t start_ns_ = 0;
 };
 

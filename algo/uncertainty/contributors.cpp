@@ -28,11 +28,12 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostEncoderParts = 256;  // with more targets, neighbours share a part
+constexpr std::size_t kMostEncoderParts = 256;  // if there are more targets, several neighbouring
+                                                // targets have one part
 constexpr auto kFixture = static_cast<std::size_t>(Part::fixture);
-constexpr double kQuarterTurn = 0.25;  // second direction of a tilt, turns
+constexpr double kQuarterTurn = 0.25;  // turns; azimuth of the second direction of a tilt
 
-// Data that all contributors of a run share.
+// Data that all contributors of a run need.
 struct Basis {
   Rig rig;
   Solver solver;
@@ -53,7 +54,8 @@ Vec3 along_axis(std::size_t component, double value) {
   return v;
 }
 
-// `change_m(point, probe)`: change of that probe's reading.
+// Changes of the errors by changes of the readings. `change_m(point, probe)` returns the change of
+// one reading, m.
 template <class Change>
 PointShifts by_readings(const Basis& basis, std::size_t first_probe, std::size_t end_probe,
                         Change change_m) {
@@ -83,8 +85,8 @@ PointShifts by_one_probe(const Basis& basis, std::size_t probe, Change change_m)
                      [&](std::size_t j, std::size_t) { return change_m(j); });
 }
 
-// Readings of all probes of `nominal` at every point, with this mounting; empty if an angle is too
-// large.
+// Readings of all probes of `nominal` at every point with the deviations `mounting`. Empty if an
+// angle is too large.
 std::vector<double> readings_of(const Basis& basis, const Fixture& nominal,
                                 const Mounting& mounting) {
   const Forward forward =
@@ -123,7 +125,8 @@ PointShifts by_mounting(const Basis& basis, Set set) {
       basis, [&](std::size_t j, std::size_t k) { return change[j * basis.probes() + k]; });
 }
 
-// `set(deviation, ±1)` for one probe; the readings of the other probes do not change.
+// Changes of the errors by the deviation of one probe. `set(deviation, ±1)` sets this deviation.
+// The readings of the other probes do not change.
 template <class Set>
 PointShifts by_probe_mounting(const Basis& basis, std::size_t probe, Set set) {
   const Fixture& all = basis.solver.fixture();
@@ -138,7 +141,7 @@ double middle_s(const MeasuredPoint& p) {
 }
 
 std::vector<PointShifts> of_encoder(const Basis& basis) {
-  std::map<int, std::size_t> part_of;  // part number by target
+  std::map<int, std::size_t> part_of;  // number of the part for each target
   for (const auto& p : basis.run.points) part_of.emplace(p.target, 0);
   const std::size_t each = (part_of.size() + kMostEncoderParts - 1) / kMostEncoderParts;
   std::size_t n = 0;
@@ -161,8 +164,8 @@ PointShifts of_position(const Basis& basis, std::size_t probe, std::size_t axis,
   });
 }
 
-// Shift by the component of the probe's direction along a machine axis. A probe's line keeps its
-// point.
+// Changes of the errors by a change of one component of the probe's direction (axes of the
+// machine). The line of the probe turns about the point p_MP.
 PointShifts of_direction(const Basis& basis, std::size_t probe, std::size_t axis, double size_rad) {
   const FixtureProbe& nominal = basis.solver.fixture().probes[probe];
   const Eigen::Vector3d change = basis.local(along_axis(axis, size_rad));
@@ -178,10 +181,11 @@ PointShifts of_direction(const Basis& basis, std::size_t probe, std::size_t axis
   });
 }
 
-// Positions, directions and zeros of probes that one calibration determined together.
+// Changes of the errors by positions, directions and zeros of probes that one calibration
+// determined, as independent parts.
 std::vector<PointShifts> covariance_shifts(const Basis& basis,
                                            const CalibrationCovariance& covariance) {
-  std::vector<PointShifts> alone;  // by one standard uncertainty of each
+  std::vector<PointShifts> alone;  // by one standard uncertainty of each quantity
   std::vector<double> u_m;
   for (std::size_t i = 0; i < covariance.of.size(); ++i) {
     u_m.push_back(std::sqrt(covariance.m2[i][i]));
@@ -216,7 +220,7 @@ class List {
   std::vector<Contributor> take() { return std::move(list_); }
 
  private:
-  // `parts(basis)`: as Contributor::parts.
+  // Adds a contributor if its uncertainty is declared. `parts(basis)` returns Contributor::parts.
   template <class Parts>
   void add(ContributorName name, std::string key, const DeclaredUncertainty& declared,
            double to_unit, std::string unit, Parts parts) {
@@ -225,7 +229,8 @@ class List {
                      [basis = basis_, parts] { return parts(*basis); }});
   }
 
-  // The value shown is the largest standard uncertainty of its lengths.
+  // The value in the line of the budget is the largest standard uncertainty of the quantities of
+  // the record that are lengths.
   void add_covariance(const CalibrationRecord& record) {
     const CalibrationCovariance& covariance = record.covariance;
     DeclaredUncertainty largest;
@@ -293,7 +298,7 @@ class List {
           });
   }
 
-  // The drift begins at the first point.
+  // The drift is 0 at the first point of the run.
   void add_drift() {
     const DeclaredUncertainty& u = basis_->rig.uncertainty.drift;
     for (std::size_t k = 0; k < basis_->probes(); ++k)
@@ -319,7 +324,7 @@ class List {
   }
 
   SharedBasis basis_;
-  std::set<std::string> together_;  // quantities whose covariances are declared
+  std::set<std::string> together_;  // quantities that a calibration covariance includes
   std::vector<Contributor> list_;
 };
 
@@ -332,7 +337,7 @@ std::string name_of(const Run& run) {
   return "run " + std::to_string(run.header.id);
 }
 
-// Rejects angles that MountedFixture does not accept.
+// Error: an angle of the run is beyond the limit of MountedFixture.
 Status check_run(const Basis& basis) {
   const std::string run = name_of(basis.run);
   for (std::size_t j = 0; j < basis.points.size(); ++j)
@@ -359,7 +364,7 @@ Status check_angles(const Rig& rig) {
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   if (run.points.empty())
     return bad_input(name_of(run) + " has no points, so no budget can be calculated");
-  std::vector<Contributor> own = removed_drift(run);  // contributors that the rig does not declare
+  std::vector<Contributor> own = removed_drift(run);  // contributors that do not come from the rig
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);
   if (auto left_out = model_contributor(rig, run, model)) own.push_back(std::move(*left_out));

@@ -1,6 +1,6 @@
-// The uncertainties that a rig declares (schema/rig/uncertainty.h) as contributors, and by how much
-// each one changes the errors of a run (GUM 5.1.3). The sensitivities are differences of the model
-// itself.
+// The uncertainties that a rig declares (schema/rig/uncertainty.h), as contributors. Each
+// contributor contains its effect on the errors of a run (GUM 5.1.3). The effects are calculated as
+// differences of the measurement model.
 #pragma once
 
 #include <functional>
@@ -16,36 +16,42 @@
 
 namespace mdof::algo {
 
-// Change of the errors of each point of the run: local frame, stated at the same place as the
-// errors of the run; 0 for a point without errors.
+// Change of the errors of each point of a run. Local frame, stated at the same place as the errors
+// of the run. 0 for a point without errors.
 using PointShifts = std::vector<Errors5>;
 
-// One line of a budget. Contributors are independent of each other. The effect of a contributor is
-// common to all points of the run, so it cancels where a figure takes differences of points.
+// One line of a budget. Contributors are independent of each other. One contributor acts on all
+// points of the run at the same time. Therefore its effect can cancel in a figure that is
+// calculated from differences of points.
 struct Contributor {
   ContributorName name;
-  std::string key;  // key in the rig: "u_sensitivity_ppm"; empty: found in the run itself
+  std::string key;  // key in the rig: "u_sensitivity_ppm"; empty: calculated from the run
   DeclaredUncertainty declared;
-  double to_unit = 1;  // from SI to the unit in which it is shown
+  double to_unit = 1;  // factor from SI to `unit`
   std::string unit;    // "ppm"
-  // Shifts by one standard uncertainty, as independent parts whose squares add. Most contributors
-  // have one part, a direction has two (about two axes across it), the encoder has one for each
-  // target. A calibration covariance and the covariance of a flatness (flatness.h) have several.
+  // Changes of the errors by one standard uncertainty, as independent parts; the squares of the
+  // parts add. Number of parts:
+  //   direction: two (rotations about two axes perpendicular to it)
+  //   encoder: one for each target, at most 256
+  //   calibration covariance, flatness (flatness.h), linearity, expansion: one or more
+  //   all others: one
   std::function<std::vector<PointShifts>()> parts;
-  // Identifies a quantity that stays with a probe in each set-up, by its certificate: rigs with the
-  // same text here have one quantity. Empty: each set-up has its own quantity.
+  // Text that identifies a quantity of a probe that does not change with the set-up. If two rigs
+  // have the same text here, the quantity is the same. Empty: the quantity is different in each
+  // set-up.
   std::string common_as = "";
-  // Only for a flatness: several runs over the same plane need their parts calculated together.
+  // Only for a flatness: data for the calculation of the parts of several runs over the same plane.
   std::shared_ptr<const PlaneFootprints> surface = nullptr;
-  std::string surface_as = "";  // rigs with the same text here have one surface
+  std::string surface_as = "";  // if two rigs have the same text here, the surface is the same
 };
 
-// Contributors for the uncertainties that `rig` declares, then for a removed drift, and last for
-// the terms that the model of a run by `simplified` leaves out. `run` must be of that rig. A shift
-// or rotation of a probe counts by its change since the zero at d = 0 without errors (simulation II
-// of algo/sensitivity); the zero itself belongs to the calibration. A flatness counts in the same
-// way; it is a random surface that is the same for all visits of a target. Error: a run without
-// points, a rig that does not determine all five errors, an angle beyond the limit of the models.
+// Contributors in this order: the uncertainties that `rig` declares, a removed drift, and the terms
+// that Model::simplified omits. `run` must be measured with `rig`. The probes were zeroed at d = 0
+// without errors. Therefore a shift or rotation of a probe has an effect only by its change since
+// then (simulation II of algo/sensitivity). The uncertainty of the zero is a part of the
+// calibration. The same applies to the heights of a flatness, which is a random surface that is the
+// same for all visits of a target. Errors: a run without points; a rig that does not determine all
+// five errors; an angle beyond the limit of the models.
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run);
 
 // Adds `shifts` to the errors of these points.

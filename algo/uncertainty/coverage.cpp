@@ -8,21 +8,23 @@
 namespace mdof::algo {
 namespace {
 
-// Upper tail of Student's t: its probability, the quantile of the normal distribution, and limits
-// between which the quantile always lies (the largest is that of one degree of freedom).
+// Upper tail of Student's t distribution: probability, quantile of the normal distribution, and two
+// limits of the quantile for any number of degrees of freedom. The quantile is largest for one
+// degree of freedom.
 struct Tail {
   double probability, of_normal, below_all, above_all;
 };
 constexpr Tail kTwoSided = {0.025, 1.959963984540054, 1.9, 13};  // 12.71 for ν = 1
 constexpr Tail kOneSided = {0.05, 1.6448536269514722, 1.6, 7};   // 6.31 for ν = 1
-constexpr double kAlmostNormal = 1e7;  // degrees of freedom; above, k differs by less than 1e-6
+constexpr double kAlmostNormal = 1e7;  // for more degrees of freedom, k differs by less than 1e-6
+                                       // from the normal distribution
 constexpr double kManyFreedom = 200;
 constexpr double kSettled = 1e-13;
 constexpr int kMostSteps = 100;
 
-// Quantile of Student's t by its expansion in 1/ν (Cornish and Fisher; Abramowitz and Stegun
-// 26.7.5). From 200 degrees of freedom on its error is below 1e-8 of k. Each point of a run needs
-// five quantiles.
+// Quantile of Student's t distribution by an expansion in 1/ν (Cornish and Fisher; Abramowitz and
+// Stegun 26.7.5). For 200 or more degrees of freedom the error is below 1e-8 of k. The expansion is
+// fast; each point of a run needs five quantiles.
 double by_expansion(double z, double freedom) {
   const double z2 = z * z;
   const double first = z * (z2 + 1) / 4;
@@ -31,8 +33,8 @@ double by_expansion(double z, double freedom) {
   return z + (first + (second + third / freedom) / freedom) / freedom;
 }
 
-// Root of the tail's probability by regula falsi (Illinois), which never leaves its bracket and
-// needs a tenth of the steps of a bisection.
+// Solves t_upper_tail(k) = probability by regula falsi (Illinois), which needs about a tenth of the
+// steps of a bisection.
 double quantile(double freedom, const Tail& tail) {
   if (!(freedom < kAlmostNormal)) return tail.of_normal;
   if (freedom >= kManyFreedom) return by_expansion(tail.of_normal, freedom);

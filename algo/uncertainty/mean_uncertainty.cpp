@@ -11,18 +11,19 @@ namespace {
 
 constexpr std::size_t kMeans = 256;
 
-// Autocovariance at this lag, with the divisor n, which keeps the sequence positive.
+// Autocovariance at this lag. The divisor is n, so that the sum of the sequence is positive.
 double covariance_at(std::span<const double> x, std::size_t lag) {
   const double products =
       lane_sum(x.subspan(lag), [lag](const double* e) { return e[0] * *(e - lag); });
   return products / static_cast<double>(x.size());
 }
 
-// Variance of the mean of `x` by the sum of its autocovariances.
+// Variance of the mean of `x`, from the sum of the autocovariances.
 double correlated_variance(std::span<const double> x) {
   const auto n = static_cast<double>(x.size());
   const double variance = covariance_at(x, 0);
-  const double noise = variance * std::sqrt(2 / n);  // sd of an autocovariance of 0
+  const double noise = variance * std::sqrt(2 / n);  // standard deviation of an autocovariance
+                                                     // whose true value is 0
   double sum = -variance, before = 4 * variance;
   std::size_t window = 0;
   for (std::size_t lag = 0; window < x.size() / 4; lag += 2) {

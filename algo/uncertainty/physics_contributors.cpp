@@ -35,7 +35,8 @@ class Physics {
  private:
   const RigPhysics& physics() const { return *rig_.physics; }
 
-  // `change_m(point, probe)`: change of the reading by one standard uncertainty.
+  // Changes of the errors of all points. `change_m(point, probe)` returns the change of one reading
+  // by one standard uncertainty, m.
   template <class Change>
   PointShifts shifts(Change change_m) const {
     PointShifts all(points_.size());
@@ -56,7 +57,8 @@ class Physics {
     return shifts([&](std::size_t j, std::size_t k) { return k == probe ? change_m(j) : 0.0; });
   }
 
-  // All parts are calculated at once: they are few, and share results that take long to calculate.
+  // Adds a contributor if its uncertainty is declared. `parts` are calculated in advance, because
+  // they are few and need common results that take long to calculate.
   void add(ContributorName name, std::string key, const DeclaredUncertainty& declared,
            double to_unit, std::string unit, std::vector<PointShifts> parts) {
     if (!declared.declared()) return;
@@ -83,8 +85,9 @@ class Physics {
     add_left_out(k);
   }
 
-  // Reading by one unit of the tilt factor, relative to the zero. If the tilt is not corrected, the
-  // factor counts by its root mean square about 0.
+  // Adds the effect of the tilt factor on the reading, relative to the reading at the zero. If the
+  // tilt is corrected, the uncertainty is u of the factor. If the tilt is not corrected, the
+  // uncertainty is the root of factor² + u².
   void add_tilt(std::size_t k) {
     const ProbePhysics& probe = physics().probes[k];
     DeclaredUncertainty factor = probe.u_tilt_factor;
@@ -103,8 +106,9 @@ class Physics {
         })});
   }
 
-  // A probe that is tilted by φ in its clamp reads a tilt of |θ + φ|²: the product about two axes,
-  // and φ², whose effect changes with the gap.
+  // Adds the effect of an unknown tilt φ of the probe in its clamp. With the tilt θ of the target,
+  // the reading depends on |θ + φ|² = θ² + 2 θ·φ + φ². The product has two parts, for φ about two
+  // axes. φ² is a third part, because its effect depends on the gap.
   void add_clamp(std::size_t k) {
     const ProbePhysics& probe = physics().probes[k];
     const DeclaredUncertainty& u = rig_.probes[k].uncertainty.direction;
@@ -127,8 +131,8 @@ class Physics {
         std::move(parts));
   }
 
-  // Rest of the curve after its correction, as waves over the range: the sum of their squares is u²
-  // at every reading.
+  // Adds the linearity error that remains after the correction, as waves over the range of the
+  // probe. The sum of the squares of the waves is u² at every reading.
   void add_linearity(std::size_t k) {
     const DeclaredUncertainty& u = physics().probes[k].u_linearity;
     std::vector<PointShifts> parts;
@@ -145,7 +149,7 @@ class Physics {
         std::move(parts));
   }
 
-  // The correction that linearity = false omits.
+  // Adds the linearity correction that is omitted if the rig has linearity = false.
   void add_left_out(std::size_t k) {
     if (physics().left_out.empty()) return;
     const Calibration& c = *physics().left_out[k];
@@ -161,7 +165,8 @@ class Physics {
         {of_probe(k, correction_m)});
   }
 
-  // By a relative change `u` of the permittivity all gaps change in proportion to themselves.
+  // Changes by a relative change `u` of the permittivity. The change of a reading is proportional
+  // to the gap.
   std::vector<PointShifts> by_permittivity(double u) const {
     return {shifts([&](std::size_t j, std::size_t k) { return -u * at(j, k).gap_m; })};
   }
@@ -170,8 +175,8 @@ class Physics {
     if (!physics().has_known_air_effect()) return;
     const DeclaredAir& air = *physics().air;
     const double calibration = air_permittivity(air.calibration);
-    // If only a log has a condition of the run, the condition of the calibration replaces it: the
-    // slopes agree to a hundredth.
+    // If the rig does not contain a condition of the run, the condition of the calibration is used
+    // for it. The slopes at both conditions agree to 1 %.
     Air run = air.calibration;
     bool known = true;
     for (std::size_t q = 0; q < kAirQuantities; ++q) {

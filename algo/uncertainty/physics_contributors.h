@@ -1,6 +1,6 @@
-// The physics of the probes that a rig declares (schema/rig/effects/physics.h), as contributors: a
-// corrected effect contributes the uncertainty of its correction, a known effect without correction
-// contributes as a whole.
+// The physics of the probes that a rig declares (schema/rig/effects/physics.h), as contributors. A
+// corrected effect contributes the uncertainty of its correction. A known effect that is not
+// corrected contributes with its full size.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,9 @@
 
 namespace mdof::algo {
 
-// Tilt factors and linearities of the probes are independent of each other; the ambient conditions
-// are common to all probes. `points`: as returned by point_sensitivities(). Empty if the rig
-// declares no physics.
+// The tilt factors and linearities of different probes are independent. The ambient conditions are
+// common to all probes. `points`: result of point_sensitivities(). Empty if the rig declares no
+// physics.
 std::vector<Contributor> physics_contributors(const Rig& rig, const Solver& solver, const Run& run,
                                               const std::vector<PointSensitivity>& points);
 

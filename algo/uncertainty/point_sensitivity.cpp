@@ -9,8 +9,8 @@
 namespace mdof::algo {
 namespace {
 
-// Steps of the central differences. They are small compared with the curvature by an error of 1
-// mrad (1e-6 of them), and large compared with rounding (1e-16 of 0.1 m).
+// Steps of the central differences. They are so small that the curvature by an error of 1 mrad
+// changes the difference only by 1e-6, and large compared with the rounding of 0.1 m.
 constexpr double kReadingStep_m = 1e-7, kTravelStep_m = 1e-5;
 
 class Differences {
@@ -59,8 +59,8 @@ class Differences {
     return slope(stated(above, travel_m), stated(below, travel_m), kReadingStep_m);
   }
 
-  // Slope of the errors that give the same readings if the target is a step further on. It uses the
-  // gain, because an iterative solution would cost more than all the rest.
+  // Change of the solved errors by 1 m of travel, for the same readings. Calculated from the gain,
+  // because an iterative solution takes much longer.
   Errors5 by_travel(const AxisErrors& carriage, double travel_m,
                     const Eigen::MatrixXd& gain) const {
     const double ahead_m = travel_m + kTravelStep_m, behind_m = travel_m - kTravelStep_m;
@@ -74,7 +74,8 @@ class Differences {
     }
     return slope(stated(ahead, ahead_m), stated(behind, behind_m), kTravelStep_m);
   }
-  // The gain of the other models is accurate to 1e-3 only, and their solution costs little.
+  // For the other models. Their gain has an error of up to 1e-3, and their solution is fast.
+  // Therefore the errors are solved at both travels.
   Errors5 by_travel(double travel_m) const {
     const auto solved = [&](double at_m) {
       return stated(solver_.solve_without_covariance(at_m, p_.point.probe_m, p_.point.probe_u_m),

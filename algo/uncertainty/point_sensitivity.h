@@ -9,21 +9,21 @@
 namespace mdof::algo {
 
 struct PointSensitivity {
-  bool valid = false;   // false: a point without errors; the rest is then 0
+  bool valid = false;   // false: the point has no errors; the other members are then 0
   double travel_m = 0;  // travel of the target
   Errors5 carriage{};   // errors of the carriage, local frame
-  // Change of the errors, local frame, stated at the same place as the errors of the run: by 1 m of
-  // each probe's reading (0 for a lost probe), and by 1 m of the travel.
+  // Change of the errors by 1 m of each probe's reading (0 for a lost probe), and by 1 m of the
+  // travel. Local frame, stated at the same place as the errors of the run.
   std::vector<Errors5> by_probe;
   Errors5 by_travel{};
-  // Change by 1 m of difference between the true position of the point and that of the encoder, in
-  // the travel's direction: by_travel minus the slope of the errors along the axis.
+  // Change of the errors if the true position of the point is 1 m further along the travel than the
+  // encoder shows: by_travel minus the slope of the errors along the axis.
   Errors5 by_place{};
 };
 
-// One element for each point of the run. The gain of the solver gives the sensitivities to the
-// readings, differences of the model give those to the travel, and local_slopes() those to the
-// position. `solver` has the rig and the model of the run.
+// One element for each point of the run. `solver` must have the rig and the model of the run.
+// by_probe is calculated from the gain of the solver, by_travel from differences of the model,
+// by_place with local_slopes().
 std::vector<PointSensitivity> point_sensitivities(const Solver& solver, const Run& run);
 
 }  // namespace mdof::algo

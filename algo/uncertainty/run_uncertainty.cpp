@@ -44,10 +44,12 @@ void PointUncertainties::leave_out_repeatability() {
   covered_ = VisitsCovered::left_out;
 }
 
-// All parts of a contributor share its degrees of freedom: their squares are added first.
+// All parts of a contributor have common degrees of freedom. Therefore their squares are added
+// before fourth_over_freedom() is called.
 void PointUncertainties::add(const Contributor& contributor,
                              const std::vector<PointShifts>& parts) {
-  std::vector<Errors5> variance(sums_.size());  // local: the named errors differ in order and sign
+  std::vector<Errors5> variance(sums_.size());  // local frame: the named errors have another order
+                                                // and other signs
   for (const PointShifts& shifts : parts)
     for (std::size_t j = 0; j < sums_.size(); ++j)
       for (std::size_t e = 0; e < kErrorCount; ++e) variance[j][e] += shifts[j][e] * shifts[j][e];

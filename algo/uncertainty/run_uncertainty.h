@@ -1,4 +1,4 @@
-// The uncertainty of the five errors of each point of a run, from its noise and from the
+// The uncertainty of the five errors of each point of a run, from the noise of the run and from the
 // uncertainties that its rig declares.
 #pragma once
 
@@ -13,41 +13,47 @@
 
 namespace mdof::algo {
 
-// Uncertainty of the errors as the run states them. The squares of the random part and of each part
-// of each contributor add (GUM 5.1.2). The random part is the noise of the point's own stop
-// (degrees of freedom: its scans less one). If the repeated visits of the targets show a larger
-// variance of a visit (visit_scatter.h), this variance replaces the noise, which it includes.
-// A change in proportion to time does not count as repeatability if the declared drift explains it.
-// If it is larger than such a drift shows by chance in one of a thousand runs, all of it counts,
-// less the variance by the declared drift. The part of a removed drift includes the slow noise, so
-// the noise of the stop is kept. If the contributors cannot be calculated, only the random part is
-// left, and `why` contains the reason.
+// Uncertainty of the errors as the run states them. u² is the sum of the random variance and of the
+// squares of all parts of all contributors (GUM 5.1.2). The random variance is the larger one of
+// two variances:
+//   - noise of the stop of this point; degrees of freedom: number of scans - 1
+//   - variance of one visit, from the repeated visits of the targets (visit_scatter.h); it includes
+//     the noise of the stop
+// The variance of one visit does not contain a change in proportion to time if the declared drift
+// explains this change, that is, if such a drift causes a larger change in at least one of a
+// thousand runs. Otherwise the variance of one visit contains the whole change, and the variance by
+// the declared drift is subtracted. If the drift was removed from the run, the contributor of the
+// removed drift includes the slow noise, and the random variance is the noise of the stop. If the
+// contributors cannot be calculated, u contains the random variance only, and `why` contains the
+// reason.
 RunUncertainty run_uncertainty(const Rig& rig, const Run& run);
-// Runs with more points omit the repeatability: their pages would take seconds.
+// For runs with more points, the random variance is the noise of the stop, because the
+// repeatability would take seconds to calculate.
 inline constexpr std::size_t kRepeatabilityPointLimit = 20'000;
 
-// Without the repeatability. `part`: some points of a run, including its first, where the drift
-// begins.
+// As run_uncertainty(), but the random variance is always the noise of the stop. `part`: some
+// points of a run, including the first point of the run, where the drift begins.
 RunUncertainty stop_uncertainty(const Rig& rig, const Run& part);
 
-// Sets u and U from 0 to NaN (unknown), unless all uncertainties are declared and calculated.
+// Changes u = 0 and U = 0 to NaN (unknown), unless all uncertainties are declared and calculated.
 void set_zeros_to_unknown(RunUncertainty& uncertainty);
 
-// The same step by step, for callers that have the contributors.
+// Calculates run_uncertainty() in steps, for callers that have the contributors.
 class PointUncertainties {
  public:
-  // Starts with the random part. Keeps a reference to `run`, which must be a whole run.
+  // Calculates the random variances. Keeps a reference to `run`, which must be a whole run.
   explicit PointUncertainties(const Run& run);
-  // `parts`: the parts of the contributor, calculated for that run.
+  // `parts`: the result of contributor.parts() for that run.
   void add(const Contributor& contributor, const std::vector<PointShifts>& parts);
-  // Uses the noise of the stops as the whole random part.
+  // Uses the noise of the stop as the random variance.
   void leave_out_repeatability();
   VisitsCovered visits() const { return covered_; }
-  std::vector<ErrorsUncertainty> stated() const;  // for each point; NaN for a point without errors
+  std::vector<ErrorsUncertainty> stated() const;  // one for each point; NaN for a point without
+                                                  // errors
 
  private:
-  // Sums for one point and its named errors: the variance of the noise, and for the contributors
-  // the sums of u_i² and of u_i⁴/ν_i (GUM G.2b).
+  // For the named errors of one point: variance of the noise; sum of u_i² and sum of u_i⁴/ν_i over
+  // the contributors (GUM G.2b).
   struct Sums {
     Errors5 noise{}, square{}, fourth_by_freedom{};
   };
@@ -55,10 +61,11 @@ class PointUncertainties {
   std::vector<Sums> sums_;
   VisitScatter visits_;
   VisitsCovered covered_ = VisitsCovered::single;
-  VisitScatter::Pooled seen_;    // scatter of the named errors
-  VisitScatter::Pooled steady_;  // the same without the change in proportion to time
-  Errors5 explained_{};          // the part of this variance that the declared drift explains
-  std::array<bool, kErrorCount> repeatability_{};  // whether the error uses it
+  VisitScatter::Pooled seen_;    // variance of one visit, named errors
+  VisitScatter::Pooled steady_;  // variance of one visit without the change in proportion to time
+  Errors5 explained_{};          // variance of one visit by the declared drift
+  std::array<bool, kErrorCount> repeatability_{};  // false: the random variance of the error is the
+                                                   // noise of the stop
 };
 
 }  // namespace mdof::algo

@@ -1,5 +1,5 @@
-// The uncertainty of a run's points and of its figures in one call: both need the shifts of all
-// contributors, which take long to calculate.
+// Calculates the uncertainty of the points and of the figures of a run together. Both need the
+// parts of all contributors, which take long to calculate.
 #pragma once
 
 #include "algo/uncertainty/budget/budget.h"

@@ -11,14 +11,16 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kEvidencePlaces = 50'000;
-constexpr double kNoSlope = 1e-7;  // share of the slopes, as in pose_fit.cpp
-// Slopes by noise have the correlation 0 +- 1 / sqrt(places); neighbours share a part of it, and
-// the fit finds the largest.
+constexpr double kNoSlope = 1e-7;  // relative to all slopes: smaller slopes are rounding
+// A direction needs a correlation of the slopes of kEvidenceNeeded / sqrt(places), at most
+// kEvidenceEnough. Noise alone has the correlation 0 +- 1 / sqrt(places). The factor is large
+// because slopes of neighbours have common noise and the fit finds the largest correlation.
 constexpr double kEvidenceNeeded = 8, kEvidenceEnough = 0.5;
 
-using Moves = Eigen::Vector3d;  // changes of a height by shift x, shift y and turn
+using Moves = Eigen::Vector3d;  // change of a height by a unit of shift x, shift y and turn times
+                                // size
 
-// Sums over places: of the plane, and of the movements by the slopes of each map.
+// Sums over places, of products of the terms of the plane and the movements of each map.
 struct Evidence {
   Eigen::Matrix3d plane = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d plane_a = Eigen::Matrix3d::Zero(), plane_b = Eigen::Matrix3d::Zero();
@@ -35,7 +37,7 @@ struct Evidence {
     bb += b * b.transpose();
     count += 1;
   }
-  // Removes the part that a tilt explains.
+  // Removes the part of the movements that piston and tilt explain.
   void eliminate_plane() {
     const LeastNorm fit(plane, 1e-12);
     const Eigen::Matrix3d by_a = fit.solve(Eigen::MatrixXd(plane_a)),
@@ -45,13 +47,13 @@ struct Evidence {
     bb -= plane_b.transpose() * by_b;
   }
 
-  // The directions in which the slopes of both maps have something in common: all movements except
-  // the directions in which they have nothing in common.
+  // The directions in which the slopes of A and B are correlated: orthonormal columns, orthogonal
+  // to all directions without a sufficient correlation.
   Eigen::MatrixXd determined() {
     const Eigen::Matrix3d raw = (aa + bb) / 2;
     eliminate_plane();
     const Eigen::Matrix3d all = (aa + bb) / 2, common = (ab + ab.transpose()) / 2;
-    // Each movement gets its own scale, then each direction the scale of its slopes.
+    // Scales each movement by its own sum of squares, and then each direction by its slopes.
     Eigen::Vector3d scale;
     const double least = kNoSlope * kNoSlope * raw.trace();
     for (Eigen::Index k = 0; k < 3; ++k)
@@ -71,7 +73,8 @@ struct Evidence {
         append(without, unscaled(found.U.col(k), scale));
     const Eigen::Index n = with_slope.cols();
     if (n > 0) {
-      // Correlations are in [-1, 1]: after adding 2, singular values are eigenvalues.
+      // Correlations are in [-1, 1]. Adding 2 makes all eigenvalues positive, so that the singular
+      // values are the eigenvalues.
       const SingularValues by_both = singular_values(with_slope.transpose() * common * with_slope +
                                                      2 * Eigen::MatrixXd::Identity(n, n));
       for (Eigen::Index k = 0; k < n; ++k)
@@ -81,7 +84,8 @@ struct Evidence {
   }
 
  private:
-  // A movement without slopes has no scale; it remains a direction of its own.
+  // Converts a direction from scaled movements to movements. A movement whose scale is 0 (no
+  // slopes) is a direction of its own.
   static Eigen::VectorXd unscaled(const Eigen::VectorXd& u, const Eigen::Vector3d& scale) {
     Eigen::VectorXd direction(3);
     const bool has_none = (u.array().abs() * (scale.array() == 0).cast<double>()).maxCoeff() > 0.5;
@@ -98,7 +102,8 @@ struct Evidence {
   }
 };
 
-// Slope from the neighbouring pixels; false: one of them is missing. A profile has slope 0 across.
+// Slope from the neighbouring pixels. False: one of these pixels is missing. In a map of one row or
+// column, the slope across it is 0.
 bool slope_of(const SurfaceMap& map, std::size_t i, std::size_t j, Eigen::Vector2d& slope) {
   const auto along = [&](std::size_t k, std::size_t n, double step_m, std::size_t next) {
     if (n == 1) return 0.0;
@@ -120,7 +125,7 @@ ShapeEvidence::ShapeEvidence(const SurfaceMap& a, const Places& about)
     : x_mid_m_(about.x_mid_m), y_mid_m_(about.y_mid_m), size_m_(about.size_m) {
   const std::size_t every = std::max<std::size_t>(1, a.z_m.size() / kEvidencePlaces);
   for (std::size_t k = 0; k < a.z_m.size(); ++k) {
-    // Spreads the places evenly, without a common factor with the rows.
+    // Selects pixels by a hash of their number, as places_of() does.
     if (every > 1 && (k * 0x9e3779b97f4a7c15u >> 33) % every != 0) continue;
     Eigen::Vector2d slope;
     if (std::isnan(a.z_m[k]) || !slope_of(a, k % a.nx, k / a.nx, slope)) continue;

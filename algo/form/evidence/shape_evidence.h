@@ -1,4 +1,4 @@
-// Decides whether the shape of two maps, and not their noise, determines their relative pose.
+// Decides whether the shape of two maps determines their relative pose, or only their noise does.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,14 +13,14 @@ namespace mdof::algo {
 
 class ShapeEvidence {
  public:
-  // Poses are about the middle of `about`, the places of A.
+  // `about`: the places of A. All poses are about the middle of these places.
   ShapeEvidence(const SurfaceMap& a, const Places& about);
 
-  // The directions that the shape determines at this pose, one in each column (shift x, shift y,
-  // turn times size), orthonormal. They are orthogonal to the directions in which the slopes of the
-  // two maps have nothing in common (README.md, "Surfaces and registration").
+  // The directions of movement that the shape determines at this pose: orthonormal columns in the
+  // coordinates (shift x, shift y, turn times size). They are orthogonal to the directions in which
+  // the slopes of the two maps are not correlated (README.md, "Surfaces and registration").
   Eigen::MatrixXd determined(const Surface& b, const MapPose& about_middle) const;
-  // Whether A alone has slopes that a tilt does not explain.
+  // True: the slopes of A, without a tilt, determine at least one direction.
   bool has_shape() const;
 
  private:

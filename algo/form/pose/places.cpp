@@ -17,7 +17,8 @@ Places places_of(const SurfaceMap& a, std::size_t most) {
   Places places;
   const std::size_t measured = a.measured(), every = std::max<std::size_t>(1, measured / most);
   std::size_t least_i = a.nx, most_i = 0, least_j = a.ny, most_j = 0, k = 0;
-  // The step has no common factor with the rows; otherwise whole columns would be omitted.
+  // Selects pixels by a hash of their number. A constant step that has a common factor with the row
+  // length would omit whole columns.
   std::uint64_t mixed = 0;
   for (std::size_t j = 0; j < a.ny; ++j)
     for (std::size_t i = 0; i < a.nx; ++i) {

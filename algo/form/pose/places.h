@@ -1,5 +1,4 @@
-// A selection of the measured pixels of a map, spread evenly, relative to the middle of all of
-// them. SI.
+// A selection of the measured pixels of a map, spread evenly. SI.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +10,9 @@
 namespace mdof::algo {
 
 struct Places {
-  double x_mid_m = 0, y_mid_m = 0, size_m = 0;  // size: the larger side
+  double x_mid_m = 0, y_mid_m = 0, size_m = 0;  // Middle of the smallest rectangle that contains
+                                                // all measured pixels, and the larger side of this
+                                                // rectangle.
   std::vector<double> x_m, y_m, z_m;
 };
 

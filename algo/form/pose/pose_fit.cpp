@@ -9,16 +9,19 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kNeededOverlap = 0.6;     // share of A's places, unless the start has fewer
-constexpr double kFitUndetermined = 1e-7;  // share of the slopes that a plane does not explain
-constexpr double kFitted_pixels = 1e-5;    // length of the last step
-// Huber, Robust Statistics (1981), 1.345 sd: 95 % of the efficiency for normal noise. sd = 1.4826
-// times the median of the sizes.
+constexpr double kNeededOverlap = 0.6;     // least share of the places of A that have a counterpart
+                                           // in B; a smaller share at the start pose is sufficient
+constexpr double kFitUndetermined = 1e-7;  // a direction is undetermined if a plane explains more
+                                           // than 1 - this share of the slopes
+constexpr double kFitted_pixels = 1e-5;    // the iteration ends after a smaller change
+// Limit of Huber, Robust Statistics (1981): 1.345 sd, with 95 % efficiency for normal noise. sd =
+// 1.4826 times the median of the absolute residuals.
 constexpr double kHuberLimit = 1.345 * 1.4826;
 constexpr double kLeastLimit_m = 1e-12;
 constexpr std::size_t kForMedian = 20'000;
 constexpr int kPlaneSteps = 30, kPlaneStepsAgain = 4;
-constexpr double kPlaneFitted = 1e-6;  // relative to the limit
+constexpr double kPlaneFitted = 1e-6;  // relative to limit_m: the iteration ends after a smaller
+                                       // change
 
 double median_left(const std::vector<double>& left_m) {
   const std::size_t every = std::max<std::size_t>(1, left_m.size() / kForMedian);
@@ -41,8 +44,7 @@ double huber_loss(double left_m, double limit_m) {
   return size <= limit_m ? size * size / 2 : limit_m * (size - limit_m / 2);
 }
 
-// Removes the plane from the residuals, in addition to the plane removed before, and sets the
-// limit.
+// Fits a plane to the residuals, subtracts it from them, adds it to fit.plane and sets fit.limit_m.
 void remove_fitted_plane(const Places& a, PoseFit& fit, int most) {
   const double scale = 1 / a.size_m;
   for (int step = 0; step < most; ++step) {
@@ -100,7 +102,9 @@ PoseFit left_at(const Places& a, const Surface& b, const MapPose& pose,
 }
 
 struct PoseSums {
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3, 3), C = P, M = P;  // plane, mixed, movements
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3, 3), C = P, M = P;  // products of: plane and plane,
+                                                                  // plane and movements, movements
+                                                                  // and movements
   Eigen::VectorXd p = Eigen::VectorXd::Zero(3), m = p;
 };
 
@@ -137,7 +141,7 @@ PoseSums pose_sums(const Places& a, const PoseFit& fit) {
   return sums;
 }
 
-// Step of shift x, shift y, turn times size, only in these directions.
+// Change of (shift x, shift y, turn times size) in one iteration, only along `directions`.
 Eigen::VectorXd pose_step(const Places& a, const PoseFit& fit, const Eigen::MatrixXd& directions) {
   const PoseSums sums = pose_sums(a, fit);
   const LeastNorm plane(sums.P, 1e-12);
@@ -146,9 +150,10 @@ Eigen::VectorXd pose_step(const Places& a, const PoseFit& fit, const Eigen::Matr
       directions.transpose() * (sums.M - sums.C.transpose() * plane.solve(sums.C)) * directions;
   const Eigen::VectorXd right =
       directions.transpose() * (sums.m - sums.C.transpose() * plane.solve(sums.p));
-  // Each unknown has its own scale, so that eigenvalues of directions are comparable.
+  // Scales each unknown, so that the singular values are comparable.
   Eigen::VectorXd scale(all.rows());
-  const double least = kFitUndetermined * kFitUndetermined * all.trace();  // less is rounding
+  const double least = kFitUndetermined * kFitUndetermined * all.trace();  // a smaller value is
+                                                                           // rounding
   for (Eigen::Index u = 0; u < all.rows(); ++u)
     scale(u) = all(u, u) > least ? 1 / std::sqrt(all(u, u)) : 0;
   const SingularValues found = singular_values(scale.asDiagonal() * left * scale.asDiagonal());
@@ -161,7 +166,7 @@ Eigen::VectorXd pose_step(const Places& a, const PoseFit& fit, const Eigen::Matr
   return directions * change;
 }
 
-// Compares over the places that are measured in both, so that a lost place counts for neither.
+// Compares the residuals over the places that have a counterpart in B in both poses.
 bool is_better(const PoseFit& next, const PoseFit& now) {
   double sum = 0, before = 0;
   for (std::size_t k = 0; k < now.left_m.size(); ++k) {

@@ -32,8 +32,8 @@ constexpr const char* unit_of(std::size_t k) {
   return k < 3 ? "um" : "urad";
 }
 
-// A part of a measured error with a declared u is a cause of its own. It also contains the
-// correlated parts of the errors after it. In µm or µrad.
+// Adds part q of FrameValues::u_parts of frame i as one cause, in µm or µrad. The cause has the
+// name of error q. It also acts on the following errors that are correlated with error q.
 void add_measured_error(BudgetModel& model, std::size_t i, std::size_t q) {
   const auto& parts = model.values[i].u_parts;
   const auto column = static_cast<Eigen::Index>(q);
@@ -51,7 +51,7 @@ void add_measured_error(BudgetModel& model, std::size_t i, std::size_t q) {
   model.causes.push_back(std::move(cause));
 }
 
-// One cause for each quantity that the errors of several bodies share; its u is 1.
+// Adds one cause with u = 1 for each part that the errors of several bodies have in common.
 void add_shared(BudgetModel& model) {
   for (std::size_t p = 0;; ++p) {
     BudgetCause cause{"", "u", 1, SourceShape::normal, {}, Eigen::Vector3d::Zero()};
@@ -92,7 +92,7 @@ double reach(SourceShape shape) {
     case SourceShape::normal:
       break;
   }
-  return 8.5;  // larger than any normal number of 52 bits
+  return 8.5;  // larger than any normal number that is calculated from 52 random bits
 }
 
 Status check_sizes(const BudgetModel& model) {
@@ -125,7 +125,8 @@ bool has_cause(const BudgetModel& model, const MachineFrame& frame, const ErrorD
   });
 }
 
-// A squareness is named once, for the later of its two axes.
+// Two location errors describe one squareness. It is named only once, by the error of the later one
+// of the two axes.
 void name_not_declared(const std::vector<ErrorDerivative>& all, BudgetModel& model) {
   for (const ErrorDerivative& d : all) {
     const MachineFrame& frame = model.machine.frames[d.frame];

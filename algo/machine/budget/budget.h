@@ -1,5 +1,6 @@
-// The uncertainty of the tool relative to the work at one command, by the sources of the machine
-// and the u of its measured errors (../README.md). SI, except for the unit of a cause.
+// The uncertainty of the tool's place relative to the work at one command (../README.md). The
+// causes are the error sources of the machine and the uncertainties of its measured errors. SI,
+// except for the values of a cause, which are in the unit of the cause.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +11,7 @@
 
 namespace mdof::algo {
 
-// Effect of one unit of a cause on one error, at this command: m or rad.
+// Effect of one unit of a cause on one error of a frame, at this command: m or rad.
 struct CauseEffect {
   std::size_t frame = 0, k = 0;
   bool of_line = false;
@@ -22,13 +23,15 @@ struct BudgetCause {
   double u = 0;  // standard uncertainty, in `unit`
   SourceShape shape = SourceShape::normal;
   std::vector<CauseEffect> effects;
-  Eigen::Vector3d sensitivity = Eigen::Vector3d::Zero();  // m by `unit`, exact at errors of 0
+  Eigen::Vector3d sensitivity = Eigen::Vector3d::Zero();  // of the tool's place, m for one `unit`;
+                                                          // derivative where all errors are 0
 
   Eigen::Vector3d contribution_m() const { return sensitivity.cwiseAbs() * u; }
 };
 
-// designed: all sources as declared, no measured error. measured: measured errors have their value
-// and their own u; sources do not act on them, because the measured value includes their effect.
+// designed: all sources as declared; measured errors are ignored. measured: a measured error has
+// its measured value and u. Sources do not act on a measured error, because its value includes
+// their effect.
 enum class BudgetStage { designed, measured };
 
 struct BudgetModel {
@@ -36,28 +39,30 @@ struct BudgetModel {
   Command at{};
   std::vector<FrameValues> values;  // values of the measured errors
   std::vector<BudgetCause> causes;
-  std::vector<std::string> replaced;      // "screw B on EXX"
-  std::vector<std::string> not_declared;  // errors that act on the tool, with neither cause nor u
+  std::vector<std::string> replaced;  // effects that a measured error replaces: "screw B on EXX"
+  std::vector<std::string> not_declared;  // errors that act on the tool but have neither a cause
+                                          // nor a declared u
 };
 
-// Effect of one unit of the source on the error at this command: m or rad.
+// Effect of one unit of the source on the error at the command `at`: m or rad.
 double per_unit_at(const Machine& machine, const SourceEffect& effect, const Command& at);
 
-// Error: a cause so large that an error exceeds 0.1 rad or 10 mm at this command.
+// Error: the causes can increase an error of a frame beyond 0.1 rad or 10 mm at this command.
 Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
                                  MachineApproach approach, BudgetStage stage);
 
-// By the linear model with independent causes (GUM 5.1.2).
+// Standard uncertainty of x, y, z by the linear model with independent causes (GUM 5.1.2).
 Eigen::Vector3d budget_u_m(const BudgetModel& model);
 
-// One measured error and the effect of its sources by design.
+// One measured error, compared with the effect of its declared sources.
 struct MeasuredError {
   std::string name;
   std::size_t k = 0;
-  bool has_design = false;  // a source acts on it
-  // m or rad. measured_u: root mean square over its table, with u: the error without compensation.
+  bool has_design = false;  // at least one source acts on the error
+  // m or rad. designed_u: standard uncertainty by the sources. measured_u: root of the mean of
+  // value² + u² over the table of the error; it describes the error without compensation.
   double designed_u = 0, measured_u = 0;
-  // Effect on the place: u times |derivative of the place|.
+  // Effect on the tool's place: u times |derivative of the place|.
   double designed_effect_m = 0, measured_effect_m = 0;
 };
 // Sorted by measured_effect_m² - designed_effect_m², largest first.

@@ -11,13 +11,15 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kTrials = 256;  // at once: 84 causes stay in the second-level cache
+constexpr std::size_t kTrials = 256;  // number of trials in one block: the numbers for 84 causes
+                                      // fit into the second-level cache
 
-// How a uniform number becomes the deviation of one cause.
+// How the deviation of one cause is calculated from a random number.
 struct Drawing {
   SourceShape shape = SourceShape::normal;
   double u = 0;
-  std::shared_ptr<const QuantileFunction> function;  // triangular or U-shaped, with u = 1
+  std::shared_ptr<const QuantileFunction> function;  // only for triangular and U-shaped: quantiles
+                                                     // for u = 1
 };
 
 Drawing drawing_of(const BudgetCause& cause) {
@@ -33,8 +35,8 @@ Drawing drawing_of(const BudgetCause& cause) {
   return drawing;
 }
 
-// Numbers with u = 1. A rectangular number stays uniform in (0, 1): its term of the chain scales
-// it.
+// Converts uniform numbers to numbers with standard deviation 1. For the rectangular shape the
+// numbers stay uniform in (0, 1); term_of() scales them.
 void shape_numbers(const Drawing& drawing, std::span<double> p) {
   if (drawing.shape == SourceShape::normal) gaussians(p);
   if (!drawing.function) return;
@@ -136,7 +138,8 @@ class BudgetTrials : public ScalableExperiment {
 
   std::size_t columns_count() const { return causes_.size() + causes_.size() % 2; }
 
-  // One call gives draws 2g and 2g + 1.
+  // Draws numbers for all causes. One call of draw_pairs() with group g draws the numbers 2g and 2g
+  // + 1.
   void draw_all(std::span<const std::uint8_t> second, std::uint64_t first, std::uint64_t step,
                 std::size_t n, std::vector<double>& columns) const {
     std::array<double, kTrials> other{};
@@ -181,7 +184,8 @@ class BudgetTrials : public ScalableExperiment {
   std::vector<std::string> outputs_ = {"x_um", "y_um", "z_um", "volume_um"}, causes_;
   BinnedQuantity binned_;
   std::vector<double> sizes_;
-  std::vector<Drawing> drawings_;  // by cause; a cause has the column of its number
+  std::vector<Drawing> drawings_;  // one for each cause; the random numbers of cause c are in
+                                   // column c
   std::vector<ChainStep> steps_;   // from the tool to the work
   std::vector<ChainTerm> terms_;
   ChainProgram chain_;

@@ -1,5 +1,5 @@
-// A budget by Monte Carlo (JCGM 101): each trial draws every cause and calculates the tool by the
-// full product of the frames.
+// An uncertainty budget by the Monte Carlo method (JCGM 101). Each trial draws a value of every
+// cause, and calculates the error of the tool by the full product of the frames.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 
 // Outputs x_um, y_um, z_um (actual - nominal) and volume_um = √(x² + y² + z²). Draw q of a trial is
-// cause q: the same bits for any number of threads and any instruction set.
+// for cause q. The results have the same bits for any number of threads and any instruction set.
 std::unique_ptr<ScalableExperiment> budget_trials(const BudgetModel& model, std::uint64_t seed,
                                                   InstructionSet set = best_instruction_set());
 

@@ -15,7 +15,7 @@ constexpr std::size_t kFewestAngles = 8, kMostAngles = 100'000;
 constexpr double kLargestGap_rad = std::numbers::pi / 2;
 constexpr double kMostRadius_m = 10;
 
-// r + a cos + b sin.
+// Radial deviation of a circle: radius_m + a_m cos(angle) + b_m sin(angle).
 struct Circle {
   double radius_m = 0, a_m = 0, b_m = 0;
   double at(double angle_rad) const {
@@ -23,7 +23,7 @@ struct Circle {
   }
 };
 
-// Circle of one or both paths; each deviation has the weight 1.
+// Least-squares circle of one or both paths.
 Circle circle_of(const CircularPath& path, bool ccw, bool cw) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -47,7 +47,7 @@ struct Extent {
   double range() const { return high - low; }
 };
 
-// Extent of a path minus `circle`.
+// Smallest and largest value of the deviations minus `circle`.
 Extent extent_about(const CircularPath& path, const std::vector<double>& deviations,
                     const Circle& circle) {
   Extent extent;
@@ -83,8 +83,8 @@ Status check_path(const CircularPath& path) {
   return {};
 }
 
-// Values with the approach of each axis at this angle; where an axis reverses, with the approach
-// before it.
+// Values of the frames at this angle. The approach of each axis is its direction of motion just
+// before this angle. `way`: +1 counter-clockwise, -1 clockwise.
 std::vector<FrameValues> values_on(const Machine& machine, const CircleRequest& request,
                                    const Command& command, double angle_rad, double way) {
   std::vector<FrameValues> values;

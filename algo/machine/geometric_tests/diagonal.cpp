@@ -14,7 +14,7 @@ constexpr std::string_view kAxisNames = "XYZ";
 
 struct Corner {
   std::size_t first, second;
-  std::array<double, 2> first_range, second_range;  // from begin to end
+  std::array<double, 2> first_range, second_range;  // commands at begin and end of the diagonal
 };
 
 Diagonal along(const Machine& machine, const Corner& c, std::size_t steps,
@@ -47,7 +47,8 @@ Diagonal along(const Machine& machine, const Corner& c, std::size_t steps,
 }
 
 struct Length {
-  double mean = 0, squares = 0, readings = 0;  // squares: of the readings about their mean
+  double mean = 0, squares = 0, readings = 0;  // squares: sum of squares of the readings about
+                                               // their mean
   double freedom() const { return std::max(0.0, readings - 1); }
 };
 
@@ -61,9 +62,10 @@ Length length_of(const MeasuredLine& line) {
   return l;
 }
 
-// u by the repetition of the lines with these slopes (∂ angle / ∂ length), and its degrees of
-// freedom. A line that was measured once has the noise of the others. One estimate from all lines
-// is then used for every line, so the parts are not independent.
+// Uncertainty of the angle by the repeatability of the lines, with degrees of freedom. slope[i]: ∂
+// angle / ∂ length of line i. Usually each line is one part. If a line was measured only once, its
+// repeatability is not known. Then one standard deviation from all lines is used for every line, in
+// one common part.
 std::vector<UncertaintyPart> by_repetition(const std::array<Length, 4>& lines,
                                            const std::array<double, 4>& slope) {
   double squares = 0, freedom = 0, by_variance = 0;

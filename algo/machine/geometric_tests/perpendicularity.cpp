@@ -31,7 +31,8 @@ double widest_gap(const std::vector<double>& angles) {
   return widest;
 }
 
-// Sum of the turns between successive readings, each by the shorter way.
+// Sum of the absolute rotations between successive readings, in turns. Each rotation is taken as
+// the shorter one of the two possible rotations.
 double turns_of(const std::vector<double>& angles) {
   double turns = 0;
   for (std::size_t i = 1; i < angles.size(); ++i) {
@@ -41,7 +42,7 @@ double turns_of(const std::vector<double>& angles) {
   return turns;
 }
 
-// Time of each reading as a share of the total time, 0 to 1.
+// Time of each reading since the first reading, divided by the total time (0 to 1).
 Result<Eigen::VectorXd> times_of(const CircleReadings& r) {
   const auto n = static_cast<Eigen::Index>(r.angle_rad.size());
   if (r.time_s.empty()) return Eigen::VectorXd::LinSpaced(n, 0, 1);

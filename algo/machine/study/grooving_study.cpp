@@ -62,13 +62,13 @@ MachineFrame axis_x(const ChainAxis& chain) {
              along_axis(0, {{1.0e-6, 0.35, 0}}),
              along_axis(0, {{1.2e-6, 0.35, 0.3}}),
              along_axis(0, {{1.5e-6, 0.35, 0.6}})};
-  x.location[5].value = 22.8e-6;  // EC0X: the line of X is turned, as in Eq. 1
+  x.location[5].value = 22.8e-6;  // EC0X: Eq. 1 also turns the axis line of X
   return x;
 }
 
 MachineFrame axis_y(const ChainAxis& chain) {
   MachineFrame y = linear_axis(chain, 1);
-  y.at_m = {kCentre_m, 0, 0};  // the middle of the table, where the laser measures
+  y.at_m = {kCentre_m, 0, 0};  // the laser measures in the middle of the table
   y.error = {along_axis(0, {{0.9e-6, 0.43, 0.35}, {0.1e-6, 0.12, 0.1}}),
              along_axis(-4.6e-6, {{0.45e-6, 0.17, 0.6}}),
              along_axis(0, {{0.25e-6, 0.28, 0.15}}),
@@ -95,7 +95,7 @@ MachineFrame axis_c(const ChainAxis& chain) {
   return c;
 }
 
-// Sets errors that are not given to a known 0.
+// Sets every unknown error to a known value of 0.
 void set_missing_errors_to_zero(Machine& machine) {
   for (MachineFrame& frame : machine.frames)
     for (std::size_t k = 0; k < kBodyErrors; ++k) {
@@ -127,12 +127,12 @@ class Noise {
   std::size_t repeats_;
 };
 
-// The machine with or without its corrections.
+// The simulated machine, with or without corrections.
 struct Plant {
   const Machine& machine;
   const VolumetricTable* corrections = nullptr;
 
-  // Error of the tool relative to the work, for the wanted command.
+  // Error of the tool relative to the work for the wanted command (x, y), m.
   Eigen::Vector3d error_at(double x, double y) const {
     Command wanted{}, given{};
     wanted[0] = given[0] = x;
@@ -149,11 +149,11 @@ struct Plant {
   }
 };
 
-// Readings along one axis in the middle of the other: errors of the tool along X, Y and Z, m.
+// Errors of the tool along X, Y and Z, m, over one axis; the other axis is in its middle.
 struct AxisReading {
   std::vector<double> at;
   std::array<std::vector<double>, 3> error;
-  double slope = 0;  // slope of the straightness in the plane, from which it is removed
+  double slope = 0;  // of the line that is subtracted from the straightness
 };
 
 AxisReading read_axis(const Plant& plant, std::size_t axis, Noise& noise, double sd) {
@@ -169,7 +169,7 @@ AxisReading read_axis(const Plant& plant, std::size_t axis, Noise& noise, double
     std::vector<double>& e = reading.error[k];
     const Line line = end_point_line(reading.at, e);
     const bool straightness = k < 2 && k != axis;
-    const double zero = e.front();  // a laser starts at 0, like an indicator over a plate
+    const double zero = e.front();  // the first reading of a laser or an indicator is 0
     for (std::size_t i = 0; i < e.size(); ++i) e[i] -= straightness ? line.at(reading.at[i]) : zero;
     if (straightness) reading.slope = line.slope;
   }
@@ -200,7 +200,7 @@ void set(MachineFrame& frame, std::size_t k, const AxisReading& reading, double 
   f.u.assign(reading.at.size(), u);
 }
 
-// The machine as the readings describe it: no angles, as in Eq. 1.
+// The machine that the readings describe. It has no angle errors, as in Eq. 1.
 Machine found_machine(const Machine& machine, const AxisReading& x, const AxisReading& y,
                       const GroovingState& state, double u) {
   Machine found = machine;
@@ -209,7 +209,7 @@ Machine found_machine(const Machine& machine, const AxisReading& x, const AxisRe
     for (ErrorFunction& f : frame.error) f = {};
     frame.location = {};
     const bool is_x = frame.id == "X";
-    // Errors of bodies that carry the work count with -.
+    // An error of a body that moves the work has the opposite effect on the tool.
     for (std::size_t k = 0; k < 2; ++k) set(frame, k, is_x ? x : y, frame.carries_work ? -1 : 1, u);
     if (is_x) frame.location[5] = {-state.angle_error_rad, state.u_angle_rad};
   }
@@ -263,10 +263,10 @@ Result<GroovingState> read_state(const Plant& plant, const GroovingInstruments& 
   GroovingState state;
   const AxisReading x = read_axis(plant, 0, noise, by.position_m);
   const AxisReading y = read_axis(plant, 1, noise, by.position_m);
-  // A rotation of the whole work is in both slopes, with opposite signs.
+  // A rotation of the whole work changes both slopes with opposite signs, but not their sum.
   state.angle_error_rad = -(x.slope + y.slope) + noise.of_one(by.square_rad);
   state.u_angle_rad = std::hypot(
-      by.square_rad, 2 * noise.u_of_mean(by.position_m) / kWidth_m);  // two ends of two lines
+      by.square_rad, 2 * noise.u_of_mean(by.position_m) / kWidth_m);  // two end points per line
   const DiagonalLines lines = read_lines(plant, noise, by.line_m);
   MDOF_TRY(state.square, squareness_of_diagonals(lines));
   DiagonalLines one = lines;
@@ -297,8 +297,8 @@ double value_at(const AxisReading& reading, std::size_t k, double at) {
   return reading.error[k][i] + part * (reading.error[k][i + 1] - reading.error[k][i]);
 }
 
-// X, Y and C keep the indicator over one spot; it measures the height of the table relative to the
-// tool.
+// Simulates the readings over one turn. X, Y and C move so that the indicator stays over one spot
+// of the table. The indicator measures the height of this spot relative to the tool.
 CircleReadings read_circle(const Machine& machine, const Plant& plane, Noise& noise,
                            const GroovingInstruments& by) {
   const AxisReading along_x = read_axis(plane, 0, noise, by.height_m);
@@ -368,8 +368,8 @@ Machine grooving_machine() {
   machine.name = "grooving machine of Hwang, Song and Park, simulated";
   machine.simulated = true;
   machine.chain = parse_chain("w-C-Y-b-X-t").value();
-  machine.chain.axes[1].against_command = true;  // the table moves against its command
-  machine.tool_m = {0, 0, 0.12};                 // above the guides, like the laser beam
+  machine.chain.axes[1].against_command = true;  // Y moves against its command
+  machine.tool_m = {0, 0, 0.12};                 // as high above the guides as the laser beam
   machine.frames = {axis_c(machine.chain.axes[0]), axis_y(machine.chain.axes[1]),
                     axis_x(machine.chain.axes[2])};
   set_missing_errors_to_zero(machine);

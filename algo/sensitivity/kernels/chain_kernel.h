@@ -1,4 +1,5 @@
-// Calculates one vector of trials of a chain of frames, by the full product of rotations. SI.
+// Calculates a chain of frames by the full product of rotations, with one vector of trials at a
+// time. SI.
 #pragma once
 
 #include "algo/machine/tiny_angle.h"
@@ -13,7 +14,7 @@ struct ChainPoint {
 };
 
 struct TrialColumns {
-  const double* first;  // first column, at this vector of trials
+  const double* first;  // first number of this vector of trials in the first column
   std::size_t stride;
 
   Vector sum(const ChainProgram& chain, const ChainSum& of) const {
@@ -26,7 +27,7 @@ struct TrialColumns {
   }
 };
 
-// Rz(c) Ry(b) Rx(a); angles that are 0 in all trials are skipped.
+// Rotation Rz(c) Ry(b) Rx(a). Angles that are 0 in all trials are skipped.
 struct ChainTurn {
   bool turns[3];
   Vector sine[3], cosine[3];
@@ -55,7 +56,7 @@ struct ChainTurn {
   }
 };
 
-// x -> point + e + R (x - point), or the inverse.
+// Applies the errors of a body, x -> point + e + R (x - point), or the inverse.
 inline void by_errors(const ChainProgram& chain, const ChainStep& step, const TrialColumns& columns,
                       ChainPoint& p) {
   const ChainTurn turn(chain, columns, &step.error[3]);
@@ -79,7 +80,8 @@ inline void by_line(const ChainProgram& chain, const ChainStep& step, const Tria
   for (std::size_t i = 0; i < 3; ++i) p.x[i] += along.x[i];
 }
 
-// x -> q + R0 T R0' (x - q), q = centre + shifts of the line.
+// Applies a rotary motion T, x -> q + R0 T R0' (x - q). q is the centre plus the shift errors of
+// the axis line, R0 the rotation by its angle errors.
 inline void by_turn(const ChainProgram& chain, const ChainStep& step, const TrialColumns& columns,
                     ChainPoint& p) {
   const ChainTurn line(chain, columns, &step.line[3]);

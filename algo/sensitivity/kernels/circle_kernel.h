@@ -1,4 +1,4 @@
-// A point of the unit circle from an angle in turns, on vectors.
+// Cosine and sine of an angle in turns, for vectors.
 #pragma once
 
 #include "algo/sensitivity/kernels/vector.h"
@@ -10,11 +10,12 @@ struct CirclePoint {
   Vector cosine, sine;
 };
 
-// cos and sin of 2π turns, turns in [0, 1]. Subtracts the nearest quarter turn, then uses Taylor
-// polynomials to x¹⁷ and x¹⁶ on |x| <= π/4, whose remainder is below 5e-17. Error below 2.5e-16.
+// Cosine and sine of 2π turns, for turns in [0, 1]. Subtracts the nearest quarter turn. For the
+// rest |x| <= π/4 it uses Taylor polynomials to x¹⁷ and x¹⁶, whose remainder is below 5e-17. The
+// total error is below 2.5e-16.
 inline CirclePoint circle_point(Vector turns) {
   constexpr double kTwoPi = 6.283185307179586476925;
-  const Vector shifted = turns * 4.0 + 0x1.8p52;  // nearest integer, kept in the low bits
+  const Vector shifted = turns * 4.0 + 0x1.8p52;  // the low bits contain the nearest integer
   const Vector quarters = shifted - 0x1.8p52;
   const Vector x = (turns - quarters * 0.25) * kTwoPi;
   const Vector y = x * x;
@@ -36,7 +37,7 @@ inline CirclePoint circle_point(Vector turns) {
   c = c * y + 1.0 / 24.0;
   c = c * y - 0.5;
   c = 1.0 + y * c;
-  // Quarter k: (c, s), (-s, c), (-c, -s), (s, -c).
+  // (cosine, sine) for the quarters k = 0 ... 3: (c, s), (-s, c), (-c, -s), (s, -c).
   const Words k = as_words(shifted);
   const Words odd = broadcast(std::uint64_t{0}) - (k & 1u);
   const Words cosine = (as_words(c) & ~odd) | (as_words(s) & odd);

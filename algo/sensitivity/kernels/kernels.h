@@ -1,5 +1,6 @@
-// The compiled kernels of one instruction set. Each kernel is written once on vectors (vector.h)
-// and compiled for every set; all sets give the same bits.
+// The vector functions ("kernels") of the sensitivity studies. Each kernel has one source with
+// vectors (vector.h), and is compiled for each instruction set. The results have the same bits with
+// all instruction sets.
 #pragma once
 
 #include <cstddef>
@@ -19,37 +20,38 @@ struct SimulationConstants {
   std::uint64_t bins;
   double travel_from, travel_per_bin;
   double angle_range, offset_range;
-  double x[5], across[5];  // A to E as installed: x, and y (top) or z (side)
+  double x[5], across[5];  // installed places of probes A to E: x, and y (top) or z (side)
   double h;
-  double radius;   // 0: no angles are drawn
-  double skew[5];  // skew of the unit: x += skew · Δacross, across -= skew · Δx
+  double radius;   // mounting tolerance of a probe; 0: no angles are drawn
+  double skew[5];  // rotation of the unit: x += skew · Δacross, across -= skew · Δx
   SmallAngleFixture nominal;
 };
 
-// Numbers drawn in a trial, for a detailed replay.
+// Destinations of the numbers that were drawn, for the details of one trial.
 struct SimulationDraws {
   double *travel, *truth[5], *turns[5];
 };
 
-// Sums of one cell of trials, in fixed order: Σu, Σu² and the extremes of x.
+// Σu, Σu², minimum and maximum of x over one cell of trials. The order of the additions is fixed.
 struct CellSums {
   double power[2];
   double min, max;
 };
 
 struct Kernels {
-  // draws 2 group and 2 group + 1 of trials first + step j
+  // Draws 2 group and 2 group + 1 of the trials first + step j.
   void (*draw_pairs)(const Stream&, std::uint64_t group, std::uint64_t first, std::uint64_t step,
                      std::size_t n, double* even, double* odd);
-  // out: five errors (µm, µrad); draws: null, or destination of the drawn numbers
+  // out: five errors (µm, µrad). draws: null, or destinations of the numbers.
   void (*simulate)(const SimulationConstants&, std::uint64_t first, std::uint64_t step,
                    std::size_t n, double* const* out, const SimulationDraws* draws);
-  // x: n > 0 values, with room for a multiple of 8. t = (x - low) per_width, u = t / 4096 - 1.
-  // sums: of u and u². index[j] = 1 + the histogram bin of x[j]; 0 below the bins, 8193 above them
-  // (NaN: 0).
+  // x: n > 0 values; the memory must be large enough for the next multiple of 8. With t = (x - low)
+  // per_width and u = t / 4096 - 1, sums contains Σu and Σu². index[j] = 1 + histogram bin of x[j];
+  // 0 below the bins and for NaN, 8193 above the bins.
   void (*scan)(double* x, std::size_t n, double low, double per_width, CellSums& sums,
                std::uint64_t* index);
-  // error: x, y, z of the tool, m. columns: each has `stride` numbers, a multiple of 8 above n - 1.
+  // error: x, y, z of the tool, m. columns: each column has `stride` numbers; `stride` is a
+  // multiple of 8 and at least n.
   void (*chain)(const ChainProgram&, const double* columns, std::size_t stride, std::size_t n,
                 double* const* error);
 };

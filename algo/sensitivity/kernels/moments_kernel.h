@@ -1,4 +1,4 @@
-// Power sums, extremes and histogram bins of one cell, on vectors.
+// Vector functions for the power sums, extremes and histogram bins of one cell.
 #pragma once
 
 #include "algo/sensitivity/kernels/kernels.h"
@@ -7,7 +7,8 @@
 namespace mdof::algo {
 namespace {
 
-inline constexpr std::size_t kLanes = 8;  // sums run over j, j + 8, j + 16 ... for any width
+inline constexpr std::size_t kLanes = 8;  // 8 partial sums, over j, j + 8, j + 16 ..., for vectors
+                                          // of any width
 inline constexpr std::size_t kParts = kLanes / kPerVector;
 
 struct Lanes {
@@ -25,7 +26,8 @@ struct Scan {
   Lanes min, max;
   double low, per_width;
 
-  // 0 below the core, 8193 above; a value on the edge of two bins may be in either.
+  // Bin 1 ... 8192 in the core, 0 below it, 8193 above it. A value on the edge of two bins may be
+  // in either bin.
   static Words bin_of(Vector t) {
     const Vector top = broadcast(kCoreBins + 0.75);  // so that t + 1/2 rounds to 0 ... 8193
     Vector b = t > -0.5 ? t : broadcast(-0.5);       // also where t is NaN

@@ -1,5 +1,5 @@
-// Philox4x32-10 on vectors, one trial in each lane, with the bits of schema/base/random.h. Each
-// translation unit that includes it has one instruction set.
+// Philox4x32-10 for vectors, with one trial in each lane. The numbers have the same bits as those
+// of schema/base/random.h. Each translation unit that includes this header has one instruction set.
 #pragma once
 
 #include "algo/sensitivity/kernels/vector.h"
@@ -25,7 +25,7 @@ inline RoundKeys round_keys(std::uint64_t seed) {
   return keys;
 }
 
-// Uniform number of schema/base/random.h from its bits: (bits + 1/2) 2⁻⁵². All steps are exact.
+// Uniform number as in schema/base/random.h: (bits + 1/2) 2⁻⁵². All operations are exact.
 inline Vector uniform_of(Words high, Words low) {
   const Words word = (high << 32) | (low & 0xFFFFFFFFu);
   return as_doubles((word >> 12) | 0x3FF0000000000000u) - (1.0 - 0x1p-53);
@@ -35,9 +35,9 @@ struct DrawPair {
   Vector even, odd;  // draws 2g and 2g + 1
 };
 
-// Draws the pairs of several blocks. The rounds of all blocks alternate, so the processor does not
-// wait for one product after the other. The upper halves of the words are invalid until the end:
-// the product ignores them, and the values that are xored into them go into the next product.
+// Draws the pairs of several blocks. The rounds of all blocks are calculated in turn, so that the
+// processor does not wait for the result of a product. The upper halves of the words are not used:
+// products ignore them.
 template <std::size_t kPairs>
 inline void draw_blocks(const RoundKeys& keys, const Words (&trial)[kPairs],
                         const std::uint64_t (&group)[kPairs], std::uint64_t stream,
@@ -66,7 +66,7 @@ inline void draw_blocks(const RoundKeys& keys, const Words (&trial)[kPairs],
   }
 }
 
-// kVectors vectors of trials, at most n trials.
+// Draws numbers for kVectors vectors of trials, and stores at most n numbers.
 template <std::size_t kVectors>
 inline void draw_some_pairs(const RoundKeys& keys, Words trial, std::uint64_t step,
                             std::uint64_t group, std::uint64_t stream, std::size_t n, double* even,

@@ -1,4 +1,4 @@
-// Calculates one vector of trials of the paper's simulations. SI.
+// Calculates the simulations of the paper, with one vector of trials at a time. SI.
 #pragma once
 
 #include "algo/model/small_angle/small_angle_kernel.h"
@@ -9,9 +9,10 @@
 namespace mdof::algo {
 namespace {
 
-// Exact outputs at any place (Eq. 2 and its counterpart for the side). The terms that do not depend
-// on the place are calculated once: Δz = (y - δy) q + (d - x) p + δz, Δy = (d - x) along - (z - δz)
-// up + bulge + δy.
+// Exact outputs of a probe at any place (Eq. 2, and the same equation for the side). The terms that
+// do not depend on the place are calculated once:
+//   Δz = (y - δy) q + (d - x) p + δz
+//   Δy = (d - x) along - (z - δz) up + bulge + δy
 struct Outputs {
   Vector p, q, along, up, bulge;
   Vector travel, dy, dz;
@@ -86,7 +87,8 @@ inline void errors_of(const SimulationConstants& s, const Drawn& drawn, Vector (
   for (int k = 0; k < 5; ++k) error[k] = (error[k] - drawn.truth[k]) * 1e6;
 }
 
-// Bins of the trials from `first` on. If the step is a multiple of the bins, all are the same.
+// Bins of one vector of trials, starting at trial `first`. If the step is a multiple of the number
+// of bins, all trials are in the same bin.
 inline Vector bins_of(std::uint64_t bins, std::uint64_t first, std::uint64_t step) {
   Vector bin = broadcast(0.0);
   for (std::size_t i = 0; i < kPerVector; ++i)

@@ -1,5 +1,6 @@
-// The vectors of the kernels: as wide as the instruction set of the including translation unit.
-// Everything has internal linkage, because the same names mean other types in other units.
+// The vector types of the kernels. Their width is that of the instruction set of the translation
+// unit. All names have internal linkage, because they are different types in other translation
+// units.
 #pragma once
 
 #include <cstddef>
@@ -32,10 +33,11 @@ inline Words as_words(Vector v) {
   return __builtin_bit_cast(Words, v);
 }
 
-// Product of the lower halves; the upper ones are ignored.
+// Product of the lower halves of each word; the upper halves are ignored.
 inline Words product32(Words a, Words b) {
 #if defined(__AVX512F__)
-  // With a mask of all ones: without a mask g++ 12 warns about its own header (GCC bug 105593).
+  // Uses a mask of ones, because the function without mask causes a warning of g++ 12 about its own
+  // header (GCC bug 105593).
   return __builtin_bit_cast(Words, _mm512_maskz_mul_epu32(0xFF, __builtin_bit_cast(__m512i, a),
                                                           __builtin_bit_cast(__m512i, b)));
 #elif defined(__AVX2__)

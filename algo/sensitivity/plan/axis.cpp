@@ -66,7 +66,7 @@ void deviate_plane(const DrawnQuantity& q, const DrawnNumbers& numbers, std::siz
   }
 }
 
-// Lowest and highest travel of the plan's distribution of the travel.
+// Smallest and largest travel that the plan's distribution of travel_mm can have.
 std::pair<double, double> travel_range(const StudyPlan& plan) {
   for (const auto& quantity : plan.quantities) {
     if (quantity.name != "travel_mm") continue;
@@ -103,7 +103,7 @@ Status check_forward(const StudyPlan& plan, const Fixture& fixture) {
 
 }  // namespace
 
-// Data of one trial that its readings need.
+// Data of one trial from which its readings are calculated.
 struct PlanAxis::Trial {
   const DrawnNumbers& numbers;
   std::size_t j;

@@ -1,5 +1,5 @@
-// One axis of a plan: its trials from drawn numbers to solved errors, at a point and along a
-// series.
+// Trials of one axis of a plan, from the random numbers to the solved errors. A trial has one
+// point, or a series of positions along the axis, or both.
 #pragma once
 
 #include <array>
@@ -18,13 +18,15 @@ namespace mdof::algo {
 
 inline constexpr double kNotSolved = std::numeric_limits<double>::quiet_NaN();
 
-// Trials of one request: [reading][error][trial] and [reading][trial]. Reading 0 is the point.
+// Readings and errors of the trials of one request. Reading 0 is the point; readings 1 ... are the
+// series. Unless stated, the order of the elements is [reading][trial].
 struct AxisReadings {
   std::size_t n = 0, probes = 0;
-  std::vector<double> truth, estimate;      // local frame; kNotSolved without a solution
+  std::vector<double> truth, estimate;      // [reading][error][trial], local frame; kNotSolved
+                                            // without a solution
   std::vector<double> travel_m, encoder_m;  // true travel, and travel of the encoder
   std::vector<double> probe_m;              // [reading][probe][trial]
-  std::vector<double> square_rad;           // [trial]: error of the artefact's angle
+  std::vector<double> square_rad;           // [trial]: error of the angle of the artefact
 
   std::size_t at(std::size_t reading, std::size_t error) const {
     return (reading * kErrorCount + error) * n;
@@ -37,10 +39,10 @@ class PlanAxis {
   static Result<PlanAxis> create(const StudyPlan& plan, const Rig& rig, const std::string& prefix,
                                  bool point, bool series, std::vector<std::string>& causes);
 
-  // Any thread; resizes `out`.
+  // Thread-safe. Resizes `out`.
   void run(const DrawRequest& request, AxisReadings& out) const;
 
-  // True errors of one trial: amplitudes, and phases in turns.
+  // True errors of one trial as waves along the axis: amplitudes, and phases in turns.
   struct TrueErrors {
     Errors5 amplitude{};
     std::array<double, 5> phase_turns{};

@@ -1,4 +1,4 @@
-// Outputs of consecutive trials, one column for each output, for the sums over blocks.
+// Outputs of successive trials, one column for each output. Used for sums over blocks of trials.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace mdof::algo {
 // Largest number of trials in a block if a trial takes milliseconds.
 inline constexpr std::uint64_t kSlowSumBlock = 8;
 
-// With fewer blocks a standard error is uncertain by more than 13 %, 1/√(2(blocks - 1)).
+// With fewer blocks the relative uncertainty 1/√(2(blocks - 1)) of a standard error is above 13 %.
 inline constexpr std::uint64_t kFewSumBlocks = 30;
 
 class Columns {
@@ -44,9 +44,9 @@ class Columns {
   std::vector<double*> place_;
 };
 
-// Number of trials in a block for `trials` in all. It gives at least 64 blocks, because the
-// standard errors come from their scatter, or one block for each trial; and it is short enough for
-// threads to share the work well.
+// Number of trials in a block if the study has `trials` trials. There are at least 64 blocks, or
+// one block for each trial, because the standard errors are calculated from the scatter of the
+// blocks. A block has at most 4096 trials, so that the work is divided evenly among threads.
 inline std::uint64_t sum_block_trials(std::uint64_t trials) {
   return std::clamp<std::uint64_t>(trials / 64, 1, 4096);
 }

@@ -29,7 +29,8 @@ bool has_angle(Effect effect) {
   return effect == Effect::probe_circle || effect == Effect::probe_tilt || effect == Effect::truth;
 }
 
-// A true error at a single position has no phase that varies.
+// True: the quantity has different values in different trials. Without a series, the phase of a
+// true error has no effect.
 bool varies(const DrawnQuantity& q, const Distribution& d, bool series) {
   if (d.kind != Distribution::Kind::constant) return true;
   if (d.centre == 0) return false;
@@ -101,8 +102,8 @@ Status PlanDraws::add_group(const PlannedCorrelation& planned) {
   return {};
 }
 
-// Names of causes are those of the quantities in the plan, or those of each probe; a correlated
-// group is one cause.
+// Assigns each quantity to a cause. The name of a cause is the name of the quantity in the plan, or
+// with each_probe the name for each probe. A group of correlated quantities is one cause.
 void PlanDraws::name_causes(const StudyPlan& plan, std::vector<std::string>& causes) {
   const bool each = plan.indices && plan.indices->each_probe;
   const auto name_of = [&](const DrawnQuantity& q) {
@@ -128,8 +129,9 @@ std::uint32_t PlanDraws::stream(const DrawnQuantity& q, const DrawRequest& reque
   return 2 * reading + (second ? 1 : 0);
 }
 
-// Trial i of the first stream is in bin i % bins. The second stream visits the bins in another
-// order, so that each pair of bins occurs once in bins² trials.
+// Limits the uniform numbers to the bin of the trial. In the first stream, trial i is in bin i %
+// bins. The second stream has another order of the bins, so that each pair of bins occurs once in
+// bins² trials.
 void PlanDraws::stratify(const DrawnQuantity& q, const DrawRequest& request,
                          std::span<double> u) const {
   const bool second = stream(q, request, 0) != 0;
@@ -156,7 +158,7 @@ void PlanDraws::draw_one(const DrawnQuantity& q, const DrawRequest& request,
   }
 }
 
-// Direction and phase of each wave, both in turns.
+// Draws direction and phase of each wave, both in turns.
 void PlanDraws::draw_waves(const DrawnQuantity& q, const DrawRequest& request,
                            DrawnNumbers& numbers) const {
   for (std::size_t w = 0; w < kFlatnessWaves; ++w) {

@@ -13,15 +13,16 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kChunk = 128;  // trials at once, so that their columns stay in the cache
+constexpr std::size_t kChunk = 128;  // number of trials in one step; their columns stay in the
+                                     // cache
 
-// The named error of one reading, estimated or true, in SI.
+// The named error of one reading, in SI. `local`: estimated or true errors.
 double named_at(const std::vector<double>& local, const AxisReadings& r, const ErrorName& name,
                 std::size_t reading, std::size_t j) {
   return name.sign * local[r.at(reading, static_cast<std::size_t>(name.local)) + j];
 }
 
-// The same error stated at the fixture, to first order: e(0) = (δy - d εz, δz + d εy).
+// The named error stated at the fixture, to first order: e(0) = (δy - d εz, δz + d εy).
 double named_at_fixture(const std::vector<double>& local, const AxisReadings& r,
                         const ErrorName& name, std::size_t reading, std::size_t j,
                         double travel_m) {
@@ -32,7 +33,8 @@ double named_at_fixture(const std::vector<double>& local, const AxisReadings& r,
   return at_carriage + name.sign * (across ? -turned : turned);
 }
 
-// Estimated and true series of one error over the positions, at the fixture, for fits of lines.
+// Estimated and true values of one error at all positions, stated at the fixture. Lines are fitted
+// to them.
 struct Series {
   std::vector<double> shown_m, found, travel_m, truth;
 
@@ -110,8 +112,8 @@ Result<std::unique_ptr<ScalableExperiment>> PlanExperiment::create(const StudyPl
 
 // The error of EC0Y = -slope(EXY) - slope(EYX) + corner * artefact (schema/iso230/squareness.h),
 // with corner = -1: the fixture is turned from X to Y with the axis. The slopes are measured
-// against the true artefact and corrected by the stated angle, so the error of this angle adds to
-// the error of EC0Y.
+// relative to the true artefact, and EC0Y is corrected by the stated angle. Therefore the error of
+// the stated angle is added to the error of EC0Y.
 double PlanExperiment::squareness_error(const AxisReadings& x, const AxisReadings& y, std::size_t j,
                                         Series& series) const {
   double error = x.square_rad[j];

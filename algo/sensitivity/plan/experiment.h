@@ -1,5 +1,6 @@
-// A trial of a user's plan: draw the quantities, calculate the readings of the perturbed rig, solve
-// them with the nominal rig, compare with the truth. PLAN.md describes it.
+// The experiment of a user's plan (PLAN.md). In each trial mdof draws the quantities, calculates
+// the readings of the perturbed rig, solves these readings with the nominal rig, and compares the
+// solved errors with the true errors.
 #pragma once
 
 #include <memory>
@@ -20,20 +21,21 @@ class ScalableExperiment : public CausalExperiment {
   virtual const std::vector<std::string>& quantities() const = 0;
   // Size of each tolerance in the unit of its name: half width, standard deviation, ... (PLAN.md).
   virtual const std::vector<double>& sizes() const = 0;
-  // Like run(), with each value of quantity q times scale[q]; if all are 1, the bits are those of
-  // run().
+  // As run(), but with the values of quantity q multiplied by scale[q]. If all scale[q] are 1, the
+  // results have the bits of run().
   virtual void run_scaled(std::span<const double> scale, std::uint64_t first, std::uint64_t step,
                           std::size_t n, std::span<double* const> out) const = 0;
-  // Numbers drawn in one trial: names without star, and values in their unit.
+  // Names and numbers of one trial. The names contain no star. Values are in the unit of the name.
   virtual std::vector<std::pair<std::string, double>> inputs(std::uint64_t trial) const = 0;
 };
 
-// Errors, with the plan's file and key: a rig that does not determine all errors or does not fit
-// the model, a matrix that is not positive definite, an output or effect that the forward model
-// does not have. For plans with whole_run see tools/mdof/study/running/run_experiment.h.
+// Errors state the file and the key of the plan: a rig that does not determine all errors or does
+// not fit the model; a matrix that is not positive definite; an output or effect that the forward
+// model does not have. For plans with whole_run see tools/mdof/study/running/run_experiment.h.
 Result<std::unique_ptr<ScalableExperiment>> make_plan_experiment(const StudyPlan& plan);
 
-// The same plan and random numbers with the rig of [compare]; requires plan.compare.
+// The experiment of the same plan with the rig of [compare] and the same random numbers.
+// plan.compare must be set.
 Result<std::unique_ptr<ScalableExperiment>> make_compared_experiment(const StudyPlan& plan);
 
 }  // namespace mdof::algo

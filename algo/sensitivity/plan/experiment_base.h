@@ -44,7 +44,7 @@ class PlanExperimentBase : public ScalableExperiment {
  protected:
   virtual void run_all(const DrawRequest& request, std::span<double* const> out) const = 0;
 
-  std::vector<std::string> causes_;  // filled when its draws are created
+  std::vector<std::string> causes_;  // set when the draws are created
 
  private:
   std::vector<std::string> outputs_, quantities_;

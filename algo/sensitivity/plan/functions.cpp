@@ -6,7 +6,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLn2High = 0x1.62e42fefa38p-1;   // 42 bits: its multiples by |k| < 2^11 are exact
+constexpr double kLn2High = 0x1.62e42fefa38p-1;   // 42 bits, so that products with |k| < 2^11 are
+                                                  // exact
 constexpr double kLn2Low = 0x1.ef35793c7673p-45;  // ln 2 - kLn2High
 constexpr double kHalfLnTwoPi = 0.91893853320467274178;
 constexpr double kLnPi = 1.14472988584940017414;
@@ -43,7 +44,7 @@ double natural_log(double x) {
     mantissa *= 2;
     --exponent;
   }
-  const double z = (mantissa - 1) / (mantissa + 1);  // |z| < 0.172: 2 artanh(z) by its series
+  const double z = (mantissa - 1) / (mantissa + 1);  // |z| < 0.172; the series is 2 artanh(z)
   double sum = 0;
   for (int k = 23; k >= 1; k -= 2) sum = sum * (z * z) + 1.0 / k;
   return exponent * kLn2High + (2 * z * sum + exponent * kLn2Low);

@@ -11,7 +11,8 @@
 namespace mdof::algo {
 namespace {
 
-// Weights of the waves: 1/k², scaled to the sum 1, so that the height stays within its limits.
+// Weights of the waves, proportional to 1/k². Their sum is 1, so that the height stays within ±
+// flatness_m / 2.
 constexpr std::array<double, kFlatnessWaves> kWaveWeight = {144.0 / 205, 36.0 / 205, 16.0 / 205,
                                                             9.0 / 205};
 
@@ -30,8 +31,8 @@ void install(FixtureProbe& probe, const PartDeviation& part) {
   probe.u_M = R * probe.u_M;
 }
 
-// A⁻ᵀ, which transforms normals from C to M: A = 1 + [ε]× is the upper left 3 × 3 part of the
-// paper's transform T (Eq. 1), and A⁻ᵀ is the matrix of the cofactors of A divided by the
+// The matrix A⁻ᵀ, which transforms normals from C to M. A = 1 + [ε]× is the upper left 3 × 3 part
+// of the transform T in Eq. 1 of the paper. A⁻ᵀ is the matrix of the cofactors of A, divided by the
 // determinant of A.
 Eigen::Matrix3d small_angle_normals(const Errors5& e) {
   const double x = e[kEx], y = e[kEy], z = e[kEz];
@@ -60,7 +61,7 @@ MountedFixture::MountedFixture(const Fixture& nominal, Forward forward, double f
       zero_m_(nominal.probes.size()) {
   for (const auto& probe : nominal.probes) {
     part_.push_back(part_of(probe));
-    // Two directions across the probe: along the motion if possible, and perpendicular to it.
+    // Two directions perpendicular to the probe. The first is along the motion if this is possible.
     const bool along_x = std::abs(probe.u_M.x()) > 0.9;
     const Eigen::Vector3d start = along_x ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
     const Eigen::Vector3d level = start - start.dot(probe.u_M) * probe.u_M;
@@ -103,7 +104,7 @@ bool MountedFixture::mount(const Mounting& m) {
   return displacements(0, {}, zero_m_);
 }
 
-// Fixture and target expand about the origin of M.
+// Expands fixture and target about the origin of M.
 void MountedFixture::warm(double course) {
   if (mounting_.fixture_expansion == 0 && mounting_.target_expansion == 0) return;
   for (std::size_t k = 0; k < probes(); ++k) {
@@ -113,8 +114,8 @@ void MountedFixture::warm(double course) {
   }
 }
 
-// Random height under the probe. The place is calculated to first order in the errors; the second
-// order is nanometres of place, on slopes below 1e-3.
+// Random height of the plane at the probe. The place on the plane is calculated to first order in
+// the errors. The second order changes the place only by nanometres, and the slopes are below 1e-3.
 double MountedFixture::height(std::size_t k, double travel_m, const Errors5& e) const {
   const PlaneDeviation& plane = mounting_.plane[static_cast<std::size_t>(part_[k])];
   if (plane.flatness_m == 0) return 0;
@@ -155,8 +156,8 @@ bool MountedFixture::read(double travel_m, const Errors5& local, double course, 
   if (!displacements(travel_m, local, reading_m)) return false;
   for (std::size_t k = 0; k < reading_m.size(); ++k) {
     const ProbeDeviation& deviation = mounting_.probe[k];
-    // A contribution of the rig itself (a height map, a plane's offset) is kept: the solution
-    // subtracts it.
+    // Only the contribution of the mounting is subtracted. The contribution of the rig (height map,
+    // offset of a plane) remains, because the solution subtracts it.
     const double zero = zero_at_start ? zero_m_[k] - nominal_zero_m_[k] : 0.0;
     reading_m[k] =
         deviation.gain * (reading_m[k] - zero) + deviation.zero_m + deviation.drift_m * course;

@@ -1,4 +1,4 @@
-// A fixture and a target with their true deviations from the nominal ones, and the readings of the
+// A fixture and a target with deviations from their nominal geometry, and the readings of the
 // probes. Local frame of the axis; m and rad.
 #pragma once
 
@@ -15,18 +15,19 @@ namespace mdof::algo {
 
 struct ProbeDeviation {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  // Shift by circle_m across the probe's direction, towards circle_turns (the paper's Eq. 13-15).
+  // Shift by circle_m perpendicular to the direction of the probe, at the azimuth circle_turns (Eq.
+  // 13-15 of the paper).
   double circle_m = 0, circle_turns = 0;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-  double tilt_rad = 0, tilt_turns = 0;  // tilt by tilt_rad towards tilt_turns
+  double tilt_rad = 0, tilt_turns = 0;  // tilt by tilt_rad at the azimuth tilt_turns
   double gain = 1, zero_m = 0, drift_m = 0;
 };
 struct PartDeviation {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
 };
 // The height of the plane at its point c is flatness_m / 2 · Σ w_k sin 2π(k c·e_k / L + phase_k)
-// over the waves k = 1 ... kFlatnessWaves. L is the longest wave (flatness_length_m). The w_k sum
-// to 1, so no two heights differ by more than flatness_m.
+// over the waves k = 1 ... kFlatnessWaves. L is the length of the longest wave (flatness_length_m).
+// The sum of the w_k is 1, so two heights differ by at most flatness_m.
 struct PlaneDeviation {
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   double map_scale = 1, flatness_m = 0;
@@ -37,20 +38,20 @@ struct Mounting {
   std::vector<ProbeDeviation> probe;
   std::array<PartDeviation, 3> part{};                 // by Part
   std::array<PlaneDeviation, 3> plane{};               // by Part; unused for the fixture
-  double fixture_expansion = 0, target_expansion = 0;  // relative, at the reading
+  double fixture_expansion = 0, target_expansion = 0;  // relative expansion at course = 1
 };
 
-// The fixture of one trial at a time. `course`: progress of the trial, from 0 when the probes are
-// zeroed to 1 when drift and warming are complete.
+// Calculates the readings with the mounting of one trial. `course`: progress of the trial, from 0
+// (probes are zeroed) to 1 (drift and thermal expansion are complete).
 class MountedFixture {
  public:
   MountedFixture(const Fixture& nominal, Forward forward, double flatness_length_m);
 
   // False: an angle exceeds the limit of the models (0.25 rad).
   bool mount(const Mounting& mounting);
-  // Readings of the probes: gain (displacement - zero) + zero error + drift. The zero is the
-  // contribution of the mounting to the reading at d = 0 without errors of motion, or 0. False: as
-  // mount().
+  // Readings of the probes: gain * (displacement - zero) + zero error + drift. If zero_at_start,
+  // the zero is the contribution of the mounting to the displacement at d = 0 without errors of
+  // motion; otherwise the zero is 0. Returns false as mount() does.
   bool read(double travel_m, const Errors5& local, double course, bool zero_at_start,
             std::span<double> reading_m);
   std::size_t probes() const { return nominal_.probes.size(); }
@@ -61,14 +62,16 @@ class MountedFixture {
   bool displacements(double travel_m, const Errors5& local, std::span<double> out);
 
   Fixture nominal_;
-  Fixture cold_;  // as mounted
-  Fixture now_;   // with expansion
+  Fixture cold_;  // with the deviations of the mounting
+  Fixture now_;   // with these deviations and the expansion
   Forward forward_;
   double flatness_length_m_;
   std::vector<Part> part_;                       // of each probe: top, side or fixture
-  std::vector<Eigen::Vector3d> first_, second_;  // two directions across each nominal direction
+  std::vector<Eigen::Vector3d> first_, second_;  // two directions perpendicular to the nominal
+                                                 // direction of each probe
   Mounting mounting_;
-  std::vector<double> nominal_zero_m_, zero_m_;  // readings at d = 0: nominal, as mounted
+  std::vector<double> nominal_zero_m_, zero_m_;  // displacements at d = 0: nominal; with the
+                                                 // mounting
 };
 
 Part part_of(const FixtureProbe& probe);

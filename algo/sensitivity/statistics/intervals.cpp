@@ -7,14 +7,14 @@
 namespace mdof::algo {
 namespace {
 
-// q of §7.7: difference of the ranks of the ends of an interval, within 0 ... M - 1.
+// q of §7.7: rank of the upper end minus rank of the lower end of an interval, limited to M - 1.
 std::uint64_t covered(double coverage, std::uint64_t trials) {
   const auto q =
       static_cast<std::uint64_t>(std::floor(coverage * static_cast<double>(trials) + 0.5));
   return std::min(q, trials - 1);
 }
 
-// Finds values of ascending ranks, each in constant time.
+// Finds the values of ascending ranks, in constant time for each rank.
 class Cursor {
  public:
   explicit Cursor(const OrderedTrials& trials) : trials_(&trials) {}
@@ -34,7 +34,8 @@ struct Shortest {
   std::uint64_t low = 1;
 };
 
-// Tries the ranks r at one end of every slice; `shift`: r is that end minus this.
+// Searches the shortest interval among the ranks r = (rank at one end of a slice) - shift, for all
+// slices. last: the upper end of each slice, otherwise the lower end.
 void search_at_slice_ends(const OrderedTrials& trials, std::uint64_t q, std::uint64_t shift,
                           bool last, Shortest& best) {
   Cursor low(trials), high(trials);
@@ -56,11 +57,12 @@ std::uint64_t quantile_rank(double p, std::uint64_t trials) {
 
 IntervalRanks symmetric_ranks(double coverage, std::uint64_t trials) {
   const std::uint64_t q = covered(coverage, trials);
-  const std::uint64_t r = (trials - q + 1) / 2;  // half of trials - q if it is even
+  const std::uint64_t r = (trials - q + 1) / 2;  // equal to (trials - q) / 2 if trials - q is even
   return {r, r + q};
 }
 
-// Between the ends of slices y(r + q) - y(r) is linear in r, so its minimum is at such an end.
+// y(r + q) - y(r) is linear in r while r and r + q stay in their slices. Therefore the minimum is
+// where r or r + q is at an end of a slice.
 IntervalRanks shortest_ranks(double coverage, const OrderedTrials& trials) {
   const std::uint64_t q = covered(coverage, trials.size());
   Shortest best;
@@ -93,7 +95,7 @@ Histogram histogram_for_drawing(const OutputHistogram& counts, const OutputScale
   const double q_low = trials.value(quantile_rank(0.001, trials.size()));
   const double q_high = trials.value(quantile_rank(0.999, trials.size()));
   const double more = (q_high - q_low) / 10;
-  // Bars consist of whole bins of the core.
+  // Each bar contains complete bins of the core.
   const auto bin = [&](double x) {
     const double i = std::floor((x - scale.low) / scale.width);
     return static_cast<std::size_t>(std::clamp(i, 0.0, static_cast<double>(kCoreBins - 1)));

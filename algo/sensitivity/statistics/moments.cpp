@@ -8,17 +8,17 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::array<double, 2> kPerUnit = {0x1p48, 0x1p40};
-// 2^40 cells of this size still fit in 127 bits.
+// The sum of 2^40 cells of this size has less than 127 bits.
 constexpr double kLargestCell = 0x1p86;
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-// E[u] and E[u²].
+// Mean of u (power 0) or of u² (power 1) over n trials.
 double average(const PowerSums& sums, std::size_t power, double n) {
   if (sums.lost[power]) return kNotKnown;
   return static_cast<double>(sums.sum[power]) / kPerUnit[power] / n;
 }
 
-// μ4 / σ⁴, with every trial in the middle of its slice.
+// Fourth central moment divided by sd⁴. Every trial is assumed in the middle of its slice.
 double kurtosis(const OrderedTrials& trials, const Moments& m) {
   double sum = 0;
   for (const OrderedTrials::Slice& s : trials.slices()) {

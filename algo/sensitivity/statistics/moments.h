@@ -1,4 +1,4 @@
-// Mean and standard deviation from sums that do not depend on the order of the trials.
+// Mean and standard deviation of trials, from sums that do not depend on the order of the trials.
 #pragma once
 
 #include <array>
@@ -11,10 +11,11 @@ namespace mdof::algo {
 
 __extension__ using Int128 = __int128;
 
-// Σ u and Σ u² of any number of cells as fixed-point integers, so that addition is associative. The
-// sum of a cell is rounded to 2^-48 and 2^-40, which is near the rounding of its double sum. If a
-// cell's sum has 2^86 such steps or more (one |u| above 3e11 for the mean, above 8e6 for the sd),
-// it is omitted and its power is marked as lost, whatever the order of the cells.
+// Σ u and Σ u² of any number of cells, as fixed-point integers. The sums of integers do not depend
+// on the order of the cells. Σ u of a cell is rounded to a multiple of 2^-48, and Σ u² to a
+// multiple of 2^-40; this is about the rounding of the double. A multiple of 2^86 or more is not
+// added, and `lost` is set for its power. This occurs if one |u| is above 3e11 (Σ u) or above 8e6
+// (Σ u²).
 struct PowerSums {
   std::array<Int128, 2> sum{};
   std::array<bool, 2> lost{};
@@ -24,14 +25,15 @@ struct PowerSums {
   bool operator==(const PowerSums&) const = default;
 };
 
-// NaN if a required power was lost, or if there are too few trials.
+// With standard errors (se). A value is NaN if a necessary power was lost, or if there are too few
+// trials.
 struct Moments {
   double mean = 0, mean_se = 0, sd = 0, sd_se = 0;
 };
 
-// u = 0 is the middle of the histogram's core, u = 1 its upper end. `trials`: the same trials in
-// ascending order. They give the fourth moment for the standard error of the sd, to the width of a
-// bin.
+// u = 0 is the middle of the core of the histogram, u = 1 is its upper end. `trials`: the same
+// trials in ascending order. The fourth moment, for the standard error of the sd, is calculated
+// from them; its accuracy is limited by the width of the bins.
 Moments moments_of(const PowerSums& sums, const OrderedTrials& trials, const OutputScale& scale);
 
 }  // namespace mdof::algo

@@ -9,7 +9,8 @@
 namespace mdof::algo {
 namespace {
 
-// Bins of a tail: 64 for each octave of 64 + distance; the distance is in widths of a core bin.
+// The tails have 64 bins for each octave of 64 + distance. The unit of the distance is the width of
+// a core bin.
 constexpr int kMantissaBits = 6;
 constexpr double kOffset = 64;
 
@@ -21,7 +22,7 @@ std::int32_t tail_bin(double distance) {
   return static_cast<std::int32_t>(top_bits(kOffset + distance) - top_bits(kOffset)) + 1;
 }
 
-// Start of a tail's bin, in widths of a core bin.
+// Distance at which a tail bin begins, in widths of a core bin.
 double tail_edge(std::int32_t bin) {
   const std::uint64_t bits = top_bits(kOffset) + static_cast<std::uint64_t>(bin - 1);
   return std::bit_cast<double>(bits << (52 - kMantissaBits)) - kOffset;
@@ -35,7 +36,8 @@ std::int32_t tail_key(double x, const OutputScale& scale) {
   return -tail_bin(std::max(0.0, (scale.low - x) / scale.width));
 }
 
-// Largest part of a bin by which rounding moves a value to the wrong side of an edge.
+// Because of rounding, a value can be in the wrong bin if it is nearer to the edge than this part
+// of the width of a bin.
 constexpr double kEdgeSlack = 1e-9;
 
 }  // namespace
@@ -52,7 +54,8 @@ OutputScale scale_for(std::vector<double> values) {
   }
   const double middle = from / 2 + to / 2, size = std::abs(middle);
   const bool constant = to - from <= size * 0x1p-44;
-  // The core must be wide enough for distinct edges, and must not overflow.
+  // The core must be so wide that the edges of the bins are different numbers, and must not
+  // overflow.
   const double least = constant ? std::max(size, 1.0) / 512 : std::max(size * 0x1p-30, 1e-200);
   const double range = std::clamp(2 * (to - from), std::min(least, 1e300), 1e300);
   return {middle - range / 2, range / kCoreBins};
@@ -92,7 +95,7 @@ std::uint64_t& OutputHistogram::total_at(std::size_t bin) {
 
 std::size_t OutputHistogram::memory_bytes() const {
   constexpr std::size_t kNode =
-      64;  // node of a map: three pointers, a colour, key and count, heap header
+      64;  // bytes of a map node: three pointers, colour, key, count, heap header
   return recent_.capacity() * sizeof(std::uint32_t) + flushed_.capacity() * sizeof(std::uint64_t) +
          tails_.size() * kNode;
 }
@@ -118,7 +121,8 @@ OrderedTrials::OrderedTrials(const OutputHistogram& counts, const OutputScale& s
   }
 }
 
-// An edge that overflowed, or that lies outside the extreme values, becomes an extreme value.
+// Adds a slice. If an edge of the slice is not finite, or is outside [min, max], it is replaced by
+// min or max.
 void OrderedTrials::append(double from, double to, std::uint64_t count) {
   if (!std::isfinite(from)) from = min_;
   if (!std::isfinite(to)) to = max_;

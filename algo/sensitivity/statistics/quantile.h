@@ -1,5 +1,6 @@
-// Order statistics from a histogram that loses no trial: bins of equal width in a core, and beyond
-// it bins that become wider with the distance, up to the largest double.
+// Order statistics from a histogram that contains every finite value. The bins of the core have
+// equal width. Outside the core, the width of the bins increases with the distance, up to the
+// largest double.
 #pragma once
 
 #include <cstdint>
@@ -12,31 +13,34 @@
 
 namespace mdof::algo {
 
-// Core of the histogram of one output: `low`, and the width of each of its 8192 bins.
+// Core of the histogram of one output: its lower end, and the width of each of its 8192 bins.
 struct OutputScale {
   double low = 0, width = 0;
   double high() const { return low + width * static_cast<double>(kCoreBins); }
   bool operator==(const OutputScale&) const = default;
 };
 
-// The core for these values (finite or not): twice as wide as their central 98 %, with the same
-// middle. Values that are equal except for rounding do not show how much later values differ: the
-// core is then 1/512 of the values, or 1/512 of the unit if they are smaller. Sums are then valid
-// from pm and prad to beyond mm and mrad.
+// The core for these values; values that are not finite are ignored. The core is twice as wide as
+// the central 98 % of the values, with the same middle. If the values are equal except for
+// rounding, the scatter of later values is unknown. The width of the core is then 1/512 of the
+// values, or 1/512 of the unit if the values are smaller. Such sums are valid from pm and prad to
+// more than mm and mrad.
 OutputScale scale_for(std::vector<double> values);
 
-// Counts of one output. Core bin i is [low + i width, low + (i+1) width]; a value on an edge may be
-// in either bin. The bins of a tail have a relative width of 1/64: bin j starts where 64 + distance
-// / width has j in the top bits of its double. Tail keys above the core are positive, those below
-// are negative.
+// Counts of the values of one output. Core bin i is [low + i width, low + (i+1) width]; a value on
+// an edge may be in either bin. The two tails are outside the core. Their bins have a relative
+// width of 1/64: the number j of a bin is calculated from the top bits of the double 64 + distance
+// / width. The key of a tail bin is j above the core and -j below the core.
 class OutputHistogram {
  public:
-  // `recent_capacity`: number of trials after which the small counters are added to large ones.
+  // `recent_capacity`: after this number of trials, the 32-bit counters are added to 64-bit
+  // counters.
   explicit OutputHistogram(
       std::uint64_t recent_capacity = std::numeric_limits<std::uint32_t>::max())
       : recent_capacity_(recent_capacity), recent_(kCoreBins + 2) {}
 
-  // Adds a cell. `index`: from Kernels::scan; x is read only for values outside the core.
+  // Adds the values of a cell. `index`: bins from Kernels::scan. x is used only for values outside
+  // the core.
   void add(std::span<const double> x, const std::uint64_t* index, const OutputScale& scale);
   void add(const OutputHistogram& other);
   void add_core(std::size_t bin, std::uint64_t n) { total_at(bin) += n; }
@@ -54,8 +58,9 @@ class OutputHistogram {
   std::uint64_t& total_at(std::size_t bin);
 
   std::uint64_t recent_capacity_;
-  std::vector<std::uint32_t> recent_;   // below, core, above; small, to stay in the cache
-  std::uint64_t recent_n_ = 0;          // flushed before a counter could overflow
+  std::vector<std::uint32_t> recent_;   // below the core, core bins, above the core; 32 bits, so
+                                        // that they stay in the cache
+  std::uint64_t recent_n_ = 0;          // flush() is called before a counter can overflow
   std::vector<std::uint64_t> flushed_;  // empty until the first flush
   std::map<std::int32_t, std::uint64_t> tails_;
 };
@@ -75,12 +80,12 @@ class OrderedTrials {
   double min() const { return min_; }
   double max() const { return max_; }
 
-  // Index of the slice of the trial of this rank, 1 <= rank <= size().
+  // Index of the slice that contains the trial with this rank, 1 <= rank <= size().
   std::size_t find(std::uint64_t rank) const;
-  // Estimate of the rank-th smallest value, evenly spread within its slice.
+  // Estimate of the value with this rank. The values of a slice are assumed to be equally spaced.
   double value(std::size_t slice, std::uint64_t rank) const;
   double value(std::uint64_t rank) const { return value(find(rank), rank); }
-  // Largest distance of value() from the true rank-th smallest value.
+  // Upper bound of the error of value().
   double resolution(std::uint64_t rank) const;
 
  private:

@@ -19,7 +19,8 @@ std::size_t bins_of(const Experiment& experiment) {
   return std::max<std::size_t>(experiment.binned().bins, 1);
 }
 
-// Runs trials first ... first + trials - 1 by bins and cells: visit(bin, columns of the cell, n).
+// Runs trials first ... first + trials - 1, bin after bin and cell after cell. Calls visit(bin,
+// columns of the cell, number of trials) for each cell.
 template <class Visit>
 void run_cells(const Experiment& experiment, std::uint64_t first, std::uint64_t trials,
                const Visit& visit) {
@@ -57,7 +58,7 @@ void add_cell(const Kernels& kernels, const OutputScale& scale, double* x, std::
     kernels.scan(x, n, scale.low, per_width, sums, index.data());
   }
   to.n += n;
-  to.min = std::min(to.min, sums.min + 0.0);  // +0 for either sign of a zero
+  to.min = std::min(to.min, sums.min + 0.0);  // converts -0 to +0
   to.max = std::max(to.max, sums.max + 0.0);
   to.powers.add(sums);
   to.histogram.add({x, n}, index.data(), scale);
@@ -112,11 +113,12 @@ BlockFigures figures_of(std::vector<double> values, double coverage) {
   return f;
 }
 
-// 80 MB for each output and thread; + 1, because 1 - 0.99999 is not exactly 1e-5.
+// Largest number of trials of a block: 80 MB for each output and thread. The term + 1 permits a
+// coverage of 0.99999, because 1 - 0.99999 is not exactly 1e-5.
 constexpr double kMostAdaptiveBlock = 1e7 + 1;
 
 tl::unexpected<Error> coverage_too_high(double coverage) {
-  std::array<char, 32> digits;  // shortest digits that give the same coverage again
+  std::array<char, 32> digits;  // the shortest text from which the same coverage is read
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), coverage);
   return bad_input("coverage " + std::string(digits.data(), end.ptr) +
                        ": a block of adaptive trials would have 100 / (1 - coverage) trials, more "

@@ -1,4 +1,4 @@
-// The data of StudyStatistics, for its two source files.
+// The data of StudyStatistics. Its two source files include this header.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace mdof::algo {
 
-// One output in one bin of the binned quantity.
+// The sums for one output in one bin of the binned quantity.
 struct Accumulator {
   std::uint64_t n = 0, unsolved = 0;
   double min = std::numeric_limits<double>::infinity();

@@ -19,9 +19,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::uint64_t kIntervalTrials = 2000;  // U is then accurate to 2 %
-constexpr std::uint64_t kTrialsPerBlock = 64;    // so many that their shifts stay in the cache
-constexpr double kLeastFirstOrder = 0.01;        // u as a part of U; k is then 100
+constexpr std::uint64_t kIntervalTrials = 2000;  // the error of U is then 2 %
+constexpr std::uint64_t kTrialsPerBlock = 64;    // the shifts of 64 trials fit into the cache
+constexpr double kLeastFirstOrder = 0.01;        // least u / U; k is then 100
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
@@ -42,8 +42,8 @@ double sum_of_squares(const std::vector<double>& values) {
   return sum;
 }
 
-// A few parts that are added to the shifts of all trials in one pass: each sum is read and written
-// a quarter as often.
+// Collects up to four parts and adds them together to the shifts of all trials. This is faster,
+// because each shift is read and written once for four parts.
 class PartBatch {
  public:
   void add(const std::vector<double>& part, std::vector<double> drawn) {
@@ -52,7 +52,7 @@ class PartBatch {
     drawn_[n_++] = std::move(drawn);
   }
   bool full() const { return n_ == kMost; }
-  // `sums`: shifts of all trials, trial after trial.
+  // `sums`: all shifts of the first trial, then of the next trial, and so on.
   void add_to(std::vector<double>& sums) {
     for (std::size_t t = 0; n_ > 0 && t < drawn_[0].size(); ++t) {
       double* sum = sums.data() + t * width_;
@@ -104,7 +104,7 @@ std::size_t RunBudgets::cost() const {
 
 void RunBudgets::add(const Contributor& contributor, const std::vector<PointShifts>& parts) {
   Shifted& shifted = shifted_.emplace_back(Shifted{contributor, {}});
-  shifted.contributor.parts = nullptr;  // they keep the whole run in memory
+  shifted.contributor.parts = nullptr;  // otherwise it keeps the whole run in memory
   for (const PointShifts& part : parts) {
     MeanShifts& shifts = shifted.parts.emplace_back();
     for (const Errors5& at_target : changes_.of(part))
@@ -172,7 +172,7 @@ Budget RunBudgets::of(const Figure& figure) const {
 std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
   std::vector<Budget> budgets;
   std::vector<Figure> ranges;
-  std::vector<std::size_t> place;  // index of each range among the budgets
+  std::vector<std::size_t> place;  // index of the budget of each range
   for (const Figure& figure : figures) {
     budgets.push_back(first_order(figure));
     if (!figure.is_range() || !std::isfinite(budgets.back().value)) continue;
@@ -187,8 +187,8 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
     const double U = range.U();
     if (!(U > 0)) continue;
     budget.U = U;
-    // If all deviations are equal, the range changes as much up as down, so first order gives 0 or
-    // rounding.
+    // If all deviations are equal, +shift and -shift cause the same range. Then u of first order is
+    // 0 or rounding.
     if (!(budget.u > kLeastFirstOrder * U)) budget.u = range.root_mean_square();
     budget.coverage_factor = budget.U / budget.u;
     budget.U_by_trials = true;
@@ -196,7 +196,8 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
   return budgets;
 }
 
-// Shifts of the means, trial after trial. `quantities`: one for each contributor.
+// All shifts of the means in the first trial, then in the next trial, and so on. `quantities`:
+// distribution of each contributor.
 std::vector<double> RunBudgets::moved_by(BlockOfDraws& draws, std::size_t trials,
                                          const std::vector<UnitQuantity>& quantities) const {
   std::vector<double> moved(trials * means_.targets.size() * kErrorCount);
@@ -215,7 +216,7 @@ std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figu
                                                  std::uint32_t stream) const {
   std::vector<Random> random;
   std::map<double, UnitQuantity>
-      noise;  // by degrees of freedom: a table of t takes long to calculate
+      noise;  // by degrees of freedom, because the quantiles of t take long to calculate
   std::vector<std::vector<double>> measured;
   bool any_range = false;
   for (const Figure& figure : figures) {
@@ -244,7 +245,7 @@ std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figu
     for (std::size_t t = 0; t < trials; ++t) {
       const MeanErrors means = moved(std::span(shifts).subspan(t * width, width), 1);
       std::optional<MeanErrors> noisy;
-      double by = 0;  // factor of the noise in `noisy`
+      double by = 0;  // factor of the noise that `noisy` contains
       for (std::size_t f = 0; f < figures.size(); ++f) {
         if (measured[f].empty()) {
           all[f].values[first + t] =
@@ -299,7 +300,7 @@ void complete(Budget& budget) {
   budget.freedom = effective_freedom(parts);
   budget.coverage_factor = coverage_factor(budget.freedom);
   budget.U = budget.coverage_factor * budget.u;
-  // All contributions are 0, but an uncertainty that is not declared may contribute.
+  // An uncertainty that is not declared may contribute, so u is unknown.
   if (budget.u == 0 && !budget.not_declared.empty())
     budget.u = budget.U = budget.coverage_factor = std::numeric_limits<double>::quiet_NaN();
   budget.noise_only = is_noise_only(budget);

@@ -1,6 +1,6 @@
-// Uncertainty budgets of the figures of a run. Each figure is calculated again from the mean errors
-// with the shift of each contributor added and subtracted. So effects that are common to all points
-// are separated from the others without a formula for each figure.
+// Uncertainty budgets of the figures of a run. To find the effect of a contributor on a figure, the
+// figure is calculated twice: with the shifts by the contributor added to the mean errors, and with
+// the shifts subtracted from them. No figure needs a formula for its uncertainty.
 #pragma once
 
 #include <cstdint>
@@ -27,64 +27,67 @@ struct TrialsRequest {
   std::uint64_t seed = 1;
 };
 
-// Ratio of the variance by the scatter of runs to that by their visits. Three runs exceed it by
-// chance in one of five logs.
+// Limit for the variance of a figure by the scatter of the runs, divided by its variance by the
+// scatter of the visits. Three runs exceed this limit by chance in one of five logs.
 inline constexpr double kRunsScatterMore = 1.6;
 
 class RunBudgets {
  public:
-  // Budgets of the run, of its errors as it states them. Error: as contributors().
+  // Budgets of the figures of the errors as the run states them. Error: as contributors().
   static Result<RunBudgets> create(const Rig& rig, const Run& run);
-  // Noise and repeatability alone; add() adds contributors of that run.
+  // Budgets with noise and repeatability only. add() adds the contributors of this run.
   RunBudgets(const Rig& rig, const Run& run);
   void add(const Contributor& contributor, const std::vector<PointShifts>& parts);
 
   const MeanErrors& means() const { return means_; }
-  // Targets times independent parts of contributors: the time to calculate a figure grows with it.
+  // Number of targets times number of independent parts. The time to calculate a figure is about
+  // proportional to it.
   std::size_t cost() const;
-  // First order (GUM 5). The line of noise and repeatability is the effect of the visits' scatter
-  // on the figure. It includes the correlation in time that the residuals of the visits show
-  // (correlated_noise.h), and the shift that all targets of a pass share (repeatability.h). If the
-  // scatter of the runs gives the figure a variance s²/n that is more than kRunsScatterMore times
-  // this effect, its excess over the effect is added. U is k u, but for a range that of
-  // range_interval.h. If all deviations of a range are equal, first order gives only rounding, and
-  // u is the root mean square of the trials. A figure that is NaN has a budget of NaN.
+  // Budget of first order (GUM 5). The contribution "noise and repeatability" is the effect of the
+  // scatter of the visits on the figure. It includes the correlation in time of the residuals
+  // (correlated_noise.h) and the shift that all targets of a pass have in common (repeatability.h).
+  // The runs give another variance s²/n of the figure. If it is more than kRunsScatterMore times
+  // the variance by the visits, the difference is added. U is k u; for a range, U is calculated as
+  // in range_interval.h. If all deviations of a range are equal, the first order is only rounding,
+  // and u is the root mean square of the trials. If the figure is NaN, the budget is NaN.
   Budget of(const Figure& figure) const;
-  // Budgets of all figures; the trials are drawn once for all of them.
+  // Budgets of several figures, from the same trials.
   std::vector<Budget> of(const std::vector<Figure>& figures) const;
-  // Changes of the figure by each independent part of each contributor, with their signs.
+  // Change of the figure by each independent part of each contributor, with its sign.
   struct Contribution {
     const Contributor* contributor = nullptr;
     std::vector<double> parts;
   };
   std::vector<Contribution> contributions(const Figure& figure) const;
-  // The line of a contributor. `parts`: the contributions of its parts.
+  // The line of one contributor in a budget. `parts`: contribution of each part.
   static BudgetLine line(const Contributor& contributor, const std::vector<double>& parts);
-  // The same as of(), but without trials: U is k u for a range too.
+  // As of(), but without trials: U is k u also for a range.
   Budget first_order(const Figure& figure) const;
   // Values of each figure in many trials (JCGM 101). Each trial draws all contributors from their
-  // distributions and the random part from Student's t; for a range it draws the random part at
-  // each target. Different streams are independent. The values of a figure do not depend on the
-  // other figures.
+  // distributions. It draws noise and repeatability from Student's t distribution: one number for
+  // the figure, or for a range one number for each target. Different streams are independent. The
+  // values of a figure do not depend on the other figures.
   std::vector<std::vector<double>> draw(const std::vector<Figure>& figures,
                                         const TrialsRequest& request,
                                         std::uint32_t stream = 0) const;
-  // Summary of these trials. For a range the interval is value ± U, by these trials.
+  // Summary of the trials of draw(). For a range the interval is value ± U, with U from these
+  // trials.
   BudgetTrials trials(const Figure& figure, const TrialsRequest& request) const;
 
  private:
   struct Random {
     double u = 0, freedom = 0;
-    UncertaintyPart independent;  // if the noise of the visits were independent
-    double widened = 1;           // factor of the noise of each target that gives this u
+    UncertaintyPart independent;  // u and degrees of freedom for independent noise of the visits
+    double widened = 1;           // u / independent.u: factor for the noise of each target
   };
   struct Drawn {
-    std::vector<double> values;   // values of the figure
-    std::vector<double> changes;  // changes of its deviations, trial after trial; only for a range
+    std::vector<double> values;   // one value of the figure for each trial
+    std::vector<double> changes;  // changes of all deviations of a range in the first trial, then
+                                  // in the next trial, and so on; empty if the figure is no range
   };
   using MeanShifts = std::vector<double>;  // named errors, five for each target
   struct Shifted {
-    Contributor contributor;  // its `parts` are null
+    Contributor contributor;  // contributor.parts is null
     std::vector<MeanShifts> parts;
   };
   MeanErrors moved(std::span<const double> shifts, double factor) const;
@@ -110,9 +113,9 @@ class RunBudgets {
 // Needs at least two trials.
 BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed);
 
-// Calculates u, shares, degrees of freedom, k and U from the lines of a budget, and sorts the lines
-// by share, largest first. If all contributions are 0, u is 0 if all uncertainties are declared,
-// otherwise NaN (unknown).
+// Calculates u, shares, degrees of freedom, k and U from the lines of a budget. Sorts the lines by
+// share, largest first. If all contributions are 0, u is 0 if all uncertainties are declared;
+// otherwise u is NaN (unknown).
 void complete(Budget& budget);
 
 }  // namespace mdof::algo

@@ -7,7 +7,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMostFreedom = 10000;  // limit of Student's t; normal above
+constexpr double kMostFreedom = 10000;  // degrees of freedom; the normal distribution is used above
+                                        // this limit
 
 Distribution distribution_of(const DeclaredUncertainty& declared) {
   Distribution d;

@@ -1,4 +1,4 @@
-// The random numbers of a budget's trials (JCGM 101 6.4), many trials at a time.
+// The random numbers for the trials of a budget (JCGM 101 6.4), for a block of trials.
 #pragma once
 
 #include <array>
@@ -12,14 +12,15 @@
 
 namespace mdof::algo {
 
-// A quantity with the standard uncertainty 1. Few degrees of freedom give Student's t (6.4.9).
+// The distribution of a quantity with the standard uncertainty 1. For few degrees of freedom it is
+// Student's t distribution (6.4.9).
 class UnitQuantity {
  public:
   explicit UnitQuantity(const DeclaredUncertainty& declared);
-  // Normal, or Student's t.
+  // Student's t distribution; the normal distribution for infinite `freedom`.
   explicit UnitQuantity(double freedom);
 
-  // Replaces each probability by its quantile.
+  // Replaces each probability in `p` by its quantile.
   void quantiles(std::span<double> p) const;
 
  private:
@@ -27,12 +28,12 @@ class UnitQuantity {
   QuantileFunction quantile_;
 };
 
-// Draws one quantity after another, with the same numbers as draw().
+// Draws one quantity after the other. The numbers are those of draw().
 class BlockOfDraws {
  public:
   // For the trials first ... first + trials - 1.
   BlockOfDraws(const Stream& from, std::uint64_t first, std::uint64_t trials);
-  // One value for each trial: a probability, or the quantity.
+  // Values of the next quantity, one for each trial. Without argument: probabilities.
   std::vector<double> next();
   std::vector<double> next(const UnitQuantity& quantity);
 

@@ -1,4 +1,5 @@
-// The random part of a figure: by the visits of the targets, and by the runs.
+// The contribution "noise and repeatability" of a figure, from the scatter of the visits and from
+// the scatter of the runs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,8 +21,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
   const std::size_t targets = means_.targets.size();
   double square = 0, freedom = kInfinity;
-  bool asked = false;                // whether a target with an effect on the figure was found
-  std::optional<std::size_t> error;  // the only error that the figure depends on
+  bool asked = false;                // true: a target with an effect on the figure was found
+  std::optional<std::size_t> error;  // the error, if the figure depends on one error only
   std::vector<double> by_target(targets);
   MeanShifts together;
   for (std::size_t i = 0; i < targets; ++i) {
@@ -53,7 +54,7 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
   if (error && repeatability_.correlated[*error]) {
     const auto widened = repeatability_.correlated[*error]->of(by_target);
     const double more = square * (widened.square - 1);
-    // A removed drift has the slow noise in its own line.
+    // The line of a removed drift already contains slow noise.
     square += more > 0 ? std::max(0.0, more - by_removed_drift(figure)) : more;
     freedom = widened.freedom;
   }
@@ -74,7 +75,8 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
   return {u, effective_freedom(parts(square, freedom)), without, without.u > 0 ? u / without.u : 1};
 }
 
-// The only error whose mean at target i has an effect on the figure; empty: several errors or none.
+// The error whose mean at target i has an effect on the figure. Empty if several errors or no error
+// has an effect.
 std::optional<std::size_t> RunBudgets::only_error(const Figure& figure, std::size_t i) const {
   std::optional<std::size_t> only;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
@@ -99,7 +101,8 @@ RunBudgets::Random RunBudgets::random_of_runs(const Figure& figure) const {
   return {std::sqrt(square / (n - 1) / n), n - 1, {}};
 }
 
-// Variance of the figure by removed drifts: their slow noise scatters from run to run, too.
+// Variance of the figure by removed drifts. It includes slow noise, which also contributes to the
+// scatter of the runs.
 double RunBudgets::by_removed_drift(const Figure& figure) const {
   double square = 0;
   for (const Shifted& shifted : shifted_) {
@@ -114,8 +117,8 @@ RunBudgets::Random RunBudgets::random_of(const Figure& figure) const {
   const Random targets = random_of_targets(figure), runs = random_of_runs(figure);
   const double seen = targets.u * targets.u + by_removed_drift(figure);
   if (!(runs.u * runs.u > kRunsScatterMore * seen)) return targets;
-  // The variance that the runs show has the few degrees of freedom of the runs, even if the visits
-  // explain a part of it as correlated noise.
+  // The part of the variance that exceeds independent noise of the visits has the few degrees of
+  // freedom of the runs. This applies also if correlated noise of the visits explains a part of it.
   const double square = targets.u * targets.u + runs.u * runs.u - seen, u = std::sqrt(square);
   const UncertaintyPart& without = targets.independent;
   const std::array<UncertaintyPart, 2> both = {

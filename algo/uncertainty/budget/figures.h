@@ -1,4 +1,4 @@
-// Figures of a run as functions of its mean errors at the targets, for budgets.
+// Figures of a run for budgets, as functions of the mean errors at the targets.
 #pragma once
 
 #include <functional>
@@ -9,17 +9,20 @@
 
 namespace mdof::algo {
 
-// The mean of both approaches at each target, ascending. `sides`: those of the run.
+// The mean of both approaches at each target, in the order of the targets. `sides`: sides of the
+// run.
 struct MeanErrors {
   Sides sides;
   std::vector<TargetMean> targets;
 };
 
 struct Figure {
-  std::string name;                             // with its unit: "EYX_straightness_um"
-  std::function<double(const MeanErrors&)> of;  // SI; NaN if these targets do not determine it
-  // The values whose highest minus lowest is the figure, linear in the means; null: the figure is
-  // no range. Noise makes a range larger, and first order does not show that.
+  std::string name;                             // with the unit: "EYX_straightness_um"
+  std::function<double(const MeanErrors&)> of;  // value in SI; NaN if the targets do not determine
+                                                // it
+  // Only for a range: the deviations whose highest minus lowest value is the figure. They are
+  // linear in the means. Null for other figures. Noise makes a range larger; a calculation of first
+  // order does not show this.
   std::function<std::vector<double>(const MeanErrors&)> deviations = nullptr;
 
   bool is_range() const { return static_cast<bool>(deviations); }
@@ -27,7 +30,7 @@ struct Figure {
 
 // `named`: index in error_names(axis).
 Figure straightness_figure(Axis axis, std::size_t named);  // peak to valley, least-squares line
-Figure slope_figure(Axis axis, std::size_t named);  // slope over the moving body's own travel
+Figure slope_figure(Axis axis, std::size_t named);  // slope over the travel of the moving body
 Figure range_figure(Axis axis, std::size_t named);  // highest - lowest
 Figure error_figure(Axis axis, std::size_t named, int target);
 

@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-// A figure that is the sum of the slopes of two runs, each times its factor.
+// Budget of a figure that is factor_a * slope_a + factor_b * slope_b, for two runs a and b.
 class TwoSlopes {
  public:
   struct Of {
@@ -34,13 +34,14 @@ class TwoSlopes {
     }
     add_contributions(a, b);
   }
-  // The budget of all contributions so far.
+  // The budget of all contributions that were added.
   Budget take() {
     complete(budget_);
     return std::move(budget_);
   }
   Budget& budget() { return budget_; }
-  // Slopes are linear in the shifts of the means, so a trial is the sum of the lines' quantities.
+  // Slopes are linear in the shifts of the means. Therefore the value of a trial is the figure plus
+  // the sum of contribution times drawn number over all lines.
   std::vector<double> trials(const TrialsRequest& request) const {
     std::vector<double> values(request.trials, budget_.value);
     BlockOfDraws draws({request.seed, 0}, 0, request.trials);
@@ -62,13 +63,13 @@ class TwoSlopes {
     line.contribution *= of.factor;
     add(std::move(line), drawn);
   }
-  // The sum of many parts is drawn as a normal number.
+  // If a contributor has several parts, their sum is drawn from the normal distribution.
   static DeclaredUncertainty drawn_as(const RunBudgets::Contribution& of) {
     return of.parts.size() == 1 ? of.contributor->declared : DeclaredUncertainty{1};
   }
 
-  // A contributor that is common to both runs is one quantity: its contributions add with their
-  // signs.
+  // Adds the contributions of both runs. If a contributor is common to both runs, its two
+  // contributions are added with their signs in one line.
   void add_contributions(const Of& a, const Of& b) {
     const auto of_a = a.run.contributions(a.slope), of_b = b.run.contributions(b.slope);
     std::vector<bool> added(of_b.size(), false);
@@ -97,7 +98,7 @@ class TwoSlopes {
   }
 
   Budget budget_;
-  std::vector<DeclaredUncertainty> drawn_;  // distribution of each line, for u = 1
+  std::vector<DeclaredUncertainty> drawn_;  // distribution of each line, with u = 1
 };
 
 BudgetLine artefact_line(const SquareArtefact& artefact, int sign) {

@@ -12,8 +12,8 @@
 namespace mdof::algo {
 namespace {
 
-// If the limit is at least so many u, the chance that the true value lies beyond the other end is
-// below 0.1 %.
+// If the limit divided by u is at least this number, the probability that the true value lies
+// beyond the other end of the tolerance is below 0.1 %.
 constexpr double kOneSidedFrom = 2.4;
 
 struct Guard {
@@ -25,7 +25,8 @@ Guard guard_of(const Budget& budget, double limit) {
   const std::string standard = "ISO 14253-1:2017, 95 % conformance probability, ";
   if (budget.U_by_trials)
     return {budget.coverage_factor, standard + "guard band g = U from Monte Carlo trials"};
-  // If the value is beyond the limit, the other end is further away still.
+  // One-sided also if |value| exceeds the limit, because the other end of the tolerance is then far
+  // away.
   const bool one_end = limit >= kOneSidedFrom * budget.u || std::abs(budget.value) > limit;
   const double factor = one_end ? one_sided_factor(budget.freedom) : budget.coverage_factor;
   std::array<char, 32> text{};
@@ -77,7 +78,7 @@ Decision decision(const Budget& budget, double limit, const std::string& against
     d.conformity = Conformity::conform;
   else if (size - d.guard_band > limit)
     d.conformity = Conformity::not_conform;
-  else  // also if the value is NaN
+  else  // or the value is NaN
     d.reason = "the value lies within the guard band of the tolerance";
   return d;
 }

@@ -19,14 +19,15 @@ Fixture expanded(Fixture fixture, double relative) {
   return fixture;
 }
 
-// Displacement of a point of the target along `normal`.
+// Displacement along `normal` of the point of the target at `place`.
 double moved_along(const Eigen::Vector3d& normal, const Eigen::Vector3d& bend_per_m,
                    const Eigen::Vector3d& place) {
   return bend_per_m.dot(place) * normal.dot(place) -
          place.squaredNorm() * normal.dot(bend_per_m) / 2;
 }
 
-// Changes of the errors. `readings_at(travel, carriage)`: changes of all readings.
+// Changes of the errors of all points. `readings_at(travel, carriage)` returns the changes of all
+// readings.
 template <class Readings>
 PointShifts by_readings(const std::vector<PointSensitivity>& points, Readings readings_at) {
   PointShifts shifts(points.size());
@@ -45,7 +46,7 @@ Contributor contributor(ContributorKind kind, const char* key, const DeclaredUnc
   return {{kind}, key, declared, to_unit, unit, [parts = std::move(parts)] { return parts; }};
 }
 
-// The value shown is the relative expansion.
+// The value in the line of the budget is the relative expansion.
 DeclaredUncertainty relative_of(const BodyExpansion& body) {
   return {body.relative(), body.u_temperature.shape, body.u_temperature.freedom};
 }
@@ -91,7 +92,7 @@ std::vector<Contributor> expansion_contributors(const Rig& rig, const Solver& so
   std::vector<Contributor> list;
   const RigExpansion& rig_expansion = rig.expansion;
   if (const double scale = rig_expansion.scale.relative(); scale > 0) {
-    // A longer scale reads less than the travel.
+    // If the scale is longer, it shows a smaller position than the true position.
     PointShifts shifts(points.size());
     for (std::size_t j = 0; j < points.size(); ++j)
       for (std::size_t e = 0; e < kErrorCount; ++e)

@@ -1,11 +1,14 @@
 // Effects of temperature on scale, fixture and target (schema/rig/effects/expansion.h), as
 // contributors.
 //
-// The scale gets longer by a part of the travel. The positions of all probes move away from M's
-// origin by the same part of their distance. A target whose temperature has the gradient g bends:
-// its point r moves by α ((g·r) r - r² g/2), which is free of stress (its strain is α g·r in every
-// direction). The target is held at its point that lies in M's origin when d = 0. Each effect
-// counts by its change since the zero of the probes at d = 0.
+// - Scale: the expansion of the scale is proportional to the travel.
+// - Fixture: the positions of all probes move away from the origin of M, in proportion to their
+//   distance from this origin.
+// - Target: a temperature gradient g bends it. Its point r moves by α ((g·r) r - r² g/2). This
+//   displacement is free of stress, because the strain is α g·r in every direction. The
+//   displacement is 0 at the point that lies in the origin of M when d = 0.
+// The probes were zeroed at d = 0. Therefore a reading contains the change of an effect since d =
+// 0.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,16 +22,17 @@
 
 namespace mdof::algo {
 
-// Change of the readings of all probes at a pose, m.
+// Changes of the readings of all probes at a travel and errors of the carriage, m.
 Eigen::VectorXd readings_by_fixture_expansion(const Fixture& fixture, double relative,
                                               double travel_m, const Errors5& carriage);
 // `bend_per_m`: α g, local frame.
 Eigen::VectorXd readings_by_gradient(const Fixture& fixture, const Eigen::Vector3d& bend_per_m,
                                      double travel_m);
-// α g by one standard uncertainty along each of the machine's axes, local frame.
+// α g for a gradient of one standard uncertainty along each axis of the machine, in the local
+// frame.
 std::vector<Eigen::Vector3d> gradient_bends(const Rig& rig);
 
-// `points`: as returned by point_sensitivities(). Empty if the rig declares no expansion.
+// `points`: result of point_sensitivities(). Empty if the rig declares no expansion.
 std::vector<Contributor> expansion_contributors(const Rig& rig, const Solver& solver,
                                                 const std::vector<PointSensitivity>& points);
 

@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kSeriesBelow = 16;  // where both are accurate to 3e-11
+constexpr double kSeriesBelow = 16;  // at this x the errors of both formulas are below 3e-11
 constexpr int kSeriesTerms = 40, kAsymptoticTerms = 12;
 
 // DLMF 10.2.2

@@ -31,7 +31,9 @@ std::optional<Contributor> model_contributor(const Rig& rig, const Run& run, Mod
   if (model != Model::simplified) return std::nullopt;
   const auto simplified = Solver::create(rig, Model::simplified);
   const auto exact = Solver::create(rig, Model::exact);
-  if (!simplified || !exact) return std::nullopt;  // then no point was solved by it
+  if (!simplified || !exact)
+    return std::nullopt;  // then no point of the run was solved with the
+                          // model
   DeclaredUncertainty whole;
   whole.u = 1;
   std::vector<PointShifts> parts{left_out(*simplified, *exact, run)};

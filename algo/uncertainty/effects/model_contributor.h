@@ -1,5 +1,4 @@
-// The terms that the simplified model leaves out, as a contributor: they are known but not
-// corrected.
+// The terms that the simplified model omits, as a contributor. They are known, but not corrected.
 #pragma once
 
 #include <optional>
@@ -10,9 +9,9 @@
 
 namespace mdof::algo {
 
-// For a run by `simplified`: the difference from the exact solution of the same readings, at the
-// run's own angles, as a whole with its sign (second order: 41 nm at 559 µrad). It has no key in
-// the rig. Other models have no such contributor.
+// For a run that was solved with Model::simplified: the contribution is the difference between the
+// simplified and the exact solution of the same readings (second order: 41 nm at 559 µrad). The
+// contributor has no key in the rig. Empty for other models.
 std::optional<Contributor> model_contributor(const Rig& rig, const Run& run, Model model);
 
 }  // namespace mdof::algo

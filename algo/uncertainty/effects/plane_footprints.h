@@ -12,8 +12,9 @@
 
 namespace mdof::algo {
 
-// A footprint is at the mean travel of its target, so all visits of a target share one height.
-// `plane`: index in the rig; `points`: as returned by point_sensitivities().
+// The footprint of a probe at a target is calculated at the mean travel of the visits of the
+// target. Therefore all visits of a target have the same height. `plane`: index in the rig.
+// `points`: result of point_sensitivities().
 PlaneFootprints plane_footprints(const Rig& rig, const Fixture& fixture, const Run& run,
                                  const std::vector<PointSensitivity>& points, std::size_t plane);
 

@@ -25,7 +25,8 @@ class Covariance {
         carriage_(carriage),
         sum_(Eigen::MatrixXd::Zero(size(), size())) {}
 
-  // Positions, directions and zeros of probes that one calibration determined together.
+  // Adds positions, directions and zeros of probes that one calibration determined, with their
+  // covariances.
   void add_calibration(const CalibrationCovariance& covariance) {
     together_.insert(covariance.of.begin(), covariance.of.end());
     const auto n = static_cast<Eigen::Index>(covariance.of.size());
@@ -60,7 +61,7 @@ class Covariance {
         mounting.probe[k].tilt_turns = turns;
       });
   }
-  // One random surface is common to all probes of the plane.
+  // All probes of the plane measure the same random surface, so their readings are correlated.
   void add_flatness(std::size_t plane) {
     const TargetPlane& surface = rig_.planes[plane];
     if (!surface.u_flatness.declared()) return;
@@ -146,7 +147,8 @@ class Covariance {
   void add_place(std::size_t k, std::size_t axis, double u_m) {
     if (u_m > 0) add_together(change_by_place(k, axis, u_m));
   }
-  // Change by a component of the probe's direction; the probe's line keeps its point.
+  // Change of the readings by a change of one component of the probe's direction. The line of the
+  // probe turns about the point p_MP.
   Eigen::VectorXd change_by_direction(std::size_t k, std::size_t axis, double u_rad) const {
     const auto zeroed = [&](double by) {
       Fixture turned = fixture_;
@@ -156,7 +158,7 @@ class Covariance {
     };
     return (zeroed(u_rad) - zeroed(-u_rad)) / 2;
   }
-  // Change by `u` of a quantity of a calibration.
+  // Change of the readings if a quantity of a calibration changes by `u`.
   Eigen::VectorXd change_by(const std::string& quantity, double u) const {
     for (std::size_t k = 0; k < rig_.probes.size(); ++k) {
       const std::string& id = rig_.probes[k].id;
@@ -174,7 +176,7 @@ class Covariance {
   const Fixture& fixture_;
   double travel_m_;
   Errors5 carriage_;
-  std::set<std::string> together_;  // quantities whose covariances are declared
+  std::set<std::string> together_;  // quantities that a calibration covariance includes
   Eigen::MatrixXd sum_;
 };
 

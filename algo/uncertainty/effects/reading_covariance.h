@@ -10,12 +10,15 @@
 
 namespace mdof::algo {
 
-// m², probes x probes. It includes calibration, sensitivity, position and direction of the probes,
-// with the covariances of a calibration record; the installation of the fixture, the encoder and
-// the expansion; the drift over `since_zero_s`; and the flatness that the probes of a plane share
-// (flatness.h). A shift or rotation of a probe, and a height, count by their change since the zero
-// at d = 0 without errors. It does not include the rest after corrections of the probes' physics
-// (physics_contributors).
+// Covariance of the readings, m², probes x probes. It includes:
+//   - calibration, sensitivity, position and direction of the probes, with the covariances of a
+//     calibration record
+//   - installation of the fixture, encoder, expansion
+//   - drift over the time `since_zero_s`
+//   - flatness of the planes; probes of the same plane are correlated (flatness.h)
+// The probes were zeroed at d = 0 without errors. Therefore a shift or rotation of a probe, or a
+// height, has an effect only by its change since then. The covariance does not include the physics
+// of the probes (physics_contributors.h).
 Eigen::MatrixXd declared_covariance(const Rig& rig, const Solver& solver, double travel_m,
                                     const Errors5& carriage, const std::vector<double>& readings_m,
                                     double since_zero_s);

@@ -13,10 +13,12 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostTrials = 2000, kFewestTrials = 200;  // U is then accurate to 2 and 7 %
-constexpr std::size_t kMostDrawn = 4'000'000;                   // errors of visits, in all trials
+constexpr std::size_t kMostTrials = 2000, kFewestTrials = 200;  // the error of U is then 2 % and 7
+                                                                // %
+constexpr std::size_t kMostDrawn = 4'000'000;  // number of visits times number of trials
 
-// The run with each pair of target and approach as a target of its own, approached from one side.
+// Converts each pair of target and approach to a separate target (2 target, plus 1 for forward),
+// with forward approach only.
 Run with_separate_approaches(Run run) {
   for (MeasuredPoint& p : run.points) {
     p.target = 2 * p.target + (p.point.direction > 0 ? 1 : 0);
@@ -25,7 +27,7 @@ Run with_separate_approaches(Run run) {
   return run;
 }
 
-// The means of a run by with_separate_approaches(), by target.
+// The means of a run that with_separate_approaches() has converted, sorted by target and approach.
 class Approaches {
  public:
   Approaches(const MeanErrors& means, std::size_t named, bool without_line) {
@@ -62,7 +64,7 @@ class Approaches {
     for (std::size_t i = 0; i < errors_[0].size(); ++i) B.push_back(errors_[1][i] - errors_[0][i]);
     return B;
   }
-  // The range of these values is the largest absolute reversal.
+  // Half reversals with both signs. The range of these values is the largest absolute reversal.
   std::vector<double> signed_half_reversals() const {
     std::vector<double> halves;
     for (const double B : reversals()) {
@@ -122,8 +124,9 @@ class Parameters {
 
 struct Visits {
   VisitGroups groups;
-  std::vector<double> measured, noise;  // noise: standard uncertainty
-  std::vector<std::size_t> point;       // index in the run
+  std::vector<double> measured, noise;  // noise: standard uncertainty of each visit by the noise of
+                                        // the dwell
+  std::vector<std::size_t> point;       // index of each visit in run.points
 };
 
 Visits visits_of(const Run& run, std::size_t named) {

@@ -11,12 +11,14 @@
 
 namespace mdof::algo {
 
-// `named`: index of the error in error_names(), as in readings_of_run(). Each target and approach
-// has a mean with a budget as in RunBudgets. B is the largest absolute difference of the two means
-// of a target; E and M are ranges; noise makes all of them larger. M is the straightness, or the
-// range of an angle, and has the U of the run's other budgets. The uncertainty of R comes from
-// trials (repeatability_interval.h) of the noise of each dwell and of the declared uncertainties.
-// Error: as contributors().
+// `named`: index of the error in error_names(), as in readings_of_run(). B, E and M are calculated
+// from the mean of each target and approach; their uncertainties are calculated as in RunBudgets:
+//   B: largest absolute difference between the two means of a target
+//   E: range of the means
+//   M: straightness, or range of an angle; U as in the other budgets of the run
+// Noise makes B, E and M larger. The uncertainty of R is calculated from trials of the noise of
+// each dwell and of the declared uncertainties (repeatability_interval.h). Error: as
+// contributors().
 Result<RunPositioningUncertainty> run_positioning_uncertainty(const Rig& rig, const Run& run,
                                                               std::size_t named, bool keep_slope);
 

@@ -8,7 +8,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr int kHalvings = 8;  // U is then accurate to 1/256 of R
+constexpr int kHalvings = 8;  // the error of U is then below R/256
 
 struct Group {
   double n = 0, mean = 0, s = 0;
@@ -67,7 +67,7 @@ double repeatability_U(const VisitGroups& groups, const std::vector<double>& mea
   };
   const double as_measured = distance(1), distance_at_zero = distance(0);
   if (distance_at_zero >= R) return distance_at_zero;
-  double low = 0, high = 1;  // parts of R; from `high` on the measured R lies within c(T)
+  double low = 0, high = 1;  // limits for λ; at λ = high the measured R lies within c(T)
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (low + high) / 2;
     (distance(middle) >= (1 - middle) * R ? high : low) = middle;

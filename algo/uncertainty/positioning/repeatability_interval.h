@@ -1,5 +1,5 @@
-// The expanded uncertainty of R of ISO 230-2. Noise makes the scatter of the visits larger; if the
-// axis repeats perfectly, all of R is noise.
+// The expanded uncertainty of the repeatability R of ISO 230-2. Noise makes the scatter of the
+// visits larger. For an axis that repeats perfectly, R is noise only.
 #pragma once
 
 #include <array>
@@ -8,7 +8,8 @@
 
 namespace mdof::algo {
 
-// Target and approach of each visit of an error: 2 i reverse, 2 i + 1 forward.
+// Target and approach of each visit. of_visit is 2 i for a reverse visit of target i, and 2 i + 1
+// for a forward visit.
 struct VisitGroups {
   std::vector<std::size_t> of_visit;
   std::size_t targets = 0;
@@ -18,14 +19,16 @@ enum class RepeatabilityKind { forward, reverse, both };
 inline constexpr std::array kRepeatabilities = {
     RepeatabilityKind::forward, RepeatabilityKind::reverse, RepeatabilityKind::both};
 
-// R forward, R reverse or R of these values of the visits; NaN if an approach has one visit.
+// Calculates R forward, R reverse, or R for both approaches. `values`: one for each visit. NaN if a
+// target has only one visit with a necessary approach.
 double repeatability_R(const VisitGroups& groups, const double* values, RepeatabilityKind of);
 
-// U such that 95 % of measured R lie within U of the true R, over trials of the errors of the
-// measurement. R is a seminorm of the readings, so the true readings λ x (x measured) have the true
-// value T = λ R, for λ from 0 to 1. U is found by inversion as in range_interval.h: U = R - T where
-// R - T = c(T), the 95 % point of |R(λ x + errors) - T|; U = c(0) if c(0) is R or more. `errors`:
-// trial after trial, one value for each visit.
+// 95 % of all measured R lie within U of the true R. The trials are random errors of the visits. U
+// is calculated by inversion over the trials, as in range_interval.h. x are the measured values;
+// the possible true values are λ x, for λ from 0 to 1. Their R is T = λ R.
+//   c(T) = 95 % point of |R(λ x + errors) - T|
+//   U = R - T for the T at which R - T = c(T), or c(0) if c(0) >= R
+// `errors`: of all visits in the first trial, then in the next trial, and so on.
 double repeatability_U(const VisitGroups& groups, const std::vector<double>& measured,
                        const std::vector<double>& errors, RepeatabilityKind of);
 

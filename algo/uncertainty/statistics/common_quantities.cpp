@@ -13,7 +13,8 @@ constexpr std::array<std::string_view, 6> kOfProbes = {"u_sensitivity_ppm", "u_l
                                                        "u_tilt_factor",     "tilt_factor",
                                                        "linearity",         "polynomial_um"};
 
-// Footprints in machine axes, so that runs along different axes have one frame.
+// Converts footprints to the axes of the machine. Runs along different axes then have the same
+// frame.
 PlaneFootprints in_machine_axes(const PlaneFootprints& local, Axis axis) {
   const auto axes = local_axes(axis);
   const auto turned = [&](const Eigen::Vector3d& v) {

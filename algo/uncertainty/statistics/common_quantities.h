@@ -1,4 +1,4 @@
-// Finds contributors of two set-ups that are one quantity.
+// Finds contributors of two set-ups that are the same physical quantity.
 #pragma once
 
 #include <string>
@@ -9,19 +9,21 @@
 
 namespace mdof::algo {
 
-// Sets Contributor::common_as. The scale, the linearity and the tilt factor of a probe belong to it
-// wherever it is clamped; the same id and certificate mean the same probe. If two rigs declare
-// different u, each rig uses its own u of this one quantity.
+// Sets Contributor::common_as. The sensitivity, the linearity and the tilt factor of a probe do not
+// change with the set-up. Two probes with the same id and certificate are the same probe. If two
+// rigs declare different u for the quantity, each rig uses the u that it declares.
 void name_probe_correlations(const Rig& rig, std::vector<Contributor>& list);
 
-// `plane` must be one of the rig's.
+// `plane` must be an element of rig.planes.
 ContributorName flatness_name(const Rig& rig, const TargetPlane& plane);
-// Sets Contributor::surface_as. The same name, normal, uncertainty and length mean the same plane
-// of one target, which is over the same place of M at d = 0 in both runs.
+// Sets Contributor::surface_as. Planes with the same name, normal, uncertainty and length are taken
+// as the same plane of one target. At d = 0 this plane must be at the same place of frame M in both
+// runs.
 void name_common_surfaces(const Rig& rig, std::vector<Contributor>& list);
 
-// The parts of all contributors of two runs. The parts of a common surface, whose common_as is set,
-// are calculated together: part p of one run is the same quantity as part p of the other.
+// The parts of all contributors of two runs. The parts of a common surface are calculated together,
+// and common_as of its contributors is set. Then part p of one run is the same quantity as part p
+// of the other run.
 struct TwoRunParts {
   std::vector<std::vector<PointShifts>> a, b;  // [contributor][part]
 };

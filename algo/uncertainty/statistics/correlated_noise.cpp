@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kWhiteBefore = 0.97;  // the probability of white noise alone, before the residuals
+constexpr double kWhiteBefore = 0.97;  // probability of white noise before the residuals are known
 
 bool one_after_the_other(const std::vector<NoisyVisit>& visits) {
   return std::adjacent_find(visits.begin(), visits.end(), [](const auto& a, const auto& b) {
@@ -18,7 +18,7 @@ bool one_after_the_other(const std::vector<NoisyVisit>& visits) {
          }) == visits.end();
 }
 
-// Calls `use(first, end)` for the visits of each pass.
+// Calls `use(first, end)` for each pass, which has the visits from first to end - 1.
 template <class Use>
 void for_each_pass(const std::vector<NoisyVisit>& visits, Use use) {
   for (std::size_t first = 0, end = 0; first < visits.size(); first = end) {
@@ -47,8 +47,9 @@ CorrelatedNoise::CorrelatedNoise(std::vector<NoisyVisit> visits, double freedom)
   for (Model& model : models_) model.probability /= sum;
 }
 
-// The logarithm of the restricted likelihood, without a constant. The means of the targets are
-// subtracted from the residuals, so each residual counts as less than one degree of freedom.
+// Returns the logarithm of the restricted likelihood, except for a constant. The residuals have
+// fewer degrees of freedom than their number, because the means of the targets were subtracted.
+// Therefore the logarithm of the determinants is multiplied by freedom_ / counted.
 double CorrelatedNoise::fit(Model& model) const {
   double square = 0, log_determinants = 0;
   std::size_t counted = 0;
@@ -76,7 +77,7 @@ double CorrelatedNoise::fit(Model& model) const {
 }
 
 double CorrelatedNoise::variance(const Model& model, std::span<const double> by_visit) const {
-  // `before`: sum over the earlier visits, each times its correlation with this visit.
+  // `before`: sum over the earlier visits of by_visit times the correlation with visit i.
   double sum = 0, before = 0;
   for (std::size_t i = 0; i < visits_.size(); ++i) {
     if (i > 0 && model.noise.share > 0)

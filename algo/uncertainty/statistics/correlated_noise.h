@@ -1,5 +1,5 @@
-// Correlated noise of the visits of a run: visits that are close in time have similar errors, so
-// the means at neighbouring targets have similar errors, too.
+// Correlated noise of the visits of a run. Visits that are close in time have similar errors.
+// Therefore the means at neighbouring targets have similar errors.
 #pragma once
 
 #include <cstddef>
@@ -10,28 +10,29 @@
 
 namespace mdof::algo {
 
-// One visit of a target, of one named error.
+// One visit of a target, for one named error.
 struct NoisyVisit {
   std::size_t target = 0, pass = 0;
   double time_s = 0;
   double weight = 0;  // weight of the visit in the mean of its target
-  // Error minus the effects of its target with approach, and of its pass. NaN: the only visit of
-  // the target from this side.
+  // Residual of the error after the fit of repeatability.h. NaN: the target has no other visit with
+  // the same approach.
   double residual = 0;
 };
 
-// Each of slow_noises() has a probability by the restricted likelihood of the residuals, once their
-// level in each pass is left out (REML). A figure has the mean of the variances by all of them:
-// a few visits do not determine the correlation well enough to choose one.
+// Models the noise by all noises of slow_noises(). The probability of each noise is calculated from
+// the restricted likelihood (REML) of the residuals, without their level in each pass. The variance
+// of a figure is the mean over all noises, weighted with these probabilities, because a few visits
+// do not determine the correlation well enough to choose one noise.
 class CorrelatedNoise {
  public:
-  // `visits` in the order of time; `freedom`: degrees of freedom of their residuals, more than 0.
+  // `visits`: in the order of time. `freedom`: degrees of freedom of the residuals, more than 0.
   // Assumes white noise if two times are equal, or if all residuals are 0.
   CorrelatedNoise(std::vector<NoisyVisit> visits, double freedom);
 
-  // `square`: ratio of the variance of a figure to its variance with independent visits; `freedom`:
-  // its degrees of freedom. `by_target`: change of the figure by a unit of the mean at each target.
-  // The level of a pass is left out.
+  // `square`: variance of a figure divided by its variance for independent visits. `freedom`:
+  // degrees of freedom of the variance of the figure. `by_target`: change of the figure by one unit
+  // of the mean at each target. Does not include the level of a pass.
   struct Widened {
     double square = 1, freedom = 0;
   };
@@ -40,9 +41,10 @@ class CorrelatedNoise {
  private:
   struct Model {
     SlowNoise noise;
-    double probability = 1, variance = 0;  // variance of a visit, any unit
+    double probability = 1, variance = 0;  // variance of a visit, square of the unit of the
+                                           // residuals
   };
-  double fit(Model& model) const;  // sets model.variance; returns the log of the likelihood
+  double fit(Model& model) const;  // sets model.variance; returns the logarithm of the likelihood
   double variance(const Model& model, std::span<const double> by_visit) const;
 
   std::vector<NoisyVisit> visits_;

@@ -6,7 +6,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLeftOver = 1e-10;  // relative to the largest variance
+constexpr double kLeftOver = 1e-10;  // relative to the largest variance: smaller remaining
+                                     // variances are ignored
 
 std::size_t index(Eigen::Index i) {
   return static_cast<std::size_t>(i);

@@ -7,9 +7,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kOnePlaceShare = 0.02;  // relative to the mean step
+constexpr double kOnePlaceShare = 0.02;  // relative to the mean step: targets at a smaller distance
+                                         // are one place
 
-// The mean of some points.
+// Mean travel and mean errors of several points.
 struct Place {
   double travel_m = 0, points = 0;
   Errors5 errors{};
@@ -21,7 +22,7 @@ struct Place {
   }
 };
 
-// Errors along one approach, or along both if `direction` is 0.
+// Mean errors along the axis for one approach (direction 1 or -1), or for both approaches (0).
 class ErrorCurve {
  public:
   ErrorCurve(const Run& run, int direction) {
@@ -36,8 +37,8 @@ class ErrorCurve {
   }
   bool has_slope() const { return places_.size() > 1; }
 
-  // Slope between the neighbours of the nearest place; at an end between this place and its
-  // neighbour.
+  // Slope between the two neighbours of the place that is nearest to travel_m. At the first and
+  // last place: slope between this place and its only neighbour.
   Errors5 slope_at(double travel_m) const {
     auto nearest =
         std::lower_bound(std::next(places_.begin()), std::prev(places_.end()), travel_m,

@@ -7,11 +7,12 @@
 
 namespace mdof::algo {
 
-// Change of the errors of each point by 1 m of the target's travel: local frame, stated at the same
-// place as the errors of the run. The slope is that between the means of the neighbouring targets
-// of the point's approach. If this approach has targets at one place only, the means of both
-// approaches are used; if they have one place only, the slope is 0. Targets nearer than 2 % of the
-// mean step are one place, because noise between them is no slope.
+// Slope of the errors at each point, by 1 m of the target's travel. Local frame, stated at the same
+// place as the errors of the run. The slope is calculated between the means of the two neighbouring
+// targets, with the approach of the point. If the targets of this approach are all at one place,
+// the means of both approaches are used. If all targets are at one place, the slope is 0. Targets
+// at a smaller distance than 2 % of the mean step are taken as one place, because the difference
+// between them is mainly noise.
 std::vector<Errors5> local_slopes(const Run& run);
 
 }  // namespace mdof::algo

@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr int kInversionSteps = 5;  // U is then accurate to a hundredth of itself
+constexpr int kInversionSteps = 5;  // the error of U by the iteration is then below 1 % of U
 
 double value_at_95_percent(std::vector<double> off) {
   const auto at = off.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(off.size()));
@@ -59,7 +59,7 @@ double RangeTrials::end_distance() const {
   return value_at_95_percent(std::move(off));
 }
 
-// Uses regula falsi (Illinois): c(T) falls slowly as T grows.
+// Solves c(R - U) = U by regula falsi (Illinois). c(T) decreases slowly with T.
 double RangeTrials::U() const {
   const double range = highest_ - lowest_;
   const double most = distance_at_95_percent(0);

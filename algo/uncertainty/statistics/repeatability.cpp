@@ -18,9 +18,9 @@ namespace mdof::algo {
 namespace {
 
 struct Visit {
-  int target = 0, run = 0, way = 0;  // way: 1 forward
+  int target = 0, run = 0, way = 0;  // way: 1 forward, 0 reverse
   double time_s = 0;
-  Errors5 error{}, noise{}, residual{};  // noise: variance
+  Errors5 error{}, noise{}, residual{};  // noise: variance of the mean of the dwell
 };
 
 class Decomposition {
@@ -58,14 +58,15 @@ class Decomposition {
   double freedom() const { return freedom_; }
   double runs() const { return static_cast<double>(visits_of_run_.size()); }
 
-  // Whether χ²/ν exceeds its 80 % point, by the normal distribution.
+  // True: the scatter of the visits exceeds their noise significantly. The test compares χ²/ν with
+  // its 80 % point (normal approximation).
   bool by_scatter(std::size_t k) const {
     return freedom_ > 0 && scatter_[k] > noise_[k] * (1 + 0.84 * std::sqrt(2 / freedom_));
   }
 
   double pooled_variance(std::size_t k) const { return by_scatter(k) ? scatter_[k] : noise_[k]; }
 
-  // Variance of the mean of both approaches, or of the only approach, by target.
+  // For each target: variance of the mean of both approaches, or of the mean of its only approach.
   std::map<int, Errors5> variances() const {
     std::map<int, Errors5> sums;
     for (const Visit& visit : visits_) {
@@ -94,7 +95,8 @@ class Decomposition {
     return {std::move(noisy), freedom_};
   }
 
-  // Variance of the shift of the mean, less the part that the scatter of the visits explains.
+  // Variance of the mean shift of the runs. The part that the scatter of the visits explains is
+  // subtracted.
   Errors5 shift_variance() const {
     Errors5 variance{};
     const double n = runs();
@@ -118,7 +120,7 @@ class Decomposition {
   }
 
  private:
-  // Number of equal parts of the mean of the visit's target; the visit is one of them.
+  // 1 / (weight of the visit in the mean of its target).
   double visits_like(const Visit& visit) const {
     return (has_both(visit.target) ? 2 : 1) *
            static_cast<double>(visits_of_.at({visit.target, visit.way}));
@@ -153,16 +155,17 @@ class Decomposition {
   }
 
   std::vector<Visit> visits_;
-  std::map<std::pair<int, int>, int> visits_of_;  // by target and way
+  std::map<std::pair<int, int>, int> visits_of_;  // number of visits by target and way
   std::map<int, int> visits_of_run_;
-  std::vector<Errors5> shifts_;       // by pass
-  std::vector<std::size_t> pass_of_;  // by visit
-  Errors5 scatter_{}, noise_{};       // variances of a visit: by the residuals, mean of the dwells
+  std::vector<Errors5> shifts_;       // one for each pass
+  std::vector<std::size_t> pass_of_;  // index of the pass of each visit
+  Errors5 scatter_{}, noise_{};       // variance of a visit from the residuals, and mean of the
+                                      // variances of the dwells
   double freedom_ = 0;
 };
 
-// Changes of the means of both approaches by one u of each error: [part][target]. `by_unit`:
-// changes of the means of each target and approach by one unit.
+// Changes of the means of both approaches if each error changes by its u: [part][target].
+// `by_unit`: changes of the mean of each target and approach by one unit.
 std::vector<std::vector<Errors5>> changes_of_both_approaches(
     const TargetChanges& changes, const std::vector<MeasuredPoint>& counted,
     const std::vector<std::map<TargetAndApproach, double>>& by_unit, const Errors5& u) {
@@ -194,7 +197,7 @@ double without_part(double u, double part) {
   return std::sqrt(std::max(0.0, u * u - part * part));
 }
 
-// Adds the changes of named error k as a part of its own, unless all are 0.
+// Adds the changes of named error k as a new part, unless all changes are 0.
 void add_alone(std::vector<std::vector<Errors5>>& parts, const std::vector<Errors5>& changes,
                std::size_t k) {
   std::vector<Errors5> part(changes.size());
@@ -217,8 +220,9 @@ Repeatability repeatability(const MovingAxis& moving, const std::vector<Measured
   const bool one_way = visits.has_one_approach_only(), uneven = any_run_lacks_visits(counted);
   const WithoutDrift without = uneven ? subtract_run_drifts(counted) : WithoutDrift{};
   const std::map<int, Errors5> variances = visits.variances();
-  std::vector<Errors5> trend;  // by target
-  // Runs that lack visits are taken without their level: it is the shift.
+  std::vector<Errors5> trend;  // one for each target
+  // If runs lack visits, the levels of the runs are removed before the means are calculated.
+  // u_shift is then the uncertainty of the level.
   for (const TargetMean& mean :
        uneven ? target_means(moving, without.points, Approach::both) : means) {
     Errors5& u = found.u.emplace_back(mean.u);

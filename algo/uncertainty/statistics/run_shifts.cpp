@@ -13,7 +13,7 @@
 namespace mdof::algo {
 namespace {
 
-// Visits of one target and approach, by the index of the run.
+// Number of visits of one target and approach, by the index of the run.
 using VisitsOfRuns = std::map<Eigen::Index, double>;
 
 TargetAndApproach target_and_approach(const MeasuredPoint& p) {
@@ -28,9 +28,11 @@ double number_of_visits(const VisitsOfRuns& visits) {
 
 }  // namespace
 
-// The mean of a target and approach without the shifts s of its runs r is ȳ - Σ (n_r/n) s_r. By
-// least squares s depends on the differences of the visits from ȳ, so it is independent of ȳ. Its
-// covariance is the inverse of the normal equations without the means.
+// ȳ is the mean of the n visits of a target and approach; n_r of these visits are in run r, which
+// has the shift s_r. Without the shifts, the mean is ȳ - Σ (n_r/n) s_r. The least-squares estimates
+// of the shifts depend only on the differences of the visits from ȳ. Therefore they are independent
+// of ȳ. Their covariance is the inverse of the normal matrix from which the means of the targets
+// are eliminated.
 std::vector<std::map<TargetAndApproach, double>> parts_by_run_shifts(
     const std::vector<MeasuredPoint>& counted) {
   if (!any_run_lacks_visits(counted)) return {};
@@ -66,11 +68,11 @@ std::vector<std::map<TargetAndApproach, double>> parts_by_run_shifts(
 
 namespace {
 
-// Half the difference of the two passes of each run that has both.
+// Half the difference between the levels of the two passes, for each run that has both passes.
 struct HalfDifferences {
   std::vector<int> runs;
-  std::vector<Errors5> half;                  // except for one constant common to all
-  std::vector<double> visit_variance_factor;  // variance of `half` by a variance of 1 of a visit
+  std::vector<Errors5> half;  // of each run, plus a constant that is the same for all runs
+  std::vector<double> visit_variance_factor;  // variance of `half` for a variance of one visit of 1
 };
 
 HalfDifferences half_differences(const MovingAxis& moving,
@@ -106,7 +108,8 @@ HalfDifferences half_differences(const MovingAxis& moving,
   return found;
 }
 
-// Changes of the means if the forward pass of a run is 1 higher and its reverse pass 1 lower.
+// Changes of the means if the errors are 1 higher in the forward pass and 1 lower in the reverse
+// pass of `run`.
 std::map<TargetAndApproach, double> half_difference_effect(
     const RunDrifts& drifts, const std::vector<MeasuredPoint>& counted, int run) {
   std::vector<Errors5> changes(counted.size());

@@ -1,5 +1,6 @@
-// Uncertainty of the shifts of runs against each other, by least squares, if runs lack visits
-// (uneven_visits.h), and its effect on the means at the targets.
+// Uncertainty of the shifts of the runs relative to each other, and its effect on the means at the
+// targets. It exists only if runs lack visits (uneven_visits.h). The shifts are fitted by least
+// squares.
 #pragma once
 
 #include <cstddef>
@@ -13,28 +14,31 @@
 
 namespace mdof::algo {
 
-using TargetAndApproach = std::pair<int, int>;  // way: 1 forward, 0 reverse
+using TargetAndApproach = std::pair<int, int>;  // target; 1 forward, 0 reverse
 
-// Changes of the mean of each target and approach by independent parts whose squares add, for noise
-// of variance 1 that is independent from visit to visit. They come in addition to the noise of the
-// visits of the mean itself. `counted`: points that count in means. Empty if no run lacks visits,
-// because the shifts are then the same in all means, and for more than kMostShiftedRuns runs,
-// because one shift then hardly changes a mean.
+// Change of the mean of each target and approach by each independent part of the shifts, if the
+// noise of the visits is independent and has the variance 1. The squares of the parts add. The
+// noise of the visits of a mean is not included. `counted`: points that are used in means. Empty in
+// two cases: no run lacks visits, because the shifts are then the same in all means; or more than
+// kMostShiftedRuns runs, because one shift then hardly changes a mean.
 inline constexpr std::size_t kMostShiftedRuns = 256;
 std::vector<std::map<TargetAndApproach, double>> parts_by_run_shifts(
     const std::vector<MeasuredPoint>& counted);
 
-// Effect of the levels of the passes on the means, from which only the level of each whole run is
-// removed. A level that both passes of a run share is the level of the run. Half the difference of
-// the two passes varies from run to run, and stays in the means if a run lacks a part of a pass.
+// Effect of the different levels of the two passes of a run on the means. The mean level of both
+// passes is the level of the run, and is removed from the means. Half the difference of the levels
+// of the two passes varies from run to run. It is not removed, and changes the means if a run lacks
+// a part of a pass.
 struct PassLevels {
-  // By a half difference of 1 in one run each. Empty if no run lacks visits, for more than
-  // kMostShiftedRuns runs, and if fewer than two runs have both passes.
+  // parts[i]: changes of the means if the half difference of run i is 1. Empty if no run lacks
+  // visits, if there are more than kMostShiftedRuns runs, or if fewer than two runs have both
+  // passes.
   std::vector<std::map<TargetAndApproach, double>> parts;
-  Errors5 u_half{};  // standard deviation of the half difference, less its noise; named
+  Errors5 u_half{};  // standard deviation of the half difference without the noise of the visits;
+                     // named errors
   double freedom = std::numeric_limits<double>::infinity();
 };
-// `u_visit`: u of one visit, independent of the other visits; named errors.
+// `u_visit`: u of one visit, independent from visit to visit; named errors.
 PassLevels pass_levels(const MovingAxis& moving, const std::vector<MeasuredPoint>& counted,
                        const Errors5& u_visit);
 

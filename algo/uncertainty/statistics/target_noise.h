@@ -1,4 +1,5 @@
-// Noise of the means at the targets, and the shift that they share, in the trials of a block.
+// Random errors of the means at the targets in a block of trials: noise of each mean, and errors
+// that several means have in common.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +16,15 @@ class TargetNoise {
   // Keeps a reference to `random`.
   TargetNoise(BlockOfDraws& draws, const Repeatability& random);
   void add_to(MeanErrors& means, std::size_t trial, double factor) const;
-  // The factor that turns the normal numbers of one trial into those of Student's t: √(ν/χ²), by
-  // Wilson and Hilferty.
+  // Factor √(ν/χ²) that converts the normal numbers of one trial to numbers of Student's t
+  // distribution, with χ² by the approximation of Wilson and Hilferty.
   double student(std::size_t trial, double freedom) const;
 
  private:
   const Repeatability& random_;
-  // Normal numbers for each target, then for the shift; by trial.
+  // Normal numbers: drawn_[i][trial] for target i, and in the last row for the shift.
   std::vector<std::vector<double>> drawn_;
-  // For each part that changes several targets.
+  // The parts that change several means together, and the normal numbers together_[part][trial].
   std::vector<const std::vector<Errors5>*> parts_;
   std::vector<std::vector<double>> together_;
   std::vector<double> for_freedom_;

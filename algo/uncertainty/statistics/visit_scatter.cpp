@@ -13,7 +13,7 @@ namespace {
 
 using Numbers = std::map<std::pair<int, int>, std::size_t>;
 
-// Index of a group, from 0; counts its members.
+// Returns the index of a group, starting at 0, and increases the number of its members by 1.
 std::size_t number_of(std::pair<int, int> group, Numbers& numbers, std::vector<double>& members) {
   const auto [at, is_new] = numbers.emplace(group, numbers.size());
   if (is_new) members.push_back(0);
@@ -90,8 +90,8 @@ VisitScatter::Pooled VisitScatter::pooled(const std::vector<Errors5>& values, do
       fourths += fourth_over_freedom(of_passes / freedom, freedom_of_passes);
     if (freedom > freedom_of_passes)
       fourths += fourth_over_freedom((all[k] - of_passes) / freedom, freedom - freedom_of_passes);
-    // If passes use all degrees of freedom, the part within them has no degrees of freedom of its
-    // own.
+    // If the passes have all degrees of freedom, no degrees of freedom remain for the scatter
+    // within the passes.
     pooled.freedom[k] = std::min(freedom, effective_freedom(pooled.variance[k], fourths));
   }
   return pooled;

@@ -154,8 +154,9 @@ Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>&
   const auto whole = algo::RunBudgets::create(rig, run);
   const algo::RunBudgets noise(rig, run);
   const std::string run_name = "run " + std::to_string(header.id);
+  const std::vector<Budget> budgets = (whole ? *whole : noise).of(figures);
   for (std::size_t f = 0; f < figures.size(); ++f) {
-    const Budget budget = (whole ? *whole : noise).first_order(figures[f]);
+    const Budget& budget = budgets[f];
     if (!whole)
       trends[f].notices.push_back(inherited(
           run_name, notice(NoticeCode::u_unknown, "", {{"reason", words::text(whole.error())}})));

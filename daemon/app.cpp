@@ -75,9 +75,9 @@ rpc::ServerOptions server_options(const RpcAccess& access) {
 
 }  // namespace
 
-// The destructor stops the stations and closes the database. The storekeeper then writes its
-// pending data. At last the other members are destroyed: first the server, then the service, then
-// the event loop.
+// The destructor stops the stations and closes the connection that only reads the database. It then
+// destroys the storekeeper, which first writes its pending data. At last the other members are
+// destroyed: first the server, then the service, then the event loop.
 struct App::Parts {
   explicit Parts(Config c)
       : config(std::move(c)),

@@ -135,8 +135,8 @@ Errors5 MountingModel::clamping_angles(const Eigen::VectorXd& pose, std::size_t 
   return errors;
 }
 
-// The y and z components of the travel are added to the offsets δy and δz. The x component is the
-// travel of the model, rigid_readings(..., travel_m, ...).
+// Adds the y and z components of the travel to the offsets δy and δz. The caller gives the x
+// component to rigid_readings() as travel_m.
 Errors5 MountingModel::pose_of(const Eigen::VectorXd& pose, const TraverseReading& at) const {
   Errors5 errors = clamping_angles(pose, at.clamping);
   const auto first = static_cast<Eigen::Index>(3 * clampings_ + 2 * at.traverse);

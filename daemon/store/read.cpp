@@ -253,8 +253,9 @@ Result<std::vector<MeasuredPoint>> Store::points(std::int64_t run, std::int64_t 
   return list;
 }
 
-// A part of the points has no hash of its own. Therefore the first call checks the whole run and
-// keeps the hash of each point. Later calls compare points with these hashes.
+// The database stores one hash for all points of a run, so it cannot check some points alone.
+// Therefore the first call checks the whole run and keeps a hash of each point in memory. Later
+// calls compare the points with these hashes.
 Status Store::check_points(std::int64_t run, std::int64_t offset,
                            const std::vector<MeasuredPoint>& points) {
   MDOF_TRY(const std::string stored, stored_sha256(run));

@@ -17,7 +17,7 @@ using std::chrono::nanoseconds;
 constexpr milliseconds kConnect{2000};
 constexpr std::int64_t kBurstGap_ns = 50'000'000;  // after a longer pause, the rows are suspect
 constexpr std::int64_t kPaceWindow_ns = 2'000'000'000;  // period of the checks of time_s
-constexpr std::size_t kMostScans = 4096;                // most scans in a block
+constexpr std::size_t kMostScans = 4096;                // limit of a block
 
 constexpr const char* kDatumLost =
     "the source was started or connected again, so the zero of its positions may have changed (if "

@@ -52,7 +52,7 @@ struct Config {
   PipelineOptions measure;
   bool gap_given = false;  // measure.align.max_gap_s is given; otherwise mdofd calculates the gap
                            // from the sampling rates
-  Chain machine;           // the table [machine]; unknown if it is missing
+  Chain machine;           // from the table [machine]; unknown if this table is missing
   std::vector<AxisConfig> axes;
   std::string text;  // the TOML text, for the provenance
   // For messages: the name of the file, and file, line and key of each path. They are set even if

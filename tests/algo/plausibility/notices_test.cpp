@@ -1,4 +1,5 @@
-// A notice or a flag reports each event at a stop.
+// Each event that the dwell detector finds (encoder jump, hole in the recording, creeping stop, too
+// short stop) causes a notice, or a flag of the point.
 #include <gtest/gtest.h>
 
 #include "tests/algo/detected.h"

@@ -138,11 +138,12 @@ Command calibrate_certificate_command() {
   return {.name = "calibrate certificate",
           .summary = "Read the sensitivity and linearity of a probe from a calibration certificate",
           .footer =
-              "mdof reads a DCC (Digital Calibration Certificate of PTB) with a sensitivity in\n"
-              "volts per length, a table of errors (refTypes basic_measuredValue,\n"
-              "basic_measurementError or basic_referenceValue), or both. It divides each\n"
-              "expanded uncertainty U by the coverage factor and prints the values that it takes\n"
-              "from the certificate. It does not verify signatures.\n"
+              "mdof reads a DCC (Digital Calibration Certificate of PTB) that contains a\n"
+              "sensitivity (volts per length or length per volt), a table, or both. The table\n"
+              "contains readings (refType basic_measuredValue) and either their errors\n"
+              "(basic_measurementError) or the reference values (basic_referenceValue). mdof\n"
+              "divides each expanded uncertainty U by the coverage factor and prints the values\n"
+              "that it takes from the certificate. It does not verify signatures.\n"
               "Example:\n"
               "  mdof calibrate certificate K-4711.xml --rig rig_X.toml --probe A --out A.toml",
           .declare = declare_certificate};

@@ -160,7 +160,7 @@ std::string exported_text(const ExportedTables& exported, const std::vector<std:
   text += "check: mdof read the files back and applied them to a simulated axis\n";
   std::string files;
   for (const auto& name : names) files += name + "\n";
-  if (exported.squareness > 0) files += exported.files.files.front().text;  // the line to paste
+  if (exported.squareness > 0) files += exported.files.files.front().text;  // for copying
   return files + fitted(text, terminal_columns()) + check_text(exported.check);
 }
 

@@ -17,7 +17,8 @@ namespace mdof {
 
 // Positioning errors of an axis (EXX, EYY, EZZ) at the positions of the table, m. The five probes
 // do not measure them. Error = actual minus commanded position in the coordinates of the
-// controller. Therefore the correction is -E, independent of which body moves. NaN: no value.
+// controller. Therefore the correction is -E, for a moving target and for a moving fixture. NaN: no
+// value.
 struct PositioningErrors {
   std::vector<double> forward, reverse, u_forward, u_reverse;
   std::vector<double> u_declared;  // empty: no uncertainty is declared

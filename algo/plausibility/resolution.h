@@ -11,7 +11,7 @@
 namespace mdof::algo {
 
 // The resolution is determined from the readings, because no rig states it. It is the smallest step
-// that occurs repeatedly between two values, each of which occurs in at least two consecutive
+// that occurs repeatedly between two values. Both values must occur in at least two consecutive
 // readings. Readings have such steps if their resolution is larger than their noise. If the noise
 // is several steps, no step is found; it is not necessary, because the mean of such readings has a
 // much smaller resolution. Exact numbers of a simulation have no step. The result does not depend

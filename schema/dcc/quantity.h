@@ -16,7 +16,8 @@ std::string place_of(const std::string& source, const XmlElement& element);
 // Returns the words of the attribute refType, for example of refType="basic_measuredValue
 // gp_table1".
 std::vector<std::string> read_ref_types(const XmlElement& element);
-// Returns the text of the first dcc:content in dcc:name; empty if there is none.
+// Returns the text of the first dcc:content in dcc:name. Empty: dcc:name has no
+// dcc:content.
 std::string name_of(const XmlElement& element);
 
 // Reads a dcc:quantity. Returns nothing if its unit has neither length nor voltage.

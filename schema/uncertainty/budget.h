@@ -79,7 +79,7 @@ Covers covers(const std::vector<Budget>& budgets);
 // True if all budgets are noise only; false if there are no budgets.
 bool are_noise_only(const std::vector<Budget>& budgets);
 
-// Returns the budget of this figure; nullptr: there is none.
+// Returns the budget of this figure; nullptr: no budget has this figure.
 const Budget* find_budget(const std::vector<Budget>& budgets, std::string_view figure);
 
 }  // namespace mdof

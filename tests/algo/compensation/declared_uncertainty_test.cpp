@@ -95,8 +95,8 @@ TEST(DeclaredUncertainty, UsesTheApproachWithTheLargerU) {
   }
 }
 
-// Two runs with the same fixture have the same error of D. With two fixtures, one of which is
-// exact, half of this error remains in the mean.
+// Two runs with the same fixture have the same error of D. If the second run
+// has another fixture, which is exact, half of this error remains in the mean.
 TEST(DeclaredUncertainty, MoreRunsOfOneFixtureDoNotReduceIt) {
   const Rig rig = rig_x_with("D", "u_calibration_um = 0.1"), exact = rig_x_with("", "");
   EXPECT_NEAR(table_of({rig, rig}, false).u_declared[0][3], 0.1e-6, 1e-13);

@@ -168,8 +168,8 @@ TEST(Signals, IgnoresStopsWithoutValue) {
   EXPECT_EQ(test::number(found[0], "stops"), 11);
 }
 
-// Stops of which stop 4 is restless: there, the standard deviation of the first `restless` probes
-// is `times` times its usual value.
+// At stop 4, the standard deviation of the first `restless` probes is `times` times the standard
+// deviation at the other stops.
 Sequence with_restless_stop(std::size_t probes, int stops, std::size_t restless, double times) {
   Sequence sequence = stops_of(probes, stops);
   for (std::size_t k = 0; k < restless; ++k) sequence.points[4].point.probe_sd_m[k] = times * kSd_m;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRange_m = 400e-6;
 
-// A rig without faults: five probes 5 mm apart, of which probe B reads a gap.
+// A rig without faults. It has five probes 5 mm apart. Probe B reads a gap.
 Rig rig_with_gap_probe() {
   Rig rig;
   for (int k = 0; k < 5; ++k) {

@@ -55,7 +55,7 @@ Run simulated_physics_run(const Rig& rig, Errors5 (*truth)(double)) {
   return SyntheticRun{.rig = rig, .runs = 1, .truth = truth}.measure();
 }
 
-// Returns the contributor with this name. The test fails if there is none.
+// Returns the contributor with this name. If no contributor has this name, the test fails.
 Contributor named_contributor(const Rig& rig, const Run& run, const std::string& name) {
   auto all = contributors(rig, run).value();
   const auto found = std::find_if(all.begin(), all.end(),

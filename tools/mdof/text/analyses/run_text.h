@@ -10,13 +10,10 @@
 
 namespace mdof::tools {
 
-enum class Extent {
-  brief,  // the means at each target, the points with flags or without errors, and the figures with
-          // U
-  figures,  // the figures for each approach and reference line, the closure and the drift; no
-            // points
-  all,      // all points, then the same as `figures`
-};
+// brief: the means at each target, the points with flags or without errors, the figures with U.
+// figures: the figures for each approach and reference line, the closure, the drift; no points.
+// all: all points, then the same as `figures`.
+enum class Extent { brief, figures, all };
 
 // `result_sha256` may be empty. Lines of at most `width` characters.
 std::string run_text(const Run& run, const daemon::StatedRun& stated,

@@ -12,7 +12,7 @@ namespace {
 
 // Limits of the ratio of two um_per_V of the same probe.
 constexpr double kLeastRatio = 0.5, kMostRatio = 2;
-constexpr double kSameScale = 3;  // times u: two scales with a smaller difference are equal
+constexpr double kSameScale = 3;  // limit, times u: scales that differ by less count as equal
 constexpr const char* kMeasured = "basic_measuredValue";
 constexpr const char* kReference = "basic_referenceValue";
 constexpr const char* kError = "basic_measurementError";
@@ -53,9 +53,9 @@ double half_span_um(const Rows& rows) {
   return ((*most)[0] - (*least)[0]) / 2;
 }
 
-// True: the slope of the corrections is scale_1, within within_1. The slope is calculated from the
-// two end rows and also by a least-squares line. It is sufficient if one of them agrees, because a
-// laboratory may define the sensitivity by either.
+// Returns whether the slope of the corrections differs from scale_1 by at most within_1. The slope
+// is calculated twice: from the two end rows, and by a least-squares line. One of the two slopes
+// must agree, because a laboratory may define the sensitivity by either slope.
 bool contains_scale(const Rows& rows, double scale_1, double within_1) {
   const auto [least, most] = std::minmax_element(rows.begin(), rows.end());
   const double by_ends = ((*most)[1] - (*least)[1]) / ((*most)[0] - (*least)[0]);
@@ -186,7 +186,7 @@ class CertificateReader {
         "the rig");
   }
 
-  // The zero of the probe is a voltage. If um_per_V changes, the same voltage has another raw_um.
+  // The zero of the probe is a voltage. offset_um is this voltage times um_per_V.
   void take_zero() {
     const Calibration& c = own_.calibration;
     if (!c.um_per_V || c.offset_um == 0) return;
@@ -274,7 +274,7 @@ class CertificateReader {
                        own_.id + "\" in " + rig_.source +
                        ", and check the units of the table in the certificate");
     for (std::size_t i = 0; table.error && i < read.um.size(); ++i) {
-      // The limit also covers the rounding of the three columns.
+      // 2 u also covers the rounding of the three columns.
       const double off = std::abs(read.um[i] - reference.um[i] - error.um[i]);
       if (error.u_um.empty() || off <= 2 * error.u_um[i]) continue;
       return bad_input(
@@ -285,9 +285,9 @@ class CertificateReader {
     return {};
   }
 
-  // Prevents that both the new um_per_V and the table correct the same scale error. If the table
-  // contains the change of um_per_V, its readings were calculated with um_per_V of the rig, and are
-  // converted to the new um_per_V.
+  // Prevents that both the new um_per_V and the table correct the same scale error. If the slope of
+  // the corrections is the change of um_per_V, the readings were calculated with um_per_V of the
+  // rig. They are then converted to the new um_per_V.
   Status match_scale(const DccQuantity& read, double u_um, Rows& rows) {
     const CalibratedProbe& probe = found_.probe;
     const double within_1 =

@@ -8,11 +8,11 @@
 //    and either basic_measurementError e = r - x or basic_referenceValue x. The correction
 //    is -e. It is shifted so that the correction at the rig's zero is 0. The u of the table
 //    is the largest u of the list.
-// The certificate must contain the sensitivity or the table. If both exist, the readings in um may
-// have been calculated with the rig's um_per_V. This is so if the corrections contain, within 3 u,
-// the change from the rig's um_per_V to the new um_per_V. Then the readings are converted to the
-// new um_per_V. u is the expanded uncertainty U of the certificate divided by the coverage factor
-// that the certificate states.
+// The certificate must contain the sensitivity or the table. If both exist, the laboratory may have
+// calculated the readings in um with the rig's um_per_V. mdof assumes this if the slope of the
+// corrections is, within 3 u, the relative change from the rig's um_per_V to the new um_per_V. mdof
+// then converts the readings to the new um_per_V. u is the expanded uncertainty U of the
+// certificate divided by the coverage factor that the certificate states.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ namespace mdof::algo {
 struct CertifiedProbe {
   CalibratedProbe probe;
   CertificateFacts facts;
-  Notices taken;      // information: values that were read, and their place in the certificate
-  Notices not_taken;  // information: values that the certificate does not state
+  Notices taken;      // values that were read, with their lines in the certificate
+  Notices not_taken;  // values that the certificate does not state
 };
 
 // `result`: name or refType of the dcc:result to read, if a certificate has several results (before
@@ -40,7 +40,7 @@ struct CertifiedProbe {
 //   - a value without uncertainty
 //   - um_per_V has another sign than um_per_V of the rig, or differs by more than a factor of 2
 //   - the rows of the table contradict each other
-//   - the corrections of the table contain another scale than the sensitivity
+//   - the slope of the corrections is neither 0 nor the relative change of um_per_V
 Result<CertifiedProbe> certified_probe(const Rig& rig, std::size_t probe,
                                        const DccCertificate& certificate,
                                        const std::string& result);

@@ -17,17 +17,16 @@ namespace {
 
 constexpr int kMaxIterations = 100;
 // Only the first iterations select the seen combinations. Without this limit, a singular value near
-// kSeenFactor could be above and below it in turn, and the iteration would not end.
+// kSeenFactor could alternate between above and below kSeenFactor, and the iteration would not end.
 constexpr int kChoosingSteps = 10;
 constexpr double kLeastShare = 1e-3, kRounding = 1e-12;
 // The iteration ends if the change of all unknowns, in units of scale(), is smaller. kDescentDone
-// is used after kChoosingSteps. It is larger, because chi-square must then decrease, and the
-// rounding of chi-square limits the accuracy.
+// is used after kChoosingSteps. kDescentDone is larger, because chi-square must then decrease, and
+// the rounding of chi-square limits the accuracy.
 constexpr double kStepDone = 1e-7, kDescentDone = 1e-4;
 constexpr double kRankTolerance = 1e-9;
-// Limit of the root mean square of residual / u. A noise that is stated too small does not cause a
-// larger value. The cause of a larger value is an error that affects all readings, and Birge's
-// factor does not cover such errors.
+// Limit of the root mean square of residual / u. An underestimated noise does not cause a larger
+// value, but an error that affects all readings does. Birge's factor does not cover such an error.
 constexpr double kMostMisfit = 20;
 constexpr double kFarthest_m = 1e-3;  // largest distance from the position in the rig; clamping by
                                       // hand is more accurate
@@ -94,8 +93,9 @@ class Fit {
 
   // Calculates new values of all unknowns. The unknowns of the probes are solved completely, not as
   // a correction of their last values, and only in the combinations that are seen in this
-  // iteration. Therefore a combination that was seen only in an earlier iteration is 0. After
-  // kChoosingSteps the seen combinations do not change. Returns the largest change.
+  // iteration. Therefore a combination that was seen only in an earlier iteration has the value of
+  // the rig again. After kChoosingSteps the seen combinations do not change. Returns the largest
+  // change.
   double solve_all_unknowns() {
     const auto lines = model_.linearised(pose_, probe_);
     const PoseSpace poses(lines.by_pose);
@@ -151,8 +151,8 @@ class Fit {
   int steps_ = 0;  // number of solve_all_unknowns() calls
 };
 
-// u of an unknown: from the covariance for its seen part, from the rig for its unseen part. NaN if
-// the rig does not declare the uncertainty of an unknown that is not seen.
+// Returns u of an unknown. The covariance gives u of the seen part, the rig gives u of the unseen
+// part. NaN: the unknown is not seen, and the rig does not declare its u.
 double Fit::u_of(Eigen::Index unknown, const Unseen& unseen,
                  const Eigen::MatrixXd& covariance) const {
   const double share = unseen.share(unknown), scale = model_.scale()(unknown);
@@ -210,8 +210,8 @@ void Fit::report_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
                     [&](const TraverseReading& reading) { return reading.probe == k; }));
 }
 
-// Covariance of the positions, directions and zeros that are seen. Positions and directions have
-// components along the axes of the machine. The diagonal is consistent with u_of().
+// Sets the covariance of the positions, directions and zeros that are seen. Positions and
+// directions have components along the axes of the machine. The diagonal is consistent with u_of().
 void Fit::report_covariance(const Rig& rig, const Unseen& unseen, const Eigen::MatrixXd& covariance,
                             MountingCalibration& found) const {
   Eigen::MatrixXd all = covariance;

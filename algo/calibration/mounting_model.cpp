@@ -179,9 +179,10 @@ MountingModel::Linearised MountingModel::linearised(const Eigen::VectorXd& pose,
     const double weight = gain / seen.u_m;
     out.by_pose.row(row).segment(angles, 3) = by_errors.row(0).tail(3) * kAngleUnit_rad * weight;
     out.by_pose.row(row).segment(offsets, 2) = by_errors.row(0).head(2) * weight;
-    // Derivatives of the displacement s, from s n·u = k - n·(P - t):
-    //   shift of the probe along e: ds = -n·e / n·u
-    //   change du of the direction: ds = -s n·du / n·u
+    // Derivatives of the displacement s by the unknowns of the probe, from s n·u = k - n·(P - t)
+    // with the symbols of rigid.h (n is n_M):
+    //   shift of P along e: ds = -n·e / n·u
+    //   change of u by du: ds = -s n·du / n·u
     const auto set = [&](MountingUnknown which, double slope) {
       out.by_probe(row, unknown_of(k, which)) = slope / seen.u_m * scale_(unknown_of(k, which));
     };

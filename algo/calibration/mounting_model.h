@@ -18,7 +18,7 @@ inline Eigen::Index unknown_of(std::size_t probe, MountingUnknown which) {
 
 // One reading that is used.
 struct TraverseReading {
-  std::size_t clamping, traverse;  // traverse: index over all clampings
+  std::size_t clamping, traverse;  // traverse: number of the traverse, counted over all clampings
   std::size_t probe;
   Eigen::Vector3d axis_direction_M;  // unit vector of the axis, local frame
   double travel_m;
@@ -44,7 +44,7 @@ class MountingModel {
   const Eigen::Vector3d& towards(std::size_t probe, std::size_t which) const;
   Eigen::Vector3d rotated_direction(std::size_t probe, double towards1, double towards2) const;
 
-  // Prior standard uncertainty of each unknown, from the rig; 0: the unknown is exact.
+  // Prior standard uncertainty of each unknown, see declared(); 0: the unknown is exact.
   const Eigen::VectorXd& scale() const { return scale_; }
   // True: the rig declares the prior uncertainty. False: the prior uncertainty is a typical value
   // for clamping by hand.

@@ -10,11 +10,11 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kEntirelyUnseen = 0.99;  // a combination with at least this share in `unseen` is
-                                          // unseen
+constexpr double kEntirelyUnseen = 0.99;  // with this share in MountingView::unseen, a
+                                          // combination counts as unseen
 constexpr double kSamePlane = 1e-9;       // 1 - cosine
-constexpr double kIndependent = 0.1;      // a smaller remainder outside the other combinations is
-                                          // ignored
+constexpr double kIndependent = 0.1;      // a combination with a smaller remainder outside the
+                                          // others is not added
 
 using Group = std::vector<std::size_t>;  // indices of the probes that measure the same plane of the
                                          // target

@@ -26,7 +26,8 @@ struct Unseen {
   // The unseen combinations without the common shifts and zeros of the probes of a plane;
   // orthonormal columns.
   Eigen::MatrixXd apart;
-  Vec3 u_together_m{};  // u of the common shift, machine axes; NaN: the rig does not declare it
+  Vec3 u_together_m{};  // u of the common shift along each machine axis; NaN: the rig does not
+                        // declare this u
   std::vector<std::string> sentences;
 
   // Share of this unknown that the logs do not determine, without common shifts and zeros; 0 to 1.

@@ -17,8 +17,8 @@ constexpr std::size_t kFewest = 3;
 constexpr double kShortest = 0.05;           // smallest range of the readings, relative to the
                                              // range of the probe
 constexpr double kLeast = 0.5, kMost = 2;    // limits of the sensitivity g
-constexpr double kSamePositionShare = 1e-3;  // relative to the range; stops with a smaller distance
-                                             // are one position
+constexpr double kSamePositionShare = 1e-3;  // relative to the range; stops whose readings differ
+                                             // by less are one position
 
 // Displacement along the direction of the probe for a travel of 1 m along the axis.
 Result<double> facing(const Rig& rig, std::size_t probe, Axis axis) {
@@ -134,8 +134,8 @@ Status check(const Probe& probe, const Line& line) {
 }
 
 // Extends the corrections to the ends of the range. Without the extension, the correction outside
-// the table is constant, although a wrong sensitivity acts over the whole range. `slope`: slope of
-// the correction.
+// the table is constant, although an error of the sensitivity acts at every reading. `slope`: slope
+// of the correction.
 void extend_to_range(const Probe& probe, double slope, SensitivityCalibration& found) {
   const auto [low_um, high_um] = readings_of_range(probe);
   auto& table = found.linearity;

@@ -4,9 +4,9 @@
 // n is the normal of the plane that the probe measures, e the direction of the axis, u the
 // direction of the probe. A travel x causes the displacement z = x (n·e)/(n·u) along u. The line
 // reading = a + g z is fitted by least squares; g is the sensitivity. A correction is true
-// displacement - reading. It is 0 where the line has the reading 0, so that the zero does not
-// change. If the rig has no um_per_V, the corrections also contain the sensitivity. They are then
-// extended to the ends of the range with the slope 1/g - 1.
+// displacement - reading. The correction is 0 where the line has the reading 0, so that the
+// correction does not change the zero. If the rig has no um_per_V, the corrections also contain the
+// sensitivity. They are then extended to the ends of the probe's range with the slope 1/g - 1.
 //
 // u(g) is the larger one of two values:
 //   - from the noise of the stops and the declared [encoder] u_um; the error of the encoder is the

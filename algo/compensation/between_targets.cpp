@@ -10,7 +10,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kRoughest = 4;
-// Number of values that have three second differences over two steps.
+// Smallest number of values that has three second differences over two steps.
 constexpr std::size_t kLeastRoughnessValues = 7;
 constexpr std::size_t kFew = 5;  // with fewer values the scatter of the curvature is unknown
 constexpr double kFactorOfFew = 2;

@@ -13,14 +13,14 @@ namespace mdof::algo {
 // ½ (x - x_i) (x_{i+1} - x) curvature.
 //
 // The curvature is R times the root mean square of the second differences of the values. A second
-// difference shows the error of interpolation if its middle target is left out. The mean square
-// contains the four nearest second differences, and the mean square of all second differences with
-// a weight of six. The contribution of noise to the squares is subtracted; `u` is this noise, which
-// is independent from target to target.
+// difference shows the error of interpolation if its middle target is left out. The mean is over
+// the squares of the four nearest second differences (weight 1 each) and the mean square of all
+// second differences (weight 6). The contribution of noise to the squares is subtracted; `u` is
+// this noise, which is independent from target to target.
 //
 // R is the ratio of the curvature at half a step to the curvature at one step. q is the ratio of
-// the second differences over one step to the second differences over two steps, limited to
-// 1 ... 4.
+// the curvature from neighbouring targets to the curvature from every second target (root mean
+// squares), limited to 1 ... 4.
 // - q up to 2.2: R = 2√q/(1 + √q), which holds for a wave of any length and is 1 for a parabola
 // - q above 2.2: R = q²/4, because waves may be shorter than the targets can show
 // - five or six values: R = 2
@@ -30,7 +30,8 @@ namespace mdof::algo {
 std::vector<double> curvatures(const std::vector<double>& position_m,
                                const std::vector<double>& values, const std::vector<double>& u);
 
-// Sets the curvatures of a table. Without them table_at() calculates them at each call.
+// Sets the curvatures of a table. If a table has no curvatures, table_at() calculates them at each
+// call.
 void add_curvatures(CompensationTable& table);
 
 }  // namespace mdof::algo

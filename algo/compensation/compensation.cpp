@@ -27,8 +27,8 @@ double smallest_step(const std::vector<double>& x) {
   return step;
 }
 
-// Returns all points of all runs. The target numbers are indices of `grid`. The repeat numbers
-// continue from one run to the next.
+// Returns all points of all runs. The target number is the index in `grid` plus 1. The repeat
+// numbers continue from one run to the next.
 Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
                                                const std::vector<double>& grid) {
   std::vector<MeasuredPoint> points;
@@ -99,7 +99,7 @@ void fill_side(const MovingAxis& moving, const std::vector<MeasuredPoint>& point
 }
 
 // A position between the grid points `below` and `below` + 1. `share` is the share of the interval,
-// 0 ... 1; a position outside the grid has the share of the end.
+// 0 ... 1; a position outside the grid has the share of the nearer end.
 struct Place {
   std::size_t below = 0;
   double share = 0;
@@ -137,7 +137,7 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
 }
 
 // Returns whether the position is between the first and the last position with a value of this
-// column, or outside by less than the tolerance of a stop at its target.
+// column, or outside by at most kEndTolerance of the last interval.
 bool spans(const std::vector<double>& x, const std::vector<double>& y, double at) {
   std::size_t first = 0, last = x.size();
   while (first < x.size() && !std::isfinite(y[first])) ++first;

@@ -1,4 +1,4 @@
-// Builds a compensation table of one axis from runs, and evaluates it at a position.
+// Builds a compensation table of one axis from runs, and evaluates a table at a position.
 #pragma once
 
 #include <optional>
@@ -14,17 +14,17 @@ namespace mdof::algo {
 
 // Options of build_table(), which calculates the mean errors at each target over all given runs,
 // separately for the forward and the reverse approach.
-// - The angles refer to the mean of both approaches at the first target.
+// - Each angle refers to its mean of both approaches at `angles_zero_m`.
 // - With `remove_slope`, straightness refers to its least-squares line, because the slope belongs
 //   to squareness. Otherwise straightness is as measured.
-// - Straightness is calculated for the point `stated`.
+// - `stated` is the reference point of straightness.
 // - Targets of different runs are the same target if their positions agree within 2 % of the
 //   smallest step.
 //
 // Errors: runs of different axes; runs with different targets; the errors of check_usable().
 struct TableOptions {
   bool remove_slope = true;
-  bool take_partial = false;
+  bool take_partial = false;  // true: partial runs are accepted, too
   StatedAt stated;
   Chain machine;
   // Position at which each angle (mean of both approaches) is 0. The angle is interpolated
@@ -50,10 +50,10 @@ std::array<std::vector<std::vector<double>>, kErrorCount> references_of(
 Result<Notices> uneven_visit_notices(const std::vector<Run>& runs);
 
 // The errors at a position. Between two targets, the errors and their u are interpolated linearly;
-// outside the targets the end value is held and `inside` is false. The linear u is an upper limit,
-// because a correlation of the two values can only reduce the u of the interpolated value.
-// u_interpolation is added to u. It assumes that the curvature of the errors between two targets is
-// the same as around them.
+// outside the targets the end value is held and `inside` is false. The linear u is the u for fully
+// correlated values. It is an upper limit, because a smaller correlation reduces u. u_interpolation
+// is added to u. u_interpolation assumes that the curvature of the errors between two targets is
+// the same as around these targets.
 struct TableValue {
   Errors5 error{};  // named errors; NaN: the table has no value
   Errors5 u{};

@@ -12,14 +12,16 @@
 namespace mdof::algo {
 namespace {
 
-// Limits of the number of points, and of the number of points times the number of parts. They keep
-// the calculation time near one second. The solver runs several times for each point.
+// Limits of the number of points, and of the number of points times the number of independent parts
+// of all contributors. They keep the calculation time near one second. The solver runs several
+// times for each point.
 constexpr std::size_t kMostPoints = 20'000, kMostCost = 1'000'000;
 
 // [part][run]: shifts due to a part of one contributor; empty for a run without this contributor.
 using PartsOfRuns = std::vector<std::vector<PointShifts>>;
 
-// A contributor without a key belongs to one run only.
+// Contributors with the same identity are one contributor. A contributor without a key belongs to
+// one run only.
 std::string identity(const Contributor& c, std::size_t run) {
   if (c.key.empty()) return std::to_string(run) + " " + contributor_text(c.name);
   return contributor_text(c.name) + " " + c.key + " " + std::to_string(c.declared.u * c.to_unit) +

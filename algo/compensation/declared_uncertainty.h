@@ -14,11 +14,11 @@ namespace mdof::algo {
 // Sets `u_declared` of a table that build_table() calculated from these runs and options; `rigs`
 // has the rig of each run. The table is calculated again with the shift of each contributor. A
 // shift that is the same at all points cancels where the table subtracts a reference (the line of
-// straightness, the first angle). If several rigs declare the same contributor, the rigs share one
-// fixture, and the contributor shifts all their runs together. u_declared also contains the
-// uncertainty of a removed drift. It is not set if no rig declares an uncertainty and no drift was
-// removed. Errors: the errors of contributors(); too many points and contributors, because the
-// calculation takes too long.
+// straightness, the first angle). If several rigs declare the same contributor, mdof assumes that
+// they describe one fixture: the contributor shifts the runs of all these rigs together. u_declared
+// also contains the uncertainty of a removed drift. u_declared is not set if no rig declares an
+// uncertainty and no drift was removed. Errors: the errors of contributors(); so many points and
+// contributors that the calculation would take too long.
 Status add_declared_uncertainty(CompensationTable& table, const std::vector<Rig>& rigs,
                                 const std::vector<Run>& runs, const TableOptions& options);
 

@@ -32,13 +32,14 @@ std::vector<double> imported_targets(const std::vector<ImportedReading>& reading
 // The signs of the table refer to the direction of the command. The signs of a run may refer to the
 // direction of the moving body. They are then converted with the travel direction of the run. If
 // the run does not state a travel direction, `against_command` of the machine is used. Further
-// errors: both are unknown; both are known and differ.
+// errors: both the travel direction and `against_command` are unknown; the travel direction
+// contradicts `against_command`.
 Result<CompensationTable> build_positioning_table(
     const std::vector<Run>& runs, std::optional<bool> against_command = std::nullopt);
 // Error: the run states a travel direction that differs from `against_command`.
 Status check_travel(const RunHeader& run, bool against_command);
 
-// Returns the notices of such a table that are not notices of its runs.
+// Returns the notices of a positioning table that are not notices of its runs.
 Notices positioning_notices(const std::vector<Run>& runs);
 
 }  // namespace mdof::algo

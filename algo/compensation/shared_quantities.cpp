@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// Limit of the points of each table. declared_uncertainty.cpp has the same limit and reports it.
+// Limit of the number of points of each table, the same as in declared_uncertainty.cpp.
 constexpr std::size_t kMostSharedPoints = 20'000;
 
 // A contributor in one run of one table.
@@ -27,7 +27,7 @@ bool is_shared_by_tables(const std::vector<InRun>& all) {
 }
 
 // Returns the contributors with the same Contributor::common_as together. `runs` has the runs of
-// each table, converted to the point for which the table is calculated.
+// each table, converted to the reference point of the table.
 Result<std::map<std::string, std::vector<InRun>>> quantities_of(
     const std::vector<BuiltFrom>& tables, const std::vector<std::vector<Run>>& runs) {
   std::map<std::string, std::vector<InRun>> all;

@@ -1,6 +1,6 @@
 // Quantities that the tables of several axes share, for example the scale, linearity and tilt
-// factor of a probe that measured more than one axis. They are necessary for the u of a point that
-// several axes move.
+// factor of a probe that measured more than one axis. The u of a point that several axes move
+// depends on these quantities.
 #pragma once
 
 #include <string>
@@ -33,7 +33,7 @@ struct SharedQuantity {
 
 // Probes with the same certificate and uncertainty count as the same probe, as in
 // uncertainty/statistics/common_quantities.h for the squareness of two runs. Errors: the errors of
-// contributors(); a table with too many points, because the calculation takes too long.
+// contributors(); a table with so many points that the calculation would take too long.
 Result<std::vector<SharedQuantity>> shared_quantities(const std::vector<BuiltFrom>& tables);
 
 }  // namespace mdof::algo

@@ -1,6 +1,6 @@
 // Limits of the values and slopes of a table. No compensation of a miniaturised machine tool
-// exceeds them. They detect a wrong unit, a wrong column and a table whose correction reverses the
-// motion.
+// exceeds these limits. A table that exceeds them has a wrong unit or a wrong column, or its
+// correction reverses the motion.
 #pragma once
 
 #include <string>

@@ -51,9 +51,9 @@ ApproachVariances approach_variances(const MovingAxis& moving,
   return out;
 }
 
-// Runs with missing visits do not shift all means equally. This class calculates the effects on the
-// means of both approaches, as independent parts: the uncertainty of the shifts of these runs, and
-// the levels of their passes.
+// Runs with missing visits do not shift all means equally. This class calculates how two causes
+// change the means of each approach, as independent parts: the uncertain shifts of these runs, and
+// the different levels of their two passes (run_shifts.h).
 class SharedShifts {
  public:
   // `u_visit`: named errors.

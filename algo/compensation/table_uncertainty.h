@@ -25,7 +25,6 @@ Reference line_at(const std::vector<double>& x, double at);  // reference of the
 //   does not cancel: half of the difference between the forward and the reverse pass, which varies
 //   from run to run. If some visits of a run are missing, this half changes each mean by a
 //   different share (run_shifts.h).
-//
 using SeriesOfErrors = std::array<std::vector<double>, kErrorCount>;
 SeriesOfErrors table_uncertainty(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                                  const std::vector<TargetMean>& grid, Approach approach,

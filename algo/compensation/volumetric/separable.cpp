@@ -45,8 +45,7 @@ void subtract_axis_function(CommandGrid& grid, std::size_t axis,
     grid.value[node] -= values[grid.index(node, axis)];
 }
 
-// The joint effect of the axes p and q, which is the mean over the third axis: [node of p][node of
-// q].
+// Mean of the values over the third axis, for the axes p and q: [node of p][node of q].
 using PairRows = std::vector<std::vector<double>>;
 PairRows mean_of_pair(const CommandGrid& grid, std::size_t p, std::size_t q) {
   PairRows rows(grid.size[p], std::vector<double>(grid.size[q], 0));

@@ -12,7 +12,7 @@ namespace mdof::algo {
 
 // The product of two functions: `of_first` has a value for each node of the axis `first`,
 // `of_second` for each node of the axis `second`. Unit of both: √m. Both functions have the same
-// norm.
+// largest absolute value.
 struct AxisProduct {
   std::size_t first = 0, second = 1;
   std::vector<double> of_first, of_second;

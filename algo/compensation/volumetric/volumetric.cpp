@@ -134,8 +134,8 @@ Status add_node(VolumetricTable& table, const Machine& machine, const Volumetric
   return {};
 }
 
-// Sets the command to the node plus half a cell along each axis of the bit set `half`. Returns
-// false if there is no such cell.
+// Sets the command to the node plus half a cell along each axis whose bit is set in `half` (bit 0:
+// X). Returns false if the node is the last one along such an axis.
 bool move_half_cell(const VolumetricTable& table, std::size_t node, unsigned half,
                     Vec3& command_m) {
   command_m = table.command_at(node);
@@ -149,8 +149,8 @@ bool move_half_cell(const VolumetricTable& table, std::size_t node, unsigned hal
   return true;
 }
 
-// Returns for each cell of an axis the positions of the largest deviations of the errors from the
-// straight line between two nodes. Each of these is a position of the error's table, because the
+// Returns for each cell of an axis the positions at which an error deviates most from the straight
+// line between the two nodes. Each of these positions is in the table of the error, because the
 // error is linear between the positions of its table.
 std::vector<std::vector<double>> bends_along(const Machine& machine, std::size_t axis,
                                              const std::vector<double>& nodes) {
@@ -181,10 +181,10 @@ std::vector<std::vector<double>> bends_along(const Machine& machine, std::size_t
   return bends;
 }
 
-// Finds the deviation of the corrections from linear interpolation in the cell after each node. It
-// compares the middle of each edge, the middle of each face, the middle of the cell, and the bends
-// of errors along an edge. Bends of several axes can coincide, so the deviations of the axes are
-// added.
+// Finds the largest deviation of the corrections from linear interpolation in the cell after each
+// node. The deviation is calculated in the middle of each edge, of each face and of the cell, and
+// at the positions of bends_along() on an edge. Such positions of several axes can coincide, so the
+// deviations of the axes are added.
 class Interpolation {
  public:
   Interpolation(VolumetricTable& table, const Machine& machine, const VolumetricRequest& request)
@@ -342,7 +342,7 @@ Status check_limits(const VolumetricTable& table, const TableLimits& limits) {
 VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m) {
   std::array<GridCell, 3> cell;
   VolumetricValue value;
-  double bend = 0;  // 0 at a node, 1 in the middle of an edge, a face or the cell
+  double bend = 0;  // share of interpolation_m: 0 at a node, 1 in the middle of an edge or face
   for (std::size_t k = 0; k < 3; ++k) {
     cell[k] = cell_of(table.command_m[k], command_m[k]);
     value.inside = value.inside && cell[k].inside;

@@ -12,9 +12,9 @@
 namespace mdof::algo {
 
 struct VolumetricRequest {
-  std::array<bool, 3> along{true, true, true};  // axes X, Y, Z of the grid
+  std::array<bool, 3> along{true, true, true};  // true: the grid extends along X, Y, Z
   double step_m = 0.01;                         // approximate distance between nodes
-  Command others{};                             // positions of the other axes
+  Command others{};                             // commands of the axes that are not in the grid
   MachineApproach approach = MachineApproach::mean;
   // true: builds the table even if a relevant error was not measured; the table states this error.
   bool incomplete = false;
@@ -35,7 +35,7 @@ inline constexpr std::size_t kMostVolumetricCommands = 500;
 Result<VolumetricTable> build_volumetric(const Machine& machine, const VolumetricRequest& request);
 
 // Checks the corrections along each line of nodes that is parallel to an axis. The error
-// (bad_input) is the error of check_limits() for a series; it also states the line.
+// (bad_input) is the error of check_limits() for a series, with the line.
 Status check_limits(const VolumetricTable& table, const TableLimits& limits);
 
 // Returns the largest absolute correction of one axis over all nodes; axis 0 is X.
@@ -49,8 +49,9 @@ struct VolumetricValue {
 // Interpolates linearly along each axis between the nodes.
 // - The common part of u combines the u of the surrounding nodes and the interpolation error at
 //   this point. Along the axes, the interpolation error is a parabola: 0 at a node and, in the
-//   middle between two nodes, the largest deviation that was found. The deviation is not divided by
-//   a factor, because each measurement at the point of the largest deviation has this deviation.
+//   middle between two nodes, the largest deviation that was found. The deviation counts as a
+//   standard uncertainty without a divisor, because each measurement at the point of the largest
+//   deviation has this deviation.
 // - The independent part is smaller than at the nodes, because interpolation averages the noise of
 //   the nodes (noise_variance()).
 // - Tables of older versions do not contain the noise of each axis. For these tables, u is

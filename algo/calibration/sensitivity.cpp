@@ -17,8 +17,7 @@ constexpr std::size_t kFewest = 3;
 constexpr double kShortest = 0.05;           // smallest range of the readings, relative to the
                                              // range of the probe
 constexpr double kLeast = 0.5, kMost = 2;    // limits of the sensitivity g
-constexpr double kSamePositionShare = 1e-3;  // relative to the range; stops whose readings differ
-                                             // by less are one position
+constexpr double kSamePositionShare = 1e-3;  // relative to the range; nearer stops are one position
 
 // Displacement along the direction of the probe for a travel of 1 m along the axis.
 Result<double> facing(const Rig& rig, std::size_t probe, Axis axis) {

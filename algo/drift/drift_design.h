@@ -1,4 +1,5 @@
-// Determines which part of a drift can be found from repeated visits of the same places. The model:
+// Determines which part of a drift can be found from repeated visits of the same places. The model
+// of a reading y:
 //   y = error of the place + drift(time) + noise
 //
 // A place is a target and a direction of approach. The error of a place is the same at each visit.
@@ -19,16 +20,17 @@ struct TimedVisit {
   double time_s = 0;
 };
 
-// Data for the estimation of slow noise, in order of time. The calculation time grows with the
-// square of the number of places. If there are more than kMostPlaces places, several neighbouring
-// places count as one place. Their consecutive visits are then averaged to one row.
+// Visits for the estimation of slow noise, one row for each visit, in order of time. The
+// calculation time grows with the square of the number of places. If there are more than
+// kMostPlaces places, several neighbouring places count as one place. Their consecutive visits are
+// then averaged to one row.
 struct DriftRows {
   std::vector<double> time_s;
   std::vector<std::size_t> place;
   std::size_t places = 0;
   Eigen::MatrixXd polynomials, y;  // both minus the mean of the place
 
-  double freedom() const;  // degrees of freedom of the residuals if the fit has the highest order
+  double freedom() const;  // degrees of freedom of the residuals of a fit of highest order
 };
 
 class DriftDesign {
@@ -48,9 +50,8 @@ class DriftDesign {
   double end_s() const { return begin_s_ + length_s_; }  // time of the last visit
 
   DriftRows rows(const Eigen::MatrixXd& y) const;  // `y`: visits × series; requires orders() > 0
-  // Returns the value of the polynomial of each order. It is 0 at the first visit, because the
-  // system was zeroed there. Times before the first or after the last visit have the value of this
-  // visit.
+  // Returns the value of the polynomial of each order. The value is 0 at the first visit, because
+  // the system was zeroed there. Before the first visit and after the last visit the value is held.
   Eigen::VectorXd polynomials(double time_s) const;
 
  private:

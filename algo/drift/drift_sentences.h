@@ -15,8 +15,8 @@ namespace mdof::algo {
 // drifts that may be steps; false: only drifts that cannot be steps. Empty: there is no such drift.
 std::string changes_text(const RunDrift& drift, const MovingAxis& moving, bool steps);
 
-// Returns notices of a run for which drift removal was requested. They state which drifts were
-// removed.
+// Returns notices of a run for which drift removal was requested. The notices state which drifts
+// were removed.
 Notices removal_notices(const RunDrift& drift, const MovingAxis& moving);
 
 // Returns notices of probes whose drift during the run (highest minus lowest value) exceeds the

@@ -9,7 +9,8 @@
 namespace mdof::algo {
 namespace {
 
-// Converts shifts at the fixture to shifts at the point for which the errors of the run are stated.
+// Converts shifts of the errors from the reference point "fixture" to the reference point of the
+// run.
 PointShifts restated(const PointShifts& at_fixture, const Run& run, Model model) {
   if (run.header.stated == kAtFixture) return at_fixture;
   PointShifts shifts(at_fixture.size());

@@ -14,7 +14,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLogLikelihoodRatio = 5;       // at least this for a drift instead of steps
+constexpr double kLogLikelihoodRatio = 5;       // smallest value for a drift instead of steps
 constexpr std::size_t kLeastPointsPerPass = 3;  // average over the passes
 constexpr double kLeastScatter_m = 1e-12;
 

@@ -34,29 +34,31 @@ struct Closure {
 };
 
 struct RunDrift {
-  std::string not_seen;                 // why no drift can be stated; empty: a drift can be stated
-  double length_s = 0;                  // time from the first point to the last
+  std::string not_seen;  // why no drift can be determined; empty: drifts are determined
+  double length_s = 0;   // time from the first point to the last
   std::array<SeriesDrift, 5> errors{};  // local errors of the target; m, rad
   std::vector<SeriesDrift> probes;      // in the order of the rig, m; empty if not_seen is set
   std::vector<Closure> closures;        // one for each run whose start position was visited again
 
   bool significant() const;  // any error has a significant drift
-  bool removable() const;    // at least one drift that cannot be steps
+  bool removable() const;    // at least one significant drift that cannot be steps
 };
 
 class DriftOfRun {
  public:
-  // The errors of `points` must be stated at the fixture, because the errors at another point
-  // depend on the travel. Points without errors or with an unknown approach are ignored.
+  // The reference point of the errors of `points` must be the fixture, because the errors at
+  // another point depend on the travel. Points without errors or with an unknown approach are
+  // ignored.
   explicit DriftOfRun(const std::vector<MeasuredPoint>& points);
 
   const RunDrift& found() const { return found_; }
   // Returns the points with errors from which the significant drifts since the first point are
-  // subtracted. The system was zeroed at the first point; a drift before it remains in all points.
+  // subtracted. The system was zeroed at the first point; an earlier drift remains in all points.
   std::vector<MeasuredPoint> without(std::vector<MeasuredPoint> points) const;
-  // Returns the uncertainty of points from without() as [part][point]. Each part has the possible
-  // errors of each point. The parts are independent, so their squares add; they have freedom()
-  // degrees of freedom. A removed drift is recognised by its value in `points`, which is 0.
+  // Returns the uncertainty of points from without() as [part][point]: the effect of one standard
+  // uncertainty of each independent part on the errors of each point. The squares of the parts add;
+  // they have freedom() degrees of freedom. This object must be constructed from points of
+  // without(): a fitted drift of 0 means that the drift was removed.
   std::vector<std::vector<Errors5>> removal_shifts(const std::vector<MeasuredPoint>& points) const;
   double freedom() const;
 

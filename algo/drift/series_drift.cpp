@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLeastNoise2 = 1e-24;                // (1 pm)², for readings without noise
 constexpr double kNearlyAsLikely = 7, kAsLikely = 2;  // differences of -2 log(likelihood)
-// In sd of a score; smaller scores of a subtracted drift are rounding.
+// Limit of a score, in sd of the score: a subtracted drift has smaller scores, due to rounding.
 constexpr double kTaken = 1e-6;
 constexpr Eigen::Index kWaves = 12;  // waves of the slow noise: 1 to 12 half periods in the log
 constexpr double kPi = 3.14159265358979323846;
@@ -97,9 +97,10 @@ void DriftFit::estimate(Eigen::Index k, const std::vector<WeighedFit>& fits, dou
     series_[static_cast<std::size_t>(k)].u_change = sd_of(best) * best.shapes(whole).norm();
 }
 
-// Approximates the slow noise by cosines with m half periods over the log, which are nearly
-// independent. Their spectrum is 2 τ/(1 + ω²τ²). Calculates the effect of the cosines on the
-// scores. The rest of the variance of the scores is due to white noise.
+// Approximates the slow noise by kWaves cosines; cosine m has m half periods over the log. The
+// cosines are nearly independent, and their spectrum at the angular frequency ω is 2 τ/(1 + ω²τ²).
+// Calculates the effect of the cosines on the scores. The rest of the variance of the scores is due
+// to white noise.
 void DriftFit::split_noise(Estimate& of) const {
   const auto n = static_cast<Eigen::Index>(design_.visits().size());
   Eigen::MatrixXd y(n, kWaves);

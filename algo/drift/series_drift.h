@@ -35,7 +35,7 @@ struct SeriesDrift {
 // - u_change is from the likeliest model.
 //
 // Orders are tested from the highest to the lowest. The level of each test is kDriftLevel / (orders
-// × series). The residual variance is the residual variance of the highest order.
+// × series). Each test uses the residual variance of the fit of the highest order.
 class DriftFit {
  public:
   DriftFit(DriftDesign design, const Eigen::MatrixXd& y, const Eigen::VectorXd& noise2);
@@ -48,9 +48,9 @@ class DriftFit {
   // reading. 0 if no drift is significant, or if the drift may be steps.
   Eigen::VectorXd drift(double time_s) const;
   // Returns for each time the uncertainty of readings from which drift() was subtracted before the
-  // fit: series × independent parts, whose squares add. A subtracted drift is recognised by its
-  // scores, which are 0. The slow noise is included, because the subtracted drift contains a part
-  // of the slow noise.
+  // fit: series × independent parts, whose squares add. A series whose drift was subtracted is
+  // recognised by its scores, which are 0. The slow noise is included, because the subtracted drift
+  // contains a part of the slow noise.
   std::vector<Eigen::MatrixXd> parts(const std::vector<double>& time_s);
 
  private:

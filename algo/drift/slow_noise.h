@@ -20,9 +20,9 @@ struct SlowNoise {
 // Returns noise models from white noise to a random walk, for visits at these times.
 std::vector<SlowNoise> slow_noises(const std::vector<double>& time_s);
 
-// Returns independent rows of variance 1: each row minus its prediction from the rows before,
-// divided by the standard deviation of this difference. `log_variances`: logarithm of the
-// determinant of the covariance of `rows`.
+// Returns independent rows: each row minus its prediction from the rows before, divided by the
+// standard deviation of this difference. The variance of one reading is 1. `log_variances`:
+// logarithm of the determinant of the covariance of `rows`.
 Eigen::MatrixXd whitened(const std::vector<double>& time_s, const SlowNoise& noise,
                          const Eigen::MatrixXd& rows, double& log_variances);
 
@@ -30,16 +30,17 @@ struct WeighedFit {
   SlowNoise noise;
   bool solved = false;
   // The rows of `scores` are independent; their variance is the variance of one reading. A drift of
-  // order n is the sum of the first n products of the elements of root⁻ᵀ polynomials(t) and of the
-  // scores.
+  // order n at the time t is the sum over k = 1 ... n of element k of root⁻ᵀ polynomials(t) times
+  // score k.
   Eigen::MatrixXd scores;  // orders × series
   Eigen::MatrixXd root;    // orders × orders, upper
-  // series × series: products of the whitened residuals of the highest order, summed over the rows.
+  // series × series: products of the whitened residuals of the fit of the highest order, summed
+  // over the rows.
   Eigen::MatrixXd left;
   double log_determinants = 0;
 
   Eigen::VectorXd shapes(const Eigen::VectorXd& polynomials) const;
-  // Returns -2 log(likelihood) of a series without a constant term. It is the restricted likelihood
+  // Returns -2 log(likelihood) of a series, up to a constant. It is the restricted likelihood
   // (REML; Patterson, Thompson 1971): the likelihood of the residuals after the fit of the places
   // and of the highest order.
   double unlikeliness(Eigen::Index series, double freedom, double least_square) const;

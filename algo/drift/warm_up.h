@@ -46,7 +46,7 @@ struct WarmUp {
   std::vector<WithTemperature> with_temperature;  // [series]; empty: no temperature
   bool limited = false;                           // whether any series has a limit
   // After this time, the rates of all series with a limit are below their limits in all windows.
-  // These are at least kFewestBelow windows with a total length of at least kShortestBelow_s.
+  // There are at least kFewestBelow such windows, with a total length of at least kShortestBelow_s.
   // Empty: not ready, or no limit.
   std::optional<double> ready_after_s;
 };
@@ -55,8 +55,8 @@ inline constexpr std::size_t kFewestBelow = 3, kStepsOfWindow = 10, kFewestSteps
 inline constexpr double kShortestBelow_s = 600;  // thermal drift has time constants of minutes
 
 // The windows are consecutive and have kStepsOfWindow time steps; an incomplete last window is left
-// out. The rate is the slope of the least-squares line through the readings of a window. The u of
-// the rate is from the scatter of the readings about the line. A window with fewer than
+// out. The rate is the slope of the least-squares line through the readings of a window. u of the
+// rate is calculated from the scatter of the readings about the line. A window with fewer than
 // kFewestSteps readings has no rate.
 WarmUp warm_up(const ParkedReadings& readings);
 

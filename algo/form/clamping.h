@@ -15,7 +15,7 @@ struct ClampingParts {
   SurfaceMap clamping, elastic, plastic;  // the whole deformation and its two parts, without piston
                                           // and tilt
   double K = 0;                           // plastic = K elastic
-  // RMS of plastic - K elastic. Only of clamping_by_release().
+  // RMS of plastic - K elastic. Set only by clamping_by_release().
   std::optional<double> K_unexplained_rms_m;
 };
 
@@ -35,9 +35,9 @@ struct Plate {
 };
 
 struct PlateStress {
-  double max_Pa = 0;  // largest von Mises stress at the face
-  double x_m = 0, y_m = 0;
-  std::size_t pixels = 0;  // pixels whose curvature is known
+  double max_Pa = 0;        // largest von Mises stress at the face
+  double x_m = 0, y_m = 0;  // pixel with max_Pa
+  std::size_t pixels = 0;   // pixels whose curvature is known
 };
 
 // The stress of a thin plate whose face is bent by `form`. The curvature at a pixel is the

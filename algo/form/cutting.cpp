@@ -16,7 +16,7 @@ namespace {
 constexpr double kGrowth = 1.5;  // the last error may exceed the smallest error by this factor,
                                  // because random errors vary
 constexpr double kLeastSmoothingShare =
-    0.2;  // share of the square that must be measured; at a corner of the map only a quarter is
+    0.2;  // share of the square that must be measured; at a corner of the map a quarter is measured
 
 // Actual - wanted of each pass, at the pixels that all passes have.
 Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
@@ -133,8 +133,8 @@ void split(std::vector<SurfaceMap>& left, CuttingResult& result) {
 }
 
 // For repeated passes, true if the expected error of the next pass is smaller than the RMS error of
-// the passes. For other passes, true if the error of the last pass is smaller than the error of the
-// first pass.
+// the passes. For other passes, true if the last error is 0, or if the last error is smaller than
+// the first error and at most kGrowth times the smallest error after the first pass.
 bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
   const std::vector<MapFigures>& error = result.error;
   if (passes.repeated) {

@@ -28,7 +28,7 @@ struct CuttingPasses {
   // smoothing (0), the noise of single pixels is cut into the part. The side must be the same for
   // all passes.
   double smooth_m = 0;
-  // RMS of the random error of one pass, if known. `optimal` needs it, except for two or more
+  // RMS of the random error of one pass, if known. Required by `optimal`, except for two or more
   // repeated passes.
   std::optional<double> random_rms_m = std::nullopt;
 };
@@ -42,10 +42,10 @@ struct CuttingResult {
   std::optional<double> floor_gain_one_m, floor_mean_m,
       floor_optimal_m;  // expected RMS error of the next pass for each gain, from random errors
                         // only
-  std::optional<bool> converges;
-  std::size_t pixels = 0;        // pixels that all maps have
-  SurfaceMap next;               // path of the next pass, over the pixels of `wanted`
-  std::optional<double> factor;  // factor on the mean error; only with `optimal`
+  std::optional<bool> converges;  // whether the passes reduce the error (README.md, "Passes")
+  std::size_t pixels = 0;         // pixels that all maps have
+  SurfaceMap next;                // path of the next pass, over the pixels of `wanted`
+  std::optional<double> factor;   // factor on the mean error; only with `optimal`
   std::optional<double> left_by_smoothing_rms_m;  // RMS that the smoothing removed from the
                                                   // correction; only with smooth_m
 };

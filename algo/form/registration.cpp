@@ -35,8 +35,8 @@ constexpr double kAlike = 5e-3;  // relative to the mean absolute height of A: n
                                  // residual is smaller
 constexpr double kPlaceResidualLimit =
     4;  // times the mean absolute height of A: a larger residual of one place enters as this limit
-// The residual at a pose that the search finds must be less than this factor times the first
-// residual, and less than this factor times the mean absolute height of A.
+// The residual at a pose that the search finds must be less than this factor times the residual at
+// the pose found before, and less than this factor times the mean absolute height of A.
 constexpr double kMuchBetter = 0.5;
 
 // The pose with the smallest residual in a grid of shifts and turns.
@@ -131,7 +131,7 @@ class Registration {
   // Fits from shift and turn 0, in the directions that the shape determines there. If the shape
   // determines fewer directions at the fitted pose, the fit starts again from shift and turn 0 in
   // the fewer directions. If the shape determines more directions there, the fit continues from the
-  // fitted pose in these directions.
+  // fitted pose in these directions, unless it was started again.
   MapPose fitted_at_rest() const {
     MapPose pose;
     Eigen::MatrixXd directions = evidence_.determined(b_, pose);
@@ -174,9 +174,9 @@ class Registration {
            j < static_cast<double>(flat_.ny) &&
            !std::isnan(flat_.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j)));
   }
-  // Places that have a counterpart in B in both poses, where moreover the counterpart in pose `fit`
-  // belongs to a measured place of A in pose `other`. Without the second condition, a difference at
-  // the border of B would be ignored.
+  // Returns for each place whether two conditions are true: the place has a counterpart in B in
+  // both poses, and its counterpart in pose `fit` is the counterpart of a measured place of A in
+  // pose `other`. Without the second condition, a difference at the border of B would be ignored.
   std::vector<bool> common(const PoseFit& fit, const PoseFit& other) const {
     std::vector<bool> counts(fit.left_m.size());
     const Turn here(fit.pose.turn_rad), back(-other.pose.turn_rad);

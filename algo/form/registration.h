@@ -14,7 +14,7 @@ enum class Register {
   none
 };
 
-// Pose of B relative to A: the place p in A is the place R(turn) p + shift in B.
+// Pose of B relative to A: the place p in A corresponds to the place R(turn) p + shift in B.
 struct MapPose {
   double shift_x_m = 0, shift_y_m = 0, turn_rad = 0;
 };
@@ -28,7 +28,7 @@ struct Comparison {
   // correlated.
   std::size_t undetermined = 0;
   // Mean absolute residual with the movement of B, divided by the mean absolute residual without
-  // it. Piston and tilt are removed in both cases. 1 if B is not moved.
+  // this movement. Piston and tilt are removed in both cases. 1 if B is not moved.
   double residual_ratio = 1;
   double moved_m = 0;          // upper bound of the displacement of any place of A by the movement
   double pv_m = 0, rms_m = 0;  // of `difference`; rms_m about the mean

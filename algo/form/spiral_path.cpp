@@ -193,12 +193,12 @@ double SpiralPath::arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const {
 // Path over a gap (successive points without contact), between the contact before and the contact
 // after the gap:
 // - Gap of at most one turn: the cubic of Eq. 9 over the arc of the gap.
-// - Longer gap: within half a turn, a cubic leads to the mean of both heights of the gap. The path
-//   keeps this mean until half a turn before the end of the gap. One cubic over the whole gap could
-//   have very large heights.
+// - Longer gap: within half a turn, a cubic leads to the mean of the heights at both ends of the
+//   gap. The path keeps this mean until half a turn before the end of the gap. One cubic over the
+//   whole gap could have very large heights.
 // - Gap at the end of the path: keeps the height before the gap.
-// - Gap at the beginning of the path: the last contact of the first turn, one turn earlier, is the
-//   contact before the gap. A constant height would cause a jump after a turn.
+// - Gap at the beginning of the path: the last contact of the first turn, moved back by one turn,
+//   is the contact before the gap. A constant height would cause a jump after one turn.
 struct SpiralPath::Gap {
   const SpiralPath& path;
   bool has_before = false, has_after = false;

@@ -61,8 +61,8 @@ class SpiralPath {
   bool at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part) const;
   // Length of the path between two indices.
   double arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const;
-  // Sets the height before a gap at the beginning of the path; `first` is the first point with
-  // contact. Uses the last contact of the first turn, one turn earlier.
+  // Sets the contact before a gap at the beginning of the path: the last contact of the first turn,
+  // moved back by one turn. `first`: the first point with contact.
   void find_touch_before(std::size_t first, Gap& gap) const;
 
   SpiralRequest request_;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kForSlopes = 6;  // additional rounds of extrapolation, for the pixels that
                                        // slopes at corners use
-constexpr double kOnPixel = 1e-9;  // in pixels: a place this near to a pixel uses only that pixel
-// In pixels: a pixel may be missing if the place is nearer than this to its neighbour. Without this
+constexpr double kOnPixel = 1e-9;      // in pixels: a place nearer to a pixel uses only this pixel
+// In pixels: at a place nearer than this to one pixel, the next pixel may be missing. Without this
 // tolerance, the rounding of a movement would remove the outermost pixels.
 constexpr double kLittle = 0.01;
 

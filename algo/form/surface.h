@@ -11,8 +11,8 @@
 namespace mdof::algo {
 
 // How the height of a missing pixel is extrapolated along its row or column. If several sides have
-// measured pixels, the height is the mean of the extrapolations from the sides that have the most
-// pixels (at most 4).
+// pixels with a height, the result is the mean of the extrapolations from the sides that have the
+// most such pixels (at most 4).
 enum class Extension {
   line,     // least-squares line through the nearest four pixels: amplifies noise little
   parabola  // parabola through the nearest three pixels, as smooth as the surface inside the map

@@ -1,5 +1,5 @@
-// Harmonics of each turn of a path. They show which bandwidth a servo needs, and which motion a
-// slower servo does not make.
+// Harmonics of each turn of a path. The harmonics show which bandwidth a servo needs, and which
+// motion a slower servo leaves out.
 #pragma once
 
 #include <complex>

@@ -1,4 +1,5 @@
-// Decides whether the shape of two maps determines their relative pose, or only their noise does.
+// Finds the directions of movement in which the shape of two maps, and not only their noise,
+// determines their relative pose.
 #pragma once
 
 #include <Eigen/Core>

@@ -9,8 +9,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kNeededOverlap = 0.6;     // least share of the places of A that have a counterpart
-                                           // in B; a smaller share at the start pose is sufficient
+constexpr double kNeededOverlap = 0.6;  // least share of the places of A that have a counterpart in
+                                        // B, or the share at the start pose if that is smaller
 constexpr double kFitUndetermined = 1e-7;  // a direction is undetermined if a plane explains more
                                            // than 1 - this share of the slopes
 constexpr double kFitted_pixels = 1e-5;    // the iteration ends after a smaller change

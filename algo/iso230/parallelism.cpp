@@ -43,8 +43,8 @@ std::string in_mm_text(double from_m, double to_m) {
   return plain_number(to_mm(from_m), 6) + " to " + plain_number(to_mm(to_m), 6) + " mm";
 }
 
-// If the motion is curved, the fitted line depends on the range of the fit. So runs with little
-// common travel are not compared.
+// If the motion is curved, the fitted line depends on the range of the fit. Therefore runs with
+// little common travel are not compared.
 Status common_travel(const ReferenceLines& a, const ReferenceLines& b, Parallelism& found) {
   found.from_m = std::max(a.first_m, b.first_m);
   found.to_m = std::min(a.last_m, b.last_m);

@@ -7,11 +7,11 @@
 
 namespace mdof::algo {
 
-// Fits a line to each straightness error (mean of both approaches, stated at the fixture).
-// parallelism_budget() sets the budgets. Target and fixture must not be moved on the machine
-// between the two runs. The runs do not show this, so the user must ensure it. Errors: runs of two
-// different axes; fewer than three targets; common travel below half of the longer travel; the
-// errors of check_usable().
+// Fits a line to each straightness error (mean of both approaches; the reference point is the
+// fixture). parallelism_budget() sets the budgets. Target and fixture must not be moved on the
+// machine between the two runs. The runs do not show such a movement, so the user must prevent it.
+// Errors: runs of two different axes; fewer than three targets; common travel below half of the
+// longer travel; the errors of check_usable().
 Result<Parallelism> parallelism(const Run& run_a, const Run& run_b, bool take_partial = false);
 
 }  // namespace mdof::algo

@@ -12,8 +12,8 @@
 namespace mdof::algo {
 namespace {
 
-// Readings sorted by position, then by deviation. So the result does not depend on the order of the
-// input.
+// Readings sorted by position, then by deviation, so that the result does not depend on the order
+// of the input.
 struct Series {
   std::vector<double> x, y;
 };

@@ -79,7 +79,7 @@ double propagated(const std::vector<double>& x, const std::vector<TargetMean>& s
   return std::sqrt(std::max(0.0, sum) + trend * trend);
 }
 
-// [run][target]: differences of the visits from the mean of the visits of all runs from the same
+// [run][target]: differences of the visits of a target from the mean of all visits from the same
 // side, m.
 using OffMean = std::map<int, std::map<int, std::vector<double>>>;
 
@@ -113,8 +113,8 @@ double mean_of(const std::vector<double>& values) {
 
 // Returns s/√n of the slopes of runs; 0 for fewer than two runs. Only runs with at least three
 // targets and at least half of all targets count. The slopes are fitted to the differences from the
-// mean of the runs. So the form and the backlash of the axis do not increase the scatter if a
-// target is missing in a run.
+// mean of the runs. Therefore the form and the backlash of the axis do not increase the scatter if
+// a target is missing in a run.
 double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                        std::size_t named) {
   std::map<int, double> travel_m;  // key: target

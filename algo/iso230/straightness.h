@@ -9,7 +9,7 @@
 namespace mdof::algo {
 
 // Returns figures for the two straightness errors and for each approach with at least three
-// targets. They are stated at the point for which `points` are stated.
+// targets. Their reference point is the reference point of `points`.
 std::vector<StraightnessFigure> straightness(const MovingAxis& moving,
                                              const std::vector<MeasuredPoint>& points);
 

@@ -46,9 +46,9 @@ TargetMean mean_of(const TargetMean& forward, const TargetMean& reverse) {
   return mean;
 }
 
-// Returns s/√n of the n runs' means of both directions at this target; 0 for fewer than two runs.
-// Slow changes shift both directions of a run equally, so the mean of both directions does not
-// reduce their effect.
+// Returns s/√n of the means of both directions at this target, with one mean for each of n runs; 0
+// for fewer than two runs. Slow changes shift both directions of a run equally, so the mean of both
+// directions does not reduce their effect.
 Errors5 scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                         int target) {
   std::map<int, std::array<std::vector<Errors5>, 2>> runs;
@@ -88,10 +88,10 @@ MeansByTarget one_way(const MovingAxis& moving, const std::vector<MeasuredPoint>
 // Forward minus reverse at the targets that have both approaches.
 struct Reversal {
   Errors5 mean{};
-  // u of the reversal of a single target if the mean is used for it. If only one target has both
-  // approaches, it is the reversal itself.
+  // u of the reversal of a single target for which the mean is used. If only one target has both
+  // approaches, u is the absolute value of its reversal.
   Errors5 u{};
-  double position_m = 0;  // mean of the targets
+  double position_m = 0;  // mean position of these targets
   Errors5 slope{};        // per m of encoder position; 0 if not significant
   double trend(std::size_t k, double at_m) const { return slope[k] * (at_m - position_m); }
 };

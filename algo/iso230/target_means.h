@@ -19,10 +19,10 @@ struct TargetMean {
   // Mean errors over the runs for the moving body, in the order of error_names(); m, rad.
   Errors5 named{};
   Errors5 u{};  // standard uncertainty of the mean, see target_means()
-  // Signed part of u that all targets with one approach have in common. It is due to the change of
-  // the reversal along the axis. 0 at a target with both approaches.
+  // Part of u due to the change of the reversal along the axis, with sign. The parts of all targets
+  // with only one approach are fully correlated. 0 at a target with both approaches.
   Errors5 u_trend{};
-  std::size_t n = 0;
+  std::size_t n = 0;  // number of points
 };
 
 // Returns the means of the valid points at each target with valid points, in ascending order of
@@ -31,9 +31,9 @@ struct TargetMean {
 //
 // Approach::both is the mean of the forward mean and the reverse mean. If a target has one approach
 // only, this mean would differ by half of the reversal (forward - reverse). The reversal of this
-// target is therefore assumed to be the mean reversal of the other targets. Its u contains the
-// scatter of their reversals, and the trend of their reversals extrapolated to this target. If no
-// target has both approaches, the existing approach is used.
+// target is therefore assumed to be the mean reversal of the other targets. u of the assumed
+// reversal contains the scatter of the known reversals, and their trend extrapolated to this
+// target. If no target has both approaches, the existing approach is used.
 //
 // u is the larger of two values: the scatter between n runs, s/√n (n > 1), and the propagated noise
 // of the mean. The scatter contains slow changes between runs. The noise is the lower limit if the

@@ -6,9 +6,8 @@
 namespace mdof::algo {
 
 struct PositioningConditions {
-  // Largest difference a between the deviations of the measuring device at two positions of the
-  // travel, positive or negative. The distribution is rectangular with the standard uncertainty
-  // a/√3.
+  // a: largest absolute difference between the errors of the measuring device at two positions of
+  // the travel. The distribution is rectangular with the standard uncertainty a/√3.
   double device_limit_m = kNoFigure;
   // E_VE: range of the readings while the axis is at rest for the duration of the test; U(k = 2) =
   // 0.6 E_VE. The factor 0.6 is quoted from memory and was not checked against the text of the
@@ -16,10 +15,11 @@ struct PositioningConditions {
   double drift_range_m = kNoFigure;
 };
 
-// A result is NaN if a condition that is necessary for it is unknown. The average over the runs
+// A result is NaN if a condition from which it is calculated is unknown. The average over the runs
 // does not reduce the uncertainty, because consecutive readings have nearly the same drift. The
-// results do not contain the temperature of the machine and the alignment. They do not contain the
-// uncertainty of R, because the scatter of the readings already contains the drift.
+// results do not contain the contributions of the machine's temperature and of the alignment. The
+// uncertainty of R is not calculated, because the scatter of the readings already contains the
+// drift.
 PositioningUncertainty positioning_uncertainty(const PositioningConditions& conditions);
 
 }  // namespace mdof::algo

@@ -11,8 +11,8 @@
 namespace mdof::algo {
 
 struct RunReadings {
-  std::vector<PositioningReading> readings;  // m or rad, at the point for which the run is stated
-  // Number of points that are not solved or have an unknown approach.
+  std::vector<PositioningReading> readings;  // m or rad, at the reference point of the run
+  // Number of points without errors or with an unknown approach; they have no reading.
   std::size_t left_out = 0;
 };
 

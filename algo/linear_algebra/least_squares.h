@@ -7,7 +7,7 @@
 
 namespace mdof::algo {
 
-// Solves A x = b for independent columns of A. Method: QR decomposition with Householder
+// Solves A x = b if the columns of A are independent. Method: QR decomposition with Householder
 // reflections and column pivoting (Golub, Van Loan, Matrix Computations, 4th ed., 5.4.2). A column
 // whose pivot is at most `rank_tolerance` times the largest pivot counts as dependent; its element
 // of x is 0. The default tolerance follows from rounding errors.

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kMostSteps = 50;
 constexpr double kConverged_m = 1e-12;
-// Linear axes with a smaller angle (rad) between them are treated as parallel. The places are not
-// exact: they are rounded, and the computed cos 90° is 6e-17.
+// Linear axes with a smaller angle (rad) between them are treated as parallel. The places of the
+// tool are not exact, because they are rounded and the computed cos 90° is 6e-17.
 constexpr double kParallel = 1e-9;
 
 using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic>;

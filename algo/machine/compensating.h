@@ -9,8 +9,8 @@ namespace mdof::algo {
 
 struct CompensatingCommand {
   Command command{};
-  Eigen::Vector3d residual_m;  // remaining error of the tool's point by the full product of the
-                               // frames, in the coordinates of the work
+  Eigen::Vector3d residual_m;  // remaining error of the tool's point, calculated with the full
+                               // product of the frames, in the coordinates of the work
   Eigen::Vector3d angles_rad;  // remaining angles of the tool; linear axes cannot correct angles
   int steps = 0;
   bool converged = false;           // the last step changed the commands by less than 1e-12 m
@@ -20,16 +20,16 @@ struct CompensatingCommand {
 // Corrects the commands c of the linear axes by the fixed-point iteration
 //   c ← c + J⁻¹ (wanted place - reached place),   J: Jacobian of the nominal machine
 // The commands of rotary axes do not change. With fewer than three linear axes, the residual
-// contains the directions that these axes cannot move. In each step the residual decreases by about
-// the slope of the errors over the travel, at most 1e-3 in machines. Error: the chain has no linear
-// axis.
+// contains the components in the directions in which these axes cannot move the tool. Each step
+// multiplies the residual by about the slope of the errors over the travel, which is at most 1e-3
+// in machines. Error: the chain has no linear axis.
 Result<CompensatingCommand> compensating_command(const Machine& machine, const Command& wanted,
                                                  MachineApproach approach);
 
 // The command at which the nominal tool is at `place_m`. The origin of `place_m` is the place of
-// the tool when all commands are 0; its directions are those of the work. For an axis along X, Y or
-// Z the command is place / s_k (s_k of schema/rig/correction.h). The commands of rotary axes, and
-// of axes that the chain does not have, are 0.
+// the tool when all commands are 0; its components are in the coordinates of the work. For an axis
+// along X, Y or Z the command is place / s_k (s_k of schema/rig/correction.h). The commands of
+// rotary axes, and of axes that the chain does not have, are 0.
 Command command_at_place(const Machine& machine, const Eigen::Vector3d& place_m);
 
 // Directions (orthonormal columns, coordinates of the work) in which no linear axis can move the

@@ -47,9 +47,10 @@ Matrix6 matrix_of(const Covariance6& covariance) {
   return matrix;
 }
 
-// The covariance between two positions: the interpolated covariance, scaled so that the standard
-// deviations are linear between the positions. The interpolated error has at most this standard
-// deviation, whatever the correlation of the errors at the two positions is.
+// The covariance of the errors at a command between two positions: the interpolated covariance,
+// scaled so that the standard deviations are linear between the positions. The interpolated error
+// has at most this standard deviation, whatever the correlation of the errors at the two positions
+// is.
 Matrix6 between(const std::vector<Covariance6>& by_position, const TablePlace& place) {
   Matrix6 low = matrix_of(by_position[place.cell]);
   if (place.part == 0) return low;
@@ -78,7 +79,7 @@ SharedErrors shared_at(const ErrorCovariance& covariance, const TablePlace& plac
   return all;
 }
 
-// Standard uncertainty by the straight-line interpolation between two positions.
+// Standard uncertainty due to the straight-line interpolation between two positions.
 double u_interpolation(const ErrorFunction& f, const TablePlace& place) {
   if (place.cell >= f.curvature.size() || place.part == 0 || place.part == 1) return 0;
   const double interval = f.position[place.cell + 1] - f.position[place.cell];

@@ -14,18 +14,18 @@ namespace mdof::algo {
 using Command = std::array<double, 6>;
 enum class MachineApproach { mean, forward, reverse };  // the same for all axes
 
-// Values of a frame's description at a command.
+// Motion, errors and uncertainties of a frame at a command.
 struct FrameValues {
   double travel = 0;  // motion of the body in the + direction of its axis, m or rad
-  std::array<double, kBodyErrors> error{};       // 0 where not measured
-  std::array<double, kBodyErrors> location{};    // 0 where not measured
+  std::array<double, kBodyErrors> error{};       // of the body, m or rad; 0 where not measured
+  std::array<double, kBodyErrors> location{};    // errors of the axis line; 0 where not measured
   std::array<double, kBodyErrors> u_location{};  // 0 where not declared
   // The uncertainty of the errors of the body, as a sum of independent parts. Element (k, q) is the
   // effect of one standard uncertainty of part q on error k. The matrix is a lower triangle, and a
   // diagonal if no errors are correlated. Between the positions of the tables, the standard
-  // uncertainty is linear, plus the uncertainty of the straight-line interpolation. Parts that
-  // several frames have in common are not in `u_parts`, but in `shared`: shared[p][k] is the effect
-  // of common part p on error k. A part has the same p in all frames.
+  // uncertainty is interpolated linearly, and combined with the uncertainty of the straight-line
+  // interpolation. Parts that several frames have in common are not in `u_parts`, but in `shared`:
+  // shared[p][k] is the effect of common part p on error k. A part has the same p in all frames.
   Eigen::Matrix<double, kBodyErrors, kBodyErrors> u_parts =
       Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
   std::vector<std::array<double, kBodyErrors>> shared;
@@ -61,10 +61,9 @@ double travel_of(const MachineFrame& frame, const Command& command);
 
 Pose nominal_pose(const MachineFrame& frame, double travel);
 // The actual displacement of the frame's body: first the motion along the actual axis line, then
-// the errors of the body. The translations of the errors are stated at holding_point().
+// the errors of the body. The reference point of the translations is holding_point().
 Pose actual_pose(const MachineFrame& frame, const FrameValues& values);
-// The point at which the translations of the body's errors are stated, after this travel (Q in
-// README.md).
+// The reference point of the translations of the body's errors, after this travel (Q in README.md).
 Eigen::Vector3d holding_point(const MachineFrame& frame, double travel);
 
 }  // namespace mdof::algo

@@ -1,6 +1,6 @@
 // Errors and uncertainties of the chain over a grid of commands of two linear axes. The
-// displacement by one axis depends only on the command of this axis. Therefore it is calculated
-// once for each command, and not once for each point of the grid.
+// displacement by one axis depends only on the command of this axis. Therefore the displacement is
+// calculated once for each command, and not once for each point of the grid.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 namespace mdof::algo {
 
 struct GridPlan {
-  std::size_t first = 0, second = 1;  // directions of the two axes: X, Y, Z
+  std::size_t first = 0, second = 1;  // the two axes: 0 X, 1 Y, 2 Z
   std::vector<double> first_m, second_m;
   Command others{};  // commands of the other axes
   MachineApproach approach = MachineApproach::mean;
@@ -64,9 +64,10 @@ class GridErrors {
 };
 
 // Standard uncertainty of the tool's place, as in error_uncertainty(). The lever arm of the errors
-// of one linear axis is linear in the command of the other axis. Therefore the variance by the
+// of one linear axis is linear in the command of the other axis. Therefore the variance due to the
 // errors of one axis is a polynomial of second order in the command of the other axis. The effect
-// of a part that several frames have in common (frames.h) is linear in this command.
+// of a part that several frames have in common (frames.h) is linear in the command of the other
+// axis.
 class GridVariances {
  public:
   GridVariances(const Machine& machine, const GridPlan& plan);
@@ -96,10 +97,10 @@ class GridVariances {
   const GridPlan& plan_;
   std::vector<double> first_part_, second_part_;
   std::vector<Parabola>
-      first_axis_variances_;  // for each command of the first axis: variance by the frames that
+      first_axis_variances_;  // for each command of the first axis: variance due to the frames that
                               // move with the first axis, as a function of the second command
-  Parabola line_variance_;    // variance by all other frames, as a function of the first command
-  std::size_t shared_ = 0;    // number of parts that several frames have in common
+  Parabola line_variance_;  // variance due to all other frames, as a function of the first command
+  std::size_t shared_ = 0;  // number of parts that several frames have in common
   std::vector<std::vector<Line>> first_axis_shared_;
   std::vector<Line> line_shared_;
 };

@@ -38,8 +38,9 @@ void add_points(const Machine& machine, const PlaneMapRequest& request, PlaneMap
 }
 
 // Collects names at the four corners only. This is sufficient for derivatives: they are linear in
-// the commands of the two axes, so a derivative that is 0 at all corners is 0 everywhere. It is
-// also sufficient for commands beyond a table: the corners have the smallest and largest commands.
+// the commands of the two axes, so a derivative that is 0 at all corners is 0 everywhere. The
+// corners are also sufficient for commands beyond a table, because they have the smallest and
+// largest commands.
 void add_names(const Machine& machine, const PlaneMapRequest& request, PlaneMap& map) {
   Command command = request.others;
   for (const double b : {map.second_m.front(), map.second_m.back()})

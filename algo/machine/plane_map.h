@@ -12,7 +12,7 @@ struct PlanePoint {
   Eigen::Vector3d error, u;  // of the tool's place, m; u is NaN if no error has a declared u
 };
 
-// Largest value of one component of the error by magnitude, with its sign, its u and the number of
+// Value of largest magnitude of one component of the error, with its sign, its u and the number of
 // its point. `range` is the largest minus the smallest value of the component.
 struct MapExtreme {
   std::size_t point = 0;
@@ -33,7 +33,7 @@ class MapExtremes {
 };
 
 struct PlaneMap {
-  std::size_t first = 0, second = 1;  // directions of the two axes
+  std::size_t first = 0, second = 1;  // the two axes: 0 X, 1 Y, 2 Z
   std::vector<double> first_m, second_m;
   std::vector<PlanePoint> points;  // the first axis varies fastest; empty if extremes_only
   std::array<MapExtreme, 3> extremes;

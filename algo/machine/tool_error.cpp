@@ -55,7 +55,8 @@ Effect effect_of_line(const MachineFrame& frame, std::size_t k, const Eigen::Vec
   const Eigen::Matrix3d turn = turn_about(frame.direction, travel);
   if (k < 3) return {unit(k) - turn * unit(k), Eigen::Vector3d::Zero()};
   const Eigen::Vector3d arm = at - vector_of(frame.at_m);
-  const Eigen::Vector3d about = unit(k) - turn * unit(k);  // R0 T R0ᵀ = (1 + [θ - Tθ]×) T
+  // T: turn about the axis; R0: small rotation θ of the axis line. R0 T R0ᵀ = (1 + [θ - Tθ]×) T
+  const Eigen::Vector3d about = unit(k) - turn * unit(k);
   return {about.cross(arm), about};
 }
 
@@ -102,8 +103,8 @@ bool has_u(const MachineFrame& frame, const ErrorDerivative& d) {
   return d.of_line ? frame.location[d.k].u.has_value() : !frame.error[d.k].u.empty();
 }
 
-// Two location errors describe one squareness. True: `d` is not missing, because the other error is
-// known, or is reported as missing instead.
+// Two location errors describe one squareness. True: `d` is not reported as missing, because the
+// other error is known or is reported instead.
 bool is_implied_by_other_squareness(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
   if (!d.of_line || frame.kind != FrameKind::linear || is_known(frame, d)) return false;
@@ -202,8 +203,8 @@ Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
 
 namespace {
 
-// Variance by the errors of the bodies: the sum of the squared effects of all independent parts of
-// all frames.
+// Variance due to the errors of the bodies: the sum of the squared effects of all independent parts
+// of all frames.
 Vector6 body_variance(const std::vector<ErrorDerivative>& derivatives,
                       const std::vector<FrameValues>& values) {
   std::vector<Eigen::Matrix<double, 6, kBodyErrors>> parts(

@@ -16,15 +16,16 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;  // x y z (m), a b c (rad)
 Pose nominal_tool(const Machine& machine, const Command& command);
 Pose actual_tool(const Machine& machine, const std::vector<FrameValues>& values);
 
-// Error (actual - nominal) by the full product of the frames. The angles a, b, c describe the
-// rotation R = Rz(c) Ry(b) Rx(a) from the nominal to the actual directions of the tool.
+// Error (actual - nominal), calculated with the full product of the frames. The angles a, b, c
+// describe the rotation R = Rz(c) Ry(b) Rx(a) from the nominal to the actual directions of the
+// tool.
 Vector6 exact_error(const Machine& machine, const Command& command,
                     const std::vector<FrameValues>& values);
 
 // Derivative of the tool's error by one error of one frame, where all errors are 0. Errors that
 // were not measured also have a derivative.
 struct ErrorDerivative {
-  std::size_t frame = 0, k = 0;  // index in Machine::frames; number of the error, 0 to 5
+  std::size_t frame = 0, k = 0;  // index in Machine::frames; error 0 to 5: EX EY EZ EA EB EC
   bool of_line = false;          // true: error of the axis line; false: error of the body
   Vector6 d = Vector6::Zero();
 };
@@ -44,9 +45,9 @@ const MachineFrame* squareness_partner(const Machine& machine, const ErrorDeriva
 // Sum over all errors of the derivative times the error.
 Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
                      const std::vector<FrameValues>& values);
-// Standard uncertainty of linear_error() by the uncertainties of the errors. Errors of one body are
-// correlated as in FrameValues::u_parts. Errors of different bodies are correlated by their shared
-// parts only. Errors of axis lines are independent. 0: no uncertainty is declared.
+// Standard uncertainty of linear_error() due to the uncertainties of the errors. Errors of one body
+// are correlated as in FrameValues::u_parts. Errors of different bodies are correlated by their
+// shared parts only. Errors of axis lines are independent. 0: no uncertainty is declared.
 Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
                           const std::vector<FrameValues>& values);
 

@@ -92,7 +92,7 @@ double reach(SourceShape shape) {
     case SourceShape::normal:
       break;
   }
-  return 8.5;  // larger than any normal number that is calculated from 52 random bits
+  return 8.5;  // larger than any normally distributed number that is calculated from 52 random bits
 }
 
 Status check_sizes(const BudgetModel& model) {
@@ -125,8 +125,8 @@ bool has_cause(const BudgetModel& model, const MachineFrame& frame, const ErrorD
   });
 }
 
-// Two location errors describe one squareness. It is named only once, by the error of the later one
-// of the two axes.
+// Two location errors describe one squareness. The squareness is named only once, by the location
+// error of the later axis.
 void name_not_declared(const std::vector<ErrorDerivative>& all, BudgetModel& model) {
   for (const ErrorDerivative& d : all) {
     const MachineFrame& frame = model.machine.frames[d.frame];

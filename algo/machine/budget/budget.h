@@ -1,6 +1,6 @@
 // The uncertainty of the tool's place relative to the work at one command (../README.md). The
-// causes are the error sources of the machine and the uncertainties of its measured errors. SI,
-// except for the values of a cause, which are in the unit of the cause.
+// causes of the uncertainty are the error sources of the machine and the uncertainties of its
+// measured errors. SI, except for the values of a cause, which are in the unit of the cause.
 #pragma once
 
 #include <Eigen/Core>
@@ -60,7 +60,7 @@ struct MeasuredError {
   std::size_t k = 0;
   bool has_design = false;  // at least one source acts on the error
   // m or rad. designed_u: standard uncertainty by the sources. measured_u: root of the mean of
-  // value² + u² over the table of the error; it describes the error without compensation.
+  // value² + u² over the table of the error, that is, without compensation.
   double designed_u = 0, measured_u = 0;
   // Effect on the tool's place: u times |derivative of the place|.
   double designed_effect_m = 0, measured_effect_m = 0;

@@ -45,7 +45,7 @@ Result<CircularFigures> circular_figures(const CircularPath& path);
 CircularPath centred(const CircularPath& path, const CircularFigures& figures);
 
 struct CircleRequest {
-  std::size_t first = 0, second = 1;  // directions of the axes of the plane
+  std::size_t first = 0, second = 1;  // the axes of the plane: 0 X, 1 Y, 2 Z
   Command centre{};                   // centre of the circle, and commands of the other axes
   double radius_m = 0;
   std::size_t angles = 360;
@@ -56,9 +56,9 @@ struct PredictedCircle {
 };
 // Predicts the deviations that a ball bar measures between the tool and a ball on the work. The
 // place of the ball is the place of the tool at the centre of the circle. Uses the full product of
-// the frames. The errors of each axis are those of its direction of motion. Errors: an axis that
-// the chain does not have; a radius of 0 or less, or above 10 m; fewer than 8 angles, or more than
-// 100,000.
+// the frames. Each axis has the errors of the approach in its direction of motion. Errors: an axis
+// that the chain does not have; a radius of 0 or less, or above 10 m; fewer than 8 angles, or more
+// than 100,000.
 Result<PredictedCircle> predicted_circle(const Machine& machine, const CircleRequest& request);
 
 }  // namespace mdof::algo

@@ -62,10 +62,10 @@ Length length_of(const MeasuredLine& line) {
   return l;
 }
 
-// Uncertainty of the angle by the repeatability of the lines, with degrees of freedom. slope[i]: ∂
-// angle / ∂ length of line i. Usually each line is one part. If a line was measured only once, its
-// repeatability is not known. Then one standard deviation from all lines is used for every line, in
-// one common part.
+// Uncertainty of the angle due to the repeatability of the lines, with degrees of freedom.
+// slope[i]: ∂ angle / ∂ length of line i. Usually each line is one part of the uncertainty. If a
+// line was measured only once, its repeatability is not known. Then one standard deviation from all
+// lines is used for every line, in one common part.
 std::vector<UncertaintyPart> by_repetition(const std::array<Length, 4>& lines,
                                            const std::array<double, 4>& slope) {
   double squares = 0, freedom = 0, by_variance = 0;

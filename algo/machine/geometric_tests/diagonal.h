@@ -30,11 +30,11 @@ struct DiagonalSquareness {
   double angle_error_rad = 0;  // angle between the axes - 90° (EC0Y for X and Y)
   double u_rad = 0, U_rad = 0, k = 0, freedom = 0;
   double u_repeat_rad = 0;     // contribution of the repeatability to u_rad
-  bool two_diagonals = false;  // true: errors of the lengths along the axes have hardly any effect
+  bool two_diagonals = false;  // true: Pe was given; errors of Px and Py have hardly any effect
 };
-// The angle θ12 between the axes by the law of cosines. Px and Py are the lengths along the axes,
-// Pd of the diagonal from (0, 0) to (Px, Py), Pe of the diagonal from (Px, 0) to (0, Py). Eq. 2 of
-// Hwang, Song and Park for Pd only, and the mean of both diagonals if Pe is also given:
+// The angle θ12 between the axes by the law of cosines. Px and Py are the lengths along the axes.
+// Pd is the length of the diagonal from (0, 0) to (Px, Py), Pe that from (Px, 0) to (0, Py). Eq. 2
+// of Hwang, Song and Park for Pd only, and the mean of both diagonals if Pe is also given:
 //   cos θ12 = (Pd² - Px² - Py²) / (2 Px Py),   cos θ12 = (Pd² - Pe²) / (4 Px Py)
 // The uncertainty includes the repeatability and the declared u_line_m of each line. If a line was
 // measured only once, the repeatability is estimated from all lines together. Degrees of freedom by

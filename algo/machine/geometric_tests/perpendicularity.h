@@ -22,7 +22,7 @@ struct CircleReadings {
 };
 struct Harmonic {
   int order = 1;
-  double cosine_m = 0, sine_m = 0, u_m = 0;  // u of each of cosine_m and sine_m
+  double cosine_m = 0, sine_m = 0, u_m = 0;  // u_m: larger u of cosine_m and sine_m
 };
 struct Perpendicularity {
   double EA0C_rad = 0,

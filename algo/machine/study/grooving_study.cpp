@@ -62,7 +62,7 @@ MachineFrame axis_x(const ChainAxis& chain) {
              along_axis(0, {{1.0e-6, 0.35, 0}}),
              along_axis(0, {{1.2e-6, 0.35, 0.3}}),
              along_axis(0, {{1.5e-6, 0.35, 0.6}})};
-  x.location[5].value = 22.8e-6;  // EC0X: Eq. 1 also turns the axis line of X
+  x.location[5].value = 22.8e-6;  // EC0X, because Eq. 1 turns the axis line of X
   return x;
 }
 
@@ -149,7 +149,8 @@ struct Plant {
   }
 };
 
-// Errors of the tool along X, Y and Z, m, over one axis; the other axis is in its middle.
+// Errors of the tool along X, Y and Z, m, at positions of one axis; the other axis is in the middle
+// of its travel.
 struct AxisReading {
   std::vector<double> at;
   std::array<std::vector<double>, 3> error;

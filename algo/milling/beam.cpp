@@ -21,7 +21,7 @@ double moments(double a, double b, double s0, double s1) {
 }
 
 // a, b: distances of the two points from the fixed end. The product of the bending moments is 0
-// beyond the nearer point.
+// beyond the point that is nearer to the fixed end.
 double compliance(const std::vector<ToolSection>& from_holder, double youngs_modulus_Pa, double a,
                   double b) {
   double sum = 0, begin = 0;

@@ -9,8 +9,8 @@
 namespace mdof::algo {
 
 // Returns the deflection at each height of `at_m` (rows) due to a unit force at each height of
-// `of_m` (columns), m/N. It contains bending only (Eq. 2 of Huo et al. for one cylinder). Heights
-// are above the tip, m, and at most the overhang.
+// `of_m` (columns), m/N. The deflection contains bending only (Eq. 2 of Huo et al. for one
+// cylinder). Heights are above the tip, m, and at most the overhang.
 Eigen::MatrixXd beam_compliance(const std::vector<ToolSection>& from_holder,
                                 double youngs_modulus_Pa, const std::vector<double>& at_m,
                                 const std::vector<double>& of_m);

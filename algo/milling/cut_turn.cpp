@@ -29,7 +29,8 @@ constexpr int kPasses = 2;
 // The part of one tooth in one element, at all angles of a turn.
 struct Tooth {
   CuttingEdge edge;
-  // Φ, without a jump by 2π in the window; the first angles may be below 0.
+  // Angle φ of the tooth, without a jump by 2π while the tooth is in the workpiece; the first
+  // angles may be below 0.
   std::vector<double> angle;
   std::vector<Chip> rigid;  // one for each angle of the turn
 };
@@ -81,9 +82,9 @@ class Turn {
     return tooth;
   }
 
-  // The limits of the window are calculated for the deflection at this angle. If a limit is within
-  // a step, only a part of the step counts. With complete steps only, there may be no equilibrium
-  // of force and deflection.
+  // The window is the range of angles in which the tooth is in the workpiece. Its limits are
+  // calculated for the deflection at this angle. If a limit is within a step, only a part of the
+  // step counts. With complete steps only, there may be no equilibrium of force and deflection.
   Engagement engagement(const Tooth& t, std::size_t n, const Deflection& u) const {
     const double free = t.edge.free_edge(u), wall = t.edge.wall_edge();
     const double low = t.angle[n] - step_rad_ / 2, high = low + step_rad_;
@@ -161,7 +162,8 @@ class Turn {
     add(row(e, m, 1), chip.by_earlier_y);
   }
 
-  // Returns the deflection due to these forces: C times the forces of each angle and component.
+  // Returns the deflection due to these forces: the compliances C times the forces of each angle
+  // and component.
   template <class M>
   M bent(const M& forces) const {
     M out(forces.rows(), forces.cols());
@@ -170,11 +172,11 @@ class Turn {
     return out;
   }
 
-  // Solves U = C F(U) by Newton's method, which converges also if the loop gain is not below 1.
-  // Near the limit of the window the force changes rapidly with the deflection, and Newton's method
-  // may fail. Then implicit time steps of dU/dt = C F(U) - U lead to a stable equilibrium. The time
-  // step increases when the residual decreases (pseudo-transient continuation, Kelley and Keyes
-  // 1998).
+  // Solves U = C F(U) (deflections U, compliances C, forces F) by Newton's method, which converges
+  // also if the iteration U ← C F(U) does not. Near the limit of the window the force changes
+  // rapidly with the deflection, and Newton's method may fail. Then implicit time steps of dU/dt =
+  // C F(U) - U lead to a stable equilibrium. The time step increases when the residual decreases
+  // (pseudo-transient continuation, Kelley and Keyes 1998).
   Status equilibrium(std::size_t phase) {
     if (plan_.deflection == DeflectionModel::rigid) return {};
     VectorXd before(static_cast<Index>(teeth()) * 2 * elements());

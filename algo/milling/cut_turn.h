@@ -20,7 +20,7 @@ struct CutTurn {
   std::vector<double> power_W;   // cutting power, by angle
   // Angles at which tooth 0 enters and leaves the workpiece in the lowest element.
   double entry_rad = 0, exit_rad = 0;
-  int iterations = 0;  // largest number of iterations
+  int iterations = 0;  // largest number of iterations for one equilibrium
 
   // Returns the force on the whole tool: one row for each angle, columns x and y.
   Eigen::MatrixXd force_N() const;

@@ -38,8 +38,8 @@ double CuttingEdge::y(double angle_rad) const {
   return plan_.radius_m() * std::cos(angle_rad) + runout_m_ * std::cos(angle_rad + gamma_rad_);
 }
 
-// Eq. 8 for any number of teeth: 1/π becomes Z/2π, and (-1)^z 2 r0 cos γ becomes the difference of
-// the run-out of this tooth and the one before.
+// Eq. 8 for any number of teeth Z: 1/π becomes Z/2π, and (-1)^z 2 r0 cos γ becomes the run-out of
+// this tooth minus the run-out of the tooth before.
 double CuttingEdge::eq8(double angle_rad, double feed, double& by_feed) const {
   const double s = std::sin(angle_rad), c = std::cos(angle_rad), r = plan_.radius_m();
   const double before = gamma_rad_ - kWholeTurn_rad / plan_.teeth,
@@ -52,8 +52,9 @@ double CuttingEdge::eq8(double angle_rad, double feed, double& by_feed) const {
 }
 
 // The thickness is the distance along the radius of the tooth from the tooth to the path of an
-// earlier tooth. The smallest distance of all earlier teeth counts. If the tool has rotated by τ
-// since `turned`, the earlier tooth k is at the angle φ + 2π k / Z + τ.
+// earlier tooth. The smallest distance of all earlier teeth counts. When the tool is turned by
+// `turned` (below 0: earlier), the tooth that is k teeth ahead is at the angle φ + 2π k / Z +
+// turned.
 Chip CuttingEdge::trochoid(double angle_rad) const {
   const double s = std::sin(angle_rad), c = std::cos(angle_rad);
   const double feed_per_rad = plan_.feed_per_tooth_m * plan_.teeth / kWholeTurn_rad;

@@ -22,7 +22,7 @@ struct WallFigures {
 
 struct MillingResult {
   // Forces on the tool; x: against the feed, y: towards the wall of an up cut. `max`: largest
-  // magnitude of a turn.
+  // magnitude within a turn.
   double x_max_N = 0, y_max_N = 0, x_max_rigid_N = 0, y_max_rigid_N = 0;
   double x_mean_N = 0, y_mean_N = 0;
   // Largest deflection of the tip. `rigid`: calculated from the forces of a rigid tool.
@@ -37,8 +37,8 @@ struct MillingResult {
 Result<MillingResult> milling(const MillingPlan& plan);
 
 // A correction that is added to the tool radius in the controller. The mean of the wall is then at
-// the programmed position. The sign is the same for G41 and G42, because with both the distance of
-// the tool from the wall is the radius.
+// the programmed position. The sign is the same for G41 and G42, because with both codes the
+// distance of the tool axis from the wall is the radius.
 struct WearOffset {
   double offset_m = 0;
   double u_m = 0;  // standard uncertainty, first order (GUM 5); NaN: no uncertainty declared

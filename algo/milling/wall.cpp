@@ -7,8 +7,8 @@ namespace mdof::algo {
 namespace {
 
 // Returns the largest angle of a tooth from the direction of the wall at which the tooth can still
-// cut the wall. The angle includes teeth of neighbouring turns at a distance of up to some feeds
-// per turn.
+// cut the wall. The angle also covers teeth of neighbouring turns, at a distance of up to four
+// feeds per turn.
 double wall_range_rad(const MillingPlan& plan) {
   return std::min(1.2, 0.05 + 4 * plan.feed_per_tooth_m * plan.teeth / plan.radius_m());
 }

@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// Smaller motions along the probe, per travel, count as 0 (100 um in one metre).
+// A smaller motion along the probe, divided by the travel, counts as 0 (100 um in one metre).
 constexpr double kParallelShare = 1e-4;
 
 // Returns the motion of the surface along the measuring line of the probe, divided by the travel of

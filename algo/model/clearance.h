@@ -12,7 +12,7 @@
 
 namespace mdof::algo {
 
-// A probe to which the distance of the target changes when an axis moves.
+// A probe whose distance from the target changes when an axis moves.
 struct ProbeInTheWay {
   std::string id;
   double range_m = 0;  // travel of the target from its nominal position to the end of the range

@@ -20,7 +20,7 @@ Eigen::Vector3d reference_point(const StatedAt& at, Axis axis, double travel_m);
 
 // Converts `errors` of the target and their covariance from the point `from` to the point `to`. The
 // covariance is converted to first order: the derivative of a straightness error by an angle is the
-// lever arm. The component of e(P) along the motion is the positioning error. It is left out,
+// lever arm. The component of e(P) along the motion, which is the positioning error, is left out,
 // because five probes and an encoder do not measure it.
 AxisErrors restate(const AxisErrors& errors, Model model, Axis axis, double travel_m,
                    const StatedAt& from, const StatedAt& to);

@@ -30,10 +30,11 @@ class Solver {
   AxisErrors solve_without_covariance(double travel_m, const std::vector<double>& readings_m,
                                       const std::vector<double>& u_m) const;
 
-  // Returns the change of the local errors, stated at the carriage, per 1 m of each probe's
-  // reading: 5 x probes, 0 for a lost probe. It is the weighted pseudo-inverse of the Jacobian
-  // (first order, GUM 5.1.3). The Jacobian is calculated at `errors` for the rigid model. For the
-  // small-angle models it is calculated at zero errors, which is accurate to 1e-3.
+  // Returns the change of the local errors (reference point: the origin of the carriage) per 1 m of
+  // each probe's reading: 5 x probes, 0 for a lost probe. This is the weighted pseudo-inverse of
+  // the Jacobian (first order, GUM 5.1.3). The Jacobian is calculated at `errors` for the rigid
+  // model. For the small-angle models the Jacobian is calculated at zero errors, which is accurate
+  // to 1e-3.
   Eigen::MatrixXd gain(double travel_m, const AxisErrors& errors,
                        const std::vector<double>& readings_m, const std::vector<double>& u_m) const;
 

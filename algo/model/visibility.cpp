@@ -11,7 +11,7 @@ namespace {
 
 // Angles are scaled with an arm of 10 mm, so that the columns of the Jacobian are comparable.
 constexpr double kAngleScale_m = 0.01;
-constexpr double kTravel_m = 0.0173;  // a position at which there is probably no probe
+constexpr double kTravel_m = 0.0173;  // travel for the rank; a probe at this position is unlikely
 constexpr double kRankTolerance = 1e-6;
 // Smallest coefficient of an error that counts as part of an undetermined combination.
 constexpr double kNamedShare = 1e-3;
@@ -40,7 +40,7 @@ Eigen::MatrixXd first_order_jacobian(const Fixture& fixture, double travel_m,
 
 Visibility visibility(const Fixture& fixture, const std::vector<bool>& use) {
   // The rank is the same at any travel. An undetermined angle is listed together with the
-  // straightness error that it causes with its lever arm.
+  // straightness error that this angle causes by its lever arm.
   Eigen::MatrixXd J = first_order_jacobian(fixture, kTravel_m, use);
   J.rightCols(3) /= kAngleScale_m;
   Visibility result;

@@ -54,11 +54,12 @@ inline void simplified(const SmallAngleFixture& f, const V& travel, const V (&m)
 
 // Exact solution: εx = q + p εz, εy = p - q εz, and one scalar equation for εz,
 //  F(εz) = r (1 + εy²) + εx εy + (εx + εy εz) rise - εz = 0,
-// by Newton's method with the slope at the start value. The start value contains all terms of first
-// and second order. It also contains the series of 2 p rise, which is the largest of the other
-// terms. So the error of the start value is of third order. After two iterations, for angles up to
-// 50 mrad, the error is below 1e-11 rad if the side probes are on a line along the motion. It is
-// below 1e-9 rad for any fixture that make_small_angle_fixture() accepts.
+// by Newton's method with the slope at the start value. rise is side_rise of the fixture. The start
+// value contains all terms of first and second order. It also contains the series of 1 / (1 - 2 p
+// rise), because 2 p rise is the largest of the other terms. Therefore the error of the start value
+// is of third order. After two iterations, for angles up to 50 mrad, the error is below 1e-11 rad
+// if the side probes are on a line along the motion. It is below 1e-9 rad for any fixture that
+// make_small_angle_fixture() accepts.
 template <class V>
 inline void exact(const SmallAngleFixture& f, const V& travel, const V (&m)[5], V (&out)[5]) {
   const FirstOrder<V> o = first_order(f, m);

@@ -6,8 +6,8 @@
 //    relative standard uncertainty is u(S)/|S|.
 //  - the table: the only list with basic_measuredValue r (a length, or a voltage times um_per_V)
 //    and either basic_measurementError e = r - x or basic_referenceValue x. The correction
-//    is -e. It is shifted so that the correction at the rig's zero is 0. The u of the table
-//    is the largest u of the list.
+//    is -e, shifted so that the correction at the rig's zero is 0. The u of the table is the
+//    largest u of the list.
 // The certificate must contain the sensitivity or the table. If both exist, the laboratory may have
 // calculated the readings in um with the rig's um_per_V. mdof assumes this if the slope of the
 // corrections is, within 3 u, the relative change from the rig's um_per_V to the new um_per_V. mdof

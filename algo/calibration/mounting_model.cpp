@@ -20,8 +20,8 @@ Eigen::Vector3d local(Axis axis, const Vec3& machine) {
   return {l[0], l[1], l[2]};
 }
 
-// Two unit vectors that are perpendicular to v and to each other. They are near the two local axes
-// that have the largest angles to v.
+// Two unit vectors that are perpendicular to v and to each other. The two vectors are near the two
+// local axes that have the largest angles to v.
 std::array<Eigen::Vector3d, 2> across(const Eigen::Vector3d& v) {
   Eigen::Index nearest = 0;
   v.cwiseAbs().maxCoeff(&nearest);

@@ -33,8 +33,8 @@ Status check_input(const std::vector<double>& x, const Columns& columns, double 
   return {};
 }
 
-// Range of the slopes of lines from one point that pass all later points so far within the
-// tolerance.
+// Range of the slopes of the lines that begin at one point and pass all points added so far within
+// the tolerance.
 struct Cone {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();

@@ -12,7 +12,7 @@ namespace mdof::algo {
 // The points that are kept, and the error of linear interpolation between them.
 struct Thinned {
   std::vector<std::size_t> kept;  // ascending; the first and the last are among them
-  double largest_deviation = 0;   // at an omitted point, of all columns, in their unit
+  double largest_deviation = 0;   // at the omitted points of all columns, in the columns' unit
 };
 
 // Finds the smallest set of points for which linear interpolation deviates by at most `tolerance`

@@ -2,9 +2,9 @@
 // targets.
 //
 // If each target is visited once from each side, a drift cannot be distinguished from the form, the
-// slope and the reversal of the axis. A second pass in each direction is necessary. Machines have
-// steady drifts, and they have steps from pass to pass. A drift and a step can be distinguished
-// only if the axis moves in both directions:
+// slope and the reversal of the axis. A second pass in each direction is necessary. Errors of a
+// machine change by steady drifts and by steps from pass to pass. A drift and a step can be
+// distinguished only if the axis moves in both directions:
 // - The effect of a drift on the difference of two visits of a target depends on the time between
 //   the visits.
 // - The effect of a step on this difference does not depend on the time.

@@ -17,7 +17,7 @@ inline constexpr double kDriftLevel = 0.01;
 struct SeriesDrift {
   int order = 0;                    // the highest significant order; 0: no drift
   double change = 0, u_change = 0;  // from the first visit to the last; standard uncertainty
-  double range = 0;                 // highest minus lowest value at the visits
+  double range = 0;                 // highest minus lowest drift at the visits
   double least_found = 0;           // smallest steady change that would be significant
   bool steps = false;               // the change may be steps (run_drift.h), so it is not removed
   bool significant() const { return order > 0; }

@@ -60,8 +60,7 @@ LinearBound linear_bound(const Machine& machine, const Command& command,
 
 // All results for one command.
 struct ToolError {
-  Vector6 exact, linear, u;  // u is NaN where it would be 0 although a contributing error has no
-                             // declared u
+  Vector6 exact, linear, u;  // u is NaN instead of 0 if the u of a contributing error is unknown
   LinearBound bound;
   // For each component of the error: names of contributing errors that were not measured, and names
   // of contributing errors without declared u.

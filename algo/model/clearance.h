@@ -16,10 +16,11 @@ namespace mdof::algo {
 struct ProbeInTheWay {
   std::string id;
   double range_m = 0;  // travel of the target from its nominal position to the end of the range
-  // Travel of the target until it touches the probe; empty: the rig has no standoff_um.
+  // Travel of the target until it touches the probe; empty: the gap at the nominal position is
+  // unknown.
   std::optional<double> contact_m;
   // Direction of the axis motion in which the target approaches the probe: 1, -1. 0: unknown,
-  // because the probe measures displacement and the rig has no standoff_um.
+  // because the probe reads a displacement and the rig has no standoff_um.
   int towards = 0;
 };
 

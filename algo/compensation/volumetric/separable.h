@@ -27,7 +27,7 @@ struct SeparableCorrection {
 // Approximates the correction of axis k. The functions of one command are means over the other two
 // axes. For each pair of axes, products are then added until the residual of the pair is below
 // `enough_m`, at most kMostProducts. An effect that depends on all three commands is not
-// approximated. It is of second order in the errors of a machine with linear axes.
+// approximated. In a machine with linear axes, such an effect is of second order in the errors.
 inline constexpr int kMostProducts = 3;
 SeparableCorrection separate(const VolumetricTable& table, std::size_t k, double enough_m);
 

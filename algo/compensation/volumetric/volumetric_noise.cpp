@@ -62,7 +62,7 @@ double weight_of(const TablePlace& place, std::size_t target) {
 }
 
 // Returns the covariance of the noise of error k at the command `at` and the noise of error l at
-// the command `there`. It results from the targets that both commands have in common.
+// the command `there`. Only targets that are next to both commands contribute.
 double covariance_of(const MachineFrame& frame, std::size_t k, std::size_t l, double at,
                      double there) {
   const ErrorCovariance& known = frame.covariance;

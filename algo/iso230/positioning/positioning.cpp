@@ -48,7 +48,7 @@ Result<ByTarget> by_target(const std::vector<PositioningReading>& readings) {
 }
 
 // One reading has no standard deviation, so each target needs two readings. A single run with one
-// reading at each target is allowed, because it has means.
+// reading at each target is allowed, because it determines the means.
 Status check_count(double target_m, const char* approach, std::size_t count, bool wanted,
                    bool single_run) {
   if (wanted ? count >= 2 || (single_run && count == 1) : count == 0) return {};

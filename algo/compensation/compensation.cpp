@@ -137,7 +137,7 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
 }
 
 // Returns whether the position is between the first and the last position with a value of this
-// column, or outside by at most kEndTolerance of the last interval.
+// column, or outside by at most kEndTolerance of the interval at that end.
 bool spans(const std::vector<double>& x, const std::vector<double>& y, double at) {
   std::size_t first = 0, last = x.size();
   while (first < x.size() && !std::isfinite(y[first])) ++first;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kReject = 8.0, kStrictFactor = 12.0, kMadToSd = 1.4826;
 constexpr std::size_t kNeighbours = 5;
-// The first and the last readings have neighbours on one side only, so the median of the neighbours
-// contains the bend, too.
+// Factor for the distances of the first and the last readings from the median of their neighbours.
+// These readings have neighbours on one side only, so the distances also contain the curvature.
 constexpr double kEnds = 0.5;
 constexpr std::size_t kUnknowns = 3;
 
@@ -46,7 +46,7 @@ std::vector<double> deviations_of(std::span<const double> place, std::span<const
   return out;
 }
 
-// The solution of the normal equations; the first reading is subtracted from all readings before.
+// Least-squares parabola, from normal equations for the readings minus the first reading.
 // `variance` is the variance of the value divided by the variance of a single reading: the first
 // diagonal element of the inverse of the normal equations.
 struct Parabola {
@@ -90,8 +90,8 @@ double rejection_limit(std::vector<double> deviations, double coarse) {
 }
 
 // Leaves out readings whose distance from this curve is above the limit. `alone`: no spikes were
-// found by means of the neighbours. Then the limit is much larger, and deviations that continue to
-// an end of the bin, as after a step, are kept.
+// found by means of the neighbours. Then the limit is twelve times larger, and no reading is left
+// out if the first or the last reading is beyond the limit, as after a step.
 void keep_near(const Parabola& curve, double coarse, bool alone, std::vector<double>& x,
                std::vector<double>& y) {
   std::vector<double> left(y);

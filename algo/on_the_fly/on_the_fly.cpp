@@ -95,7 +95,7 @@ void OnTheFly::learn_resolution(const AxisPass& pass) {
   for (std::size_t k = 0; k < probes_.ids.size(); ++k) probes_.step_m[k] = resolution_.step_m(k);
 }
 
-// Checks for dead probes in each bin, as DwellDetector does in each stop.
+// Looks for frozen probes in each bin, as DwellDetector does in each stop.
 void OnTheFly::watch(const AxisPass& pass, const PassBins& bins) {
   auto bin = bins.bins.begin();
   for (std::size_t i = pass.first; i < pass.last; i += kWatchedRows) {

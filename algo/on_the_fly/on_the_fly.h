@@ -25,18 +25,18 @@ namespace mdof::algo {
 // points are kept in memory.
 class OnTheFly {
  public:
-  // `ids` and `range_m` of the probes are in the order of the frames.
+  // `ids` and `range_m`: ids and ranges of the probes, in the order of the probes in the frames.
   OnTheFly(TargetGrid grid, std::vector<std::string> ids, std::vector<double> range_m,
            double max_speed_m_s = DwellOptions().max_speed_m_s);
 
-  // Counts frames without a position (place_watch.h) and leaves them out. Errors: the errors of
-  // PassFinder::push().
+  // Counts frames without a valid position (place_watch.h) and leaves them out. Errors: the errors
+  // of PassFinder::push().
   Status push(const FrameBlock& frames);
   void flush();
 
   // Returns the points in the order of time; their errors are not yet solved. Each pass over the
-  // targets is a run. An outermost target is left out if it was not specified before the run and
-  // fewer than half of the passes moved over it at a steady speed.
+  // targets is a run. A target that was not specified before the run is left out if it has fewer
+  // than half as many points as the target with the most points.
   Sequence sequence() const;
   // Error: there is no point. The error states measured values and what to change.
   Status check_has_points() const;

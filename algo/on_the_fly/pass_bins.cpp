@@ -11,9 +11,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMostUneven = 0.0075;  // share of a bin
+constexpr double kMostUneven = 0.0075;  // rms deviation from a steady motion, as share of a bin
 constexpr double kNoises = 3;
-// In steps of the reading; smaller changes are rounding, not spikes.
+// In resolution steps of the reading; smaller changes are rounding, not spikes.
 constexpr double kCoarseSteps = 3.5;
 constexpr double kCoarseShare = 1e-4;  // share of the range
 

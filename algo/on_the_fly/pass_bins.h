@@ -13,11 +13,12 @@ namespace mdof::algo {
 
 struct BinPoint {
   std::int64_t place = 0;  // place number of the target (target_grid.h)
-  // Values at the target; sd: standard deviation of the residuals of single readings.
+  // Values of the probes at the target; probe_sd_m: standard deviation of single readings about the
+  // fitted parabola.
   Point point;
   double speed_m_s = 0;
   std::vector<double> slope;  // for each probe: slope of the reading over the position
-  std::size_t last_row = 0;   // last row of the bin in the rows of the pass
+  std::size_t last_row = 0;   // row after the last row of the bin, in the frames of the pass
 };
 
 enum class BinFault { none, speed_changes, too_few, gap };
@@ -47,9 +48,10 @@ struct ProbesOfBins {
 
 // Each bin has a range of travel. The bin begins when the axis first reaches this range and ends
 // when the axis first leaves it. A bin is left out in three cases:
-// - The speed of the axis changes: the rms deviation of the position from a straight line over
-//   time, without the noise of the encoder, is above 0.75 % of the length of the bin. A change of
-//   the speed by a fifth, or a stop for a twentieth of the bin's time, has this effect.
+// - The speed of the axis changes: the rms deviation of the position from a straight line over time
+//   is above the root sum of squares of 0.75 % of the length of the bin and of three times the
+//   noise of the encoder. A change of the speed by a fifth, or a stop for a twentieth of the bin's
+//   time, has this effect.
 // - The bin has fewer than kLeastReadingsPerBin scans.
 // - More than half of the bin's time has no scans.
 //

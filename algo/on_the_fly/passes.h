@@ -54,7 +54,7 @@ class PassFinder {
 
 // Returns the median of the encoder's readings in this row and in the two rows next to it. The
 // median removes a single wrong count and does not change a steady motion. In the first and the
-// last row it is the reading itself.
+// last row, the result is the reading itself.
 double median_position(const FrameBlock& frames, std::size_t row);
 
 }  // namespace mdof::algo

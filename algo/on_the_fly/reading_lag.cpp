@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t kFewestTargets = 12;
 constexpr double kSignificant = 5, kLeast_m = 2e-9;
-// Rms of the slope after subtraction of a line, as share of the rms of the slope.
+// Smallest rms of the slope after subtraction of a line, as share of the rms of the slope.
 constexpr double kSlopeChanges = 0.01;
 constexpr double kMostCorrelated = 0.9;
 
-// Sums of a probe at a target in one direction.
+// Sums over the passes in one direction, for one probe at one target; n: number of passes.
 struct OneWay {
   double reading_m = 0, slope_1 = 0, speed_m_s = 0, n = 0;
 };

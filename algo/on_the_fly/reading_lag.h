@@ -14,7 +14,7 @@ struct ReadingLag {
   // is already removed. NaN: the delay cannot be determined.
   double delay_s = 0, u_delay_s = 0;
   double speed_m_s = 0;      // mean speed of the passes
-  double steepest_1 = 0;     // largest slope of the readings over the position
+  double steepest_1 = 0;     // largest |slope| of the readings over the position
   double effect_m = 0;       // largest change of a reading due to the delay, in one direction
   bool significant = false;  // the delay exceeds five times its u, and the effect exceeds 2 nm
 };
@@ -24,12 +24,11 @@ struct ReadingLag {
 //   -slope * (sum of the speeds) * tau.
 //
 // tau is fitted to the targets that were passed in both directions. A constant and a line over the
-// position are fitted, too; they are the difference of the axis itself between its directions. u is
-// from the residuals of the fit; it is increased if the residuals of neighbouring targets are
+// position are fitted, too; they describe the difference of the axis itself between its directions.
+// u is from the residuals of the fit; u is increased if the residuals of neighbouring targets are
 // correlated. The delay is NaN if the slope of a reading hardly changes along the travel, because
-// the effect of a delay then cannot be distinguished from the difference of the axis itself. The
-// backlash of an encoder has the same effect as a delay at one speed: speed * delay_s in each
-// direction.
+// the effect of a delay then cannot be distinguished from the difference of the axis itself. At
+// one speed, a backlash of the encoder of 2 * speed * delay_s has the same effect as the delay.
 std::vector<ReadingLag> reading_lags(const std::vector<PassBins>& passes, std::size_t probes);
 
 }  // namespace mdof::algo

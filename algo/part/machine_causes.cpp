@@ -47,8 +47,9 @@ Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, con
   return effect;
 }
 
-// Adds the u of the errors of bodies at point `p`. The part of a later error that is correlated
-// with an earlier error is added to the cause of the earlier error, so the causes are independent.
+// Adds the u of the errors of bodies at point `p`. If an error is correlated with an earlier error,
+// the correlated part of its u is added to the cause of the earlier error. So the causes are
+// independent.
 void add_parts(const std::vector<Known>& known, const std::vector<ErrorDerivative>& all,
                const std::vector<FrameValues>& values, std::size_t p, MachineCauses& causes) {
   for (const Known& one : known)

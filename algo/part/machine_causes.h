@@ -21,8 +21,8 @@ struct MachineCauses {
 
 // `at_m`: positions of the tool in workpiece coordinates, relative to the position of the tool when
 // all commands are 0. command_at_place() calculates the commands from the chain. `with_axes`: true:
-// measured errors are used. false: all errors follow from the sources, as for a machine that is
-// only designed.
+// `budget` contains no effects on measured errors. false: `budget` contains the effects on all
+// errors, as for a machine that is only designed.
 MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m,
                              bool with_axes = true);
 

@@ -24,7 +24,7 @@ void widen(std::optional<ReadingSpan>& span, double reading_m);
 // of this range. `spans`: [probe]; empty: the probe has no readings.
 Notices stretch_notices(const Rig& rig, const std::vector<std::optional<ReadingSpan>>& spans);
 
-// As above, for the readings of all points that have errors.
+// As above, for the readings of all points whose errors are valid.
 Notices stretch_notices(const Rig& rig, const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

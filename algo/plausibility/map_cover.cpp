@@ -14,8 +14,8 @@ struct Reach {
   double least_m = 0, most_m = 0;
 };
 
-// Returns the range that one probe measures on the plane along one of the two axes of C that are in
-// the plane, as in rigid.cpp.
+// Returns the range that one probe measures on the plane along one of the two axes of the frame C
+// that are in the plane, as in rigid.cpp.
 Reach reach_of(const FixtureProbe& probe, bool first, double least_m, double most_m) {
   Eigen::Index normal = 0;
   probe.n_C.cwiseAbs().maxCoeff(&normal);

@@ -1,5 +1,5 @@
 // Checks whether the height map of each plane contains the area that the probes measure. Outside
-// the map, the rigid model uses the last height of the map.
+// the map, the rigid model uses the height at the nearest edge of the map.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ namespace mdof::algo {
 // µm outside are allowed.
 Notices map_notices(const Rig& rig, const Fixture& fixture, double least_m, double most_m);
 
-// As above, for the travels of all points that have errors.
+// As above, for the travels of all points whose errors are valid.
 Notices map_notices(const Rig& rig, const Fixture& fixture,
                     const std::vector<MeasuredPoint>& points);
 

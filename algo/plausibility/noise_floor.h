@@ -11,7 +11,7 @@ namespace mdof::algo {
 // (slots). The second differences are 0 at constant speed, but not with acceleration and vibration.
 // Therefore the lower quartile of all slots so far is used. It is from a slot at rest if the axis
 // rests for at least a quarter of the time. The minimum of all slots is not used, because the
-// minimum of thousands of short slots is far below the noise. The resolution is 9 %. The result
+// minimum of thousands of short slots is far below the noise. The result has steps of 9 %. It
 // does not depend on how the data are divided into blocks; memory is fixed.
 class NoiseFloor {
  public:

@@ -51,7 +51,7 @@ struct Stretch {
   }
 };
 
-// Returns the index of the first stop after which the reading is constant within its noise up to
+// Returns the index of the first stop from which on the reading is constant within its noise, up to
 // the last stop.
 std::size_t same_from(const Stops& stops, std::size_t probe) {
   Stretch stretch;
@@ -122,7 +122,8 @@ void note_clipped_probes(const RunToJudge& run, Notices& out) {
   }
 }
 
-// Reports stops in which most probes change as much as during a motion of the axis.
+// Reports stops in which at least half of the probes (and at least three) change as much as during
+// a motion of the axis.
 void note_frozen_encoder(const RunToJudge& run, Notices& out) {
   const auto& points = run.sequence.points;
   if (points.size() < kFewestSame) return;

@@ -9,9 +9,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLongestAxis_m = 2;  // of a machine with such a fixture
+constexpr double kLongestAxis_m = 2;  // longest plausible travel
 constexpr double kShortestAxis_m = 0.5e-3;
-constexpr double kSlowest_hz = 2;  // rate of a log with time in seconds
+constexpr double kSlowest_hz = 2;  // at a lower rate, the time is probably not in seconds
 constexpr double kFastest_hz = 2e6;
 constexpr double kLargestFixture_m = 0.5;
 constexpr double kSmallestFixture_m = 0.5e-3;
@@ -21,7 +21,7 @@ constexpr double kQuietest_m = 0.5e-9;  // sd; the noise of every amplifier is l
 constexpr double kNoisiest = 2.5e-3;    // sd as share of the range
 constexpr double kNoisiest_m = 1e-6;
 constexpr double kThousandth = 1e-3;
-// Share of the range, for a probe that reads a gap and has no offset.
+// Smallest mean gap, as share of the range, of a probe that reads a gap and has no offset.
 constexpr double kOffZero = 0.1;
 
 double largest(const ProbeFigures& p) {
@@ -29,7 +29,7 @@ double largest(const ProbeFigures& p) {
 }
 
 // Returns whether all readings of the probe are within a thousandth of half its range, and its
-// noise is below the noise of any amplifier. Does not hold for constant readings.
+// noise is below the noise of any amplifier. False for constant readings.
 bool looks_like_mm(const ProbeFigures& figures, const Probe& probe) {
   return figures.points > 0 && figures.travel_m > 0 && figures.sd_m < kQuietest_m &&
          largest(figures) <= kThousandth * probe.range_m / 2;

@@ -145,7 +145,8 @@ class MissingVisits {
 };
 
 // During a run, targets are numbered when they are visited for the first time. If the first pass
-// misses a target, the numbers of the targets after it increase by 1 when it is found.
+// misses a target, the numbers of the later targets increase by 1 when a later pass finds the
+// missed target.
 void note_found_late(const RunToJudge& run, Notices& out) {
   if (run.targets_given || !run.sequence.by_passes || run.sequence.points.empty()) return;
   const MeasuredPoint& start = run.sequence.points.front();

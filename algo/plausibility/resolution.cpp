@@ -6,10 +6,11 @@
 namespace mdof::algo {
 namespace {
 
-// Ratio of equal steps; readings with few digits have slightly different steps.
+// Largest ratio of steps that count as equal; readings with few digits have slightly different
+// steps.
 constexpr double kAlike = 1.05;
 constexpr std::size_t kFewest = 3;
-constexpr double kDithers = 0.5;  // sd in steps
+constexpr double kDithers = 0.5;  // with this sd, in steps, the mean has no rounding error
 
 }  // namespace
 

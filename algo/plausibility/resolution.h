@@ -13,7 +13,7 @@ namespace mdof::algo {
 // The resolution is determined from the readings, because no rig states it. It is the smallest step
 // that occurs repeatedly between two values. Both values must occur in at least two consecutive
 // readings. Readings have such steps if their resolution is larger than their noise. If the noise
-// is several steps, no step is found; it is not necessary, because the mean of such readings has a
+// is several steps, no step is found; the step is then not needed, because the mean has a
 // much smaller resolution. Exact numbers of a simulation have no step. The result does not depend
 // on how the data are divided into blocks; memory is fixed.
 class Resolution {

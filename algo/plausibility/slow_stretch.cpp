@@ -7,7 +7,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kSlowTolerances = 25;  // travel in one window; 1 mm/s with the defaults
+// Largest travel in one window, in tolerances; 1 mm/s with the defaults.
+constexpr double kSlowTolerances = 25;
 
 }  // namespace
 

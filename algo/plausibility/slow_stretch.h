@@ -1,4 +1,4 @@
-// Finds times in which the axis moves slowly: too fast for a stop, and too slowly for a motion
+// Finds intervals in which the axis moves slowly: too fast for a stop, and too slowly for a motion
 // between targets.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace mdof::algo {
 
-// Takes each window of the dwell detection. take() returns an event at the end of a time in which
-// the axis moved slowly and no stop was found.
+// Takes each window of the dwell detection. take() returns an event at the end of an interval of at
+// least `least_s` in which the axis moved slowly, by at most `most_m`, and no stop was found.
 class SlowStretch {
  public:
   struct Window {

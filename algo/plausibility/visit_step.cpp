@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kLeastStepInScatter = 6, kLogRatioToSmooth = 10;
 constexpr double kLeastStep_m = 1e-9;
-constexpr double kLeastStepWeight =
-    2;  // sum over the places of (visits before · visits after)/visits: at least four places
+constexpr double kLeastStepWeight = 2;  // sum over the places of (visits before · visits
+                                        // after)/visits; 1/2 for a place with two visits
 // Degrees of freedom of the residuals after the fit of places and a step.
 constexpr double kFewestFreedom = 4;
 constexpr Eigen::Index kSmooth = 6;  // order of the polynomial of a smooth change

@@ -1,5 +1,5 @@
 // Checks the probes of a run by means of repeated visits. Finds steps of a reading between two
-// visits, repeated readings, and runs with one visit of each place only.
+// visits, copied readings, and runs with one visit of each place only.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@ struct VisitStep {
   std::size_t probe = 0;
   std::size_t point = 0;  // first point after the step
   double size_m = 0;
-  // Sd of single readings about the mean of their place after subtraction of the step.
+  // Sd of the readings of single visits about the mean of their place, after subtraction of the
+  // step.
   double sd_m = 0;
 };
 

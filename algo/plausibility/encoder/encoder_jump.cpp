@@ -52,7 +52,7 @@ std::optional<EncoderJump> find_jump(std::span<const std::int64_t> time_ns,
     const double size = std::abs(step.size);
     if (!(size > least_m) || 4 * size < kGreatest_m_s2 * period_s * period_s) continue;
     if (size < 3 * std::abs(step.speed_change)) continue;
-    // If the axis itself moves this fast, the rows next to it have similar steps.
+    // If the axis itself moves this fast, the rows next to this row have similar steps.
     const double beside = std::max(std::abs(step_at(encoder_m, i - 1).size),
                                    std::abs(step_at(encoder_m, i + 1).size));
     if (size < 4 * beside || (largest && size < std::abs(largest->size_m))) continue;

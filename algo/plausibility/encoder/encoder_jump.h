@@ -15,7 +15,7 @@ struct EncoderJump {
 
 // Returns the largest step of the encoder in the rows `first` to `last` that an axis cannot make.
 // Such a step is larger than `least_m`, is between two scans, has the same speed before and after,
-// and requires an acceleration above 10 m/s². Five rows before and five rows after are also
+// and requires an acceleration above 10 m/s². Six rows before and six rows after are also
 // necessary. A median of three removes spikes of one sample. The size of the jump is correct at any
 // steady speed; during acceleration its error is up to twice the change of travel per scan. At a
 // rate below about 150 Hz an axis can make a step of 100 µm, so no jump is found.

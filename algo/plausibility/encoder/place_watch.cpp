@@ -20,7 +20,7 @@ void PlaceWatch::begin_at(std::int64_t time_ns, double position_m) {
   last_ = {time_ns, position_m};
 }
 
-// Returns a value above 0 if the axis cannot have moved from there to here.
+// Returns a value above 0 if the axis cannot have moved from `from` to this position.
 double PlaceWatch::out_of_reach_m(const Place& from, std::int64_t time_ns,
                                   double position_m) const {
   const double passed_s = 1e-9 * static_cast<double>(time_ns - from.time_ns);

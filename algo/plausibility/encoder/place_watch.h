@@ -1,5 +1,5 @@
-// Decides which frames have a place. A frame has a place if the axis can have reached the position
-// of the encoder.
+// Decides which frames have a valid position, here called a place. The position of a frame is valid
+// if the axis can have reached it.
 #pragma once
 
 #include <cstddef>

@@ -53,7 +53,7 @@ class ProbeWatch {
   struct Rows {
     const FrameBlock& frames;
     std::size_t begin, first, last,
-        end;  // begin <= first < last <= end; the slot is first ... last
+        end;  // begin <= first < last <= end
   };
   // Examines the newest slot for constant readings. `low_m` ... `high_m`: range of the axis in this
   // slot.
@@ -63,7 +63,7 @@ class ProbeWatch {
   void look_for_steps(const Rows& rows);
   void take_stop(std::size_t probe, const RobustMean& mean, double resolution_m);
 
-  // The results up to now.
+  // Frozen probes and steps that were found up to now.
   std::vector<FrozenProbe> frozen() const;
   std::vector<SteppedProbe> steps() const;
   // For a frozen probe C, the readings become NaN and the points get the flag "frozen:C". After a
@@ -71,7 +71,7 @@ class ProbeWatch {
   void mark(std::vector<Point>& points, const std::vector<std::string>& ids) const;
 
   // Returns whether at most one probe changed its reading although the axis moved. Either the
-  // measuring chain had no signal, or it is an exact recording of an axis without errors. The
+  // measuring chain had no signal, or the log is an exact recording of an axis without errors. The
   // readings are kept.
   bool is_dead() const;
 

@@ -16,11 +16,11 @@
 namespace mdof::algo {
 
 struct AlignOptions {
-  // The aligner waits for the samples of a probe up to this time before the newest sample of all
-  // channels. Then the values of the probe are marked as missing, so that one dead device does not
-  // delay the others. The time is longer than the time that any driver waits for a silent device.
-  // So late samples are not lost, and a replay gives the same frames although it mixes the samples
-  // of the devices in different blocks.
+  // The aligner waits for the samples of a probe until the newest sample of all channels is later
+  // by this time. Then the values of the probe are marked as missing, so that one dead device does
+  // not delay the others. The time is longer than the time that any driver waits for a silent
+  // device. So late samples are not lost, and a replay gives the same frames although it mixes the
+  // samples of the devices in different blocks.
   double lag_bound_s = 3;
   // If the time between two samples is longer than this, it is a gap. Values in a gap are not
   // interpolated.
@@ -44,8 +44,8 @@ struct AlignOptions {
 //   encoder. The quality is the worst quality of the two samples and of the encoder's sample.
 // - If a probe is slower than the encoder, probe_is_new marks the rows that contain a new sample of
 //   the probe. The other rows contain no new information about the probe.
-// - If no encoder samples arrive, probe samples are kept for twice the lag bound plus one second,
-//   because later samples of the encoder are newer.
+// - If no encoder samples arrive, probe samples are kept for twice the lag bound plus one second.
+//   Later samples of the encoder do not need older samples of the probes.
 class Aligner {
  public:
   Aligner(AlignOptions options, std::vector<std::string> probe_ids);
@@ -60,9 +60,9 @@ class Aligner {
 
   // The channel for whose samples the aligner waits; empty: it waits for no channel.
   std::optional<std::string> waiting_for() const;
-  std::uint64_t given_up() const { return given_up_; }  // probe values that did not arrive in time
-  // Number of probe samples that wait for samples of the encoder. The lag bound limits it, also if
-  // no encoder samples arrive.
+  std::uint64_t given_up() const { return given_up_; }  // missing values of interpolated probes
+  // Number of probe samples that wait for samples of the encoder. The lag bound limits this number,
+  // also if no encoder samples arrive.
   std::size_t waiting() const;
   // Notices about probes whose values are mostly missing because the time between two samples is
   // longer than the gap. Key: id of the probe.

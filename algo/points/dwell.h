@@ -38,7 +38,7 @@ struct DwellOptions {
   double approach_m = 50e-6;  // travel that determines the direction of approach
   // Largest speed of the axis; positions that it cannot reach are left out.
   double max_speed_m_s = 100;
-  // Largest number averaged for a dwell; limits the memory.
+  // Largest number of scans that are averaged for a dwell; limits the memory.
   std::size_t max_scans = std::size_t{1} << 19;
 
   // Shortest stop that becomes a dwell.
@@ -80,7 +80,7 @@ class DwellDetector {
     std::uint64_t gaps = 0;      // number of intervals longer than three periods
     std::uint64_t unplaced = 0;  // frames without a place (place_watch.h), not in `scans`
     double longest_still_s = 0;  // longest time at rest; explains why no stop was found
-    double tolerance_m = 0;      // at the end
+    double tolerance_m = 0;      // current value
     // Stops that became no point because they are too short or creep; only the first
     // kMaxPassedOver.
     struct PassedOver {
@@ -95,7 +95,7 @@ class DwellDetector {
   bool still() const { return dwelling_; }
 
  private:
-  static constexpr std::size_t kMinScans = 5;  // of a dwell, and of each probe in a dwell
+  static constexpr std::size_t kMinScans = 5;  // fewest scans of a dwell, and of a probe in it
   static constexpr int kGapPeriods = 3;
 
   // The time step of the detection: a quarter of window_s.
@@ -155,7 +155,7 @@ class DwellDetector {
   FrameBlock early_;  // rows that are collected until the period is known
   std::int64_t period_ns_ = 0, slot_ns_ = 0, hole_ns_ = 0, origin_ns_ = 0, last_ns_ = 0;
   std::array<double, 2> encoder_before_{};  // the last two positions, for the median of three
-  FrameBlock buffer_;                       // rows of the slots below and of the current dwell
+  FrameBlock buffer_;                       // rows of slots_ and of the current dwell
   std::deque<Slot> slots_;                  // the last window, newest at the back
   std::size_t row_ = 0;                     // first row of buffer_ that belongs to no slot yet
   Slot open_;
@@ -176,7 +176,8 @@ class DwellDetector {
   // Whether the axis was observed without interruption since the last point, or since the
   // beginning.
   bool travel_observed_ = true;
-  // Range since the last point (or the beginning), and range up to the start of the last stop.
+  // Range of positions since the last point (or the beginning): up to now, and up to the start of
+  // the last stop.
   Way travelled_range_, range_to_stop_;
   Way range_since_stop_;             // range of positions since the axis left the last stop
   bool last_stop_is_point_ = false;  // the last stop became a point

@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kCoarseSteps = 3.5;  // in steps of the reading; smaller changes are rounding
+constexpr double kCoarseSteps = 3.5;  // in resolution steps; smaller changes are rounding
 
 bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });

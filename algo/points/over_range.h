@@ -16,8 +16,8 @@ struct OverRange {
   bool has_unknown = false;  // whether an over-range reading is NaN
   void add(double reading_m);
   // Returns whether the nearest over-range reading is within six standard deviations (`spread_m`)
-  // of the mean of the other readings. This is so if a probe reaches the end of its range. Readings
-  // farther away are glitches, which do not bias the mean.
+  // of the mean of the other readings, or is NaN. This is so if a probe reaches the end of its
+  // range. Readings farther away are glitches, which do not bias the mean.
   bool is_near(double mean_m, double spread_m) const;
 };
 
@@ -27,7 +27,8 @@ bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, do
 
 // Returns u of a mean including the bias due to over-range readings near to the mean. p is the
 // share of these readings. For normally distributed readings the bias is sd phi(a)/Phi(a) with
-// Phi(-a) = p. It is less than 4 p sd, or below 0.0004 sd.
+// Phi(-a) = p; phi is the density and Phi the distribution function of the normal distribution. The
+// bias is less than 4 p sd, or below 0.0004 sd.
 double with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,
                        std::size_t readings);
 

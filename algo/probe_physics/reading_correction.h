@@ -40,9 +40,9 @@ class ReadingCorrection {
   // `solver` must be created from the rig and must exist longer than this object.
   ReadingCorrection(const Rig& rig, const Solver& solver, WhichCorrections which);
 
-  // The readings are as in Solver::solve(). If too many probes are lost to solve the errors, the
-  // tilt is unknown, and only the effect of the air is corrected. `air`: ambient conditions at the
-  // time of the readings; ignored without the dielectric correction.
+  // The readings are as in Solver::solve(). If so many probes are lost that the errors cannot be
+  // solved, the tilt is unknown, and only the effect of the air is corrected. `air`: ambient
+  // conditions at the time of the readings; ignored without the dielectric correction.
   CorrectedReadings correct(double travel_m, const std::vector<double>& readings_m,
                             const std::vector<double>& u_m, const Air& air) const;
 

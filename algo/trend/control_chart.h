@@ -22,12 +22,13 @@ struct Chart {
   // interruption.
   std::vector<std::size_t> one_side;
 
-  // Set if the last value is in one of the two lists above. `since`: index from which the values
-  // differ from the earlier values. It is the division into two groups for which the squares of the
-  // differences from the group means have the smallest sum.
+  // Set if the last value is in one of the two lists above. `since`: first index of the second
+  // group, if the values are divided into two groups so that the sum of the squared differences
+  // from the group means is smallest.
   struct Moved {
     std::size_t since = 0;
-    // By: difference of the two means; u from sigma or from the u of the values.
+    // Difference of the two group means, and its u: the larger of the u from sigma and the u from
+    // the u of the values.
     double by = 0, u = 0;
   };
   std::optional<Moved> moved;

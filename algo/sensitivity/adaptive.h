@@ -46,7 +46,8 @@ class AdaptiveRule {
 
   // Adds the figures of the next block, one element for each output.
   void add(const std::vector<BlockFigures>& block);
-  // True after at least two blocks, if all values 2 s (§7.9.4 j) are below their tolerances.
+  // True after at least two blocks, if 2 s of all figures are below their tolerances (§7.9.4 j). s
+  // is the standard deviation of the mean of a figure over the blocks.
   bool settled() const;
   // The first output that has fewer than two solved trials in a block. Such an output never
   // settles.

@@ -17,11 +17,13 @@ namespace mdof::algo {
 // the blocks and any number of threads, as in SobolSums.
 class ComparisonSums {
  public:
-  // Runs the first block to calculate the centres. For `block_trials` use sum_block_trials().
+  // Runs the first block, because the sums are taken about its mean outputs. For `block_trials` use
+  // sum_block_trials().
   ComparisonSums(const Experiment& ours, const Experiment& other, std::uint64_t block_trials);
   void add_block(const Experiment& ours, const Experiment& other, std::uint64_t block);
   void merge(const ComparisonSums& sums);
-  // The standard error of a ratio is calculated for paired trials, from the scatter of the blocks.
+  // The standard error of a ratio of standard deviations is calculated for paired trials, from the
+  // scatter of the blocks.
   std::vector<ComparedOutput> result() const;
 
  private:

@@ -32,8 +32,8 @@ double t_node(double score, double dof, double start) {
 
 }  // namespace
 
-// Table of t quantiles x for normal scores >= 0, with the slopes φ(score) / f(x). For negative
-// scores the quantile is negative.
+// Table of t quantiles x for normal scores >= 0, with the slopes φ(score) / f(x). φ is the normal
+// density, f the density of t. For negative scores the quantile is negative.
 struct QuantileFunction::StudentTable {
   std::vector<double> x, slope;  // slope: change of x from node to node
 

@@ -29,7 +29,7 @@ class QuantileFunction {
   //   constant  |value|
   //   normal    standard deviation
   //   t         scale
-  //   limited   largest |value|
+  //   others    largest |value|
   double size() const;
 
  private:

@@ -24,10 +24,10 @@ enum class ChainMotion { none, linear, rotary };
 
 struct ChainStep {
   bool inverse = false;  // true: the body moves the work
-  ChainSum error[6];     // errors of the body
+  ChainSum error[6];     // errors of the body: three translations, three rotations
   double point[3] = {};  // point at which these errors apply
   ChainMotion motion = ChainMotion::none;
-  std::size_t direction = 0;  // of a linear motion
+  std::size_t direction = 0;  // of a linear motion: 0 X, 1 Y, 2 Z
   double travel = 0;          // of a linear motion
   ChainSum line[6];           // errors of the axis line
   double centre[3] = {};      // of a rotary motion
@@ -38,8 +38,8 @@ struct ChainProgram {
   const ChainStep* steps = nullptr;
   std::size_t count = 0;  // number of steps
   const ChainTerm* terms = nullptr;
-  double tool[3] = {}, nominal[3] = {};  // tool's point in the coordinates of the tool, and in
-                                         // those of the work without errors
+  double tool[3] = {}, nominal[3] = {};  // tool point in the coordinates of the tool; tool point
+                                         // without errors in the coordinates of the work
 };
 
 }  // namespace mdof::algo

@@ -81,7 +81,7 @@ inline void by_line(const ChainProgram& chain, const ChainStep& step, const Tria
 }
 
 // Applies a rotary motion T, x -> q + R0 T R0' (x - q). q is the centre plus the shift errors of
-// the axis line, R0 the rotation by its angle errors.
+// the axis line, R0 the rotation by the angle errors of the axis line, R0' its transpose.
 inline void by_turn(const ChainProgram& chain, const ChainStep& step, const TrialColumns& columns,
                     ChainPoint& p) {
   const ChainTurn line(chain, columns, &step.line[3]);

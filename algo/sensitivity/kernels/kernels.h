@@ -32,14 +32,15 @@ struct SimulationDraws {
   double *travel, *truth[5], *turns[5];
 };
 
-// Σu, Σu², minimum and maximum of x over one cell of trials. The order of the additions is fixed.
+// Σu, Σu² (u: see Kernels::scan), minimum and maximum of x over one cell of trials. The order of
+// the additions is fixed.
 struct CellSums {
   double power[2];
   double min, max;
 };
 
 struct Kernels {
-  // Draws 2 group and 2 group + 1 of the trials first + step j.
+  // Calculates draws 2 group and 2 group + 1 of the trials first + step j.
   void (*draw_pairs)(const Stream&, std::uint64_t group, std::uint64_t first, std::uint64_t step,
                      std::size_t n, double* even, double* odd);
   // out: five errors (µm, µrad). draws: null, or destinations of the numbers.
@@ -50,8 +51,8 @@ struct Kernels {
   // 0 below the bins and for NaN, 8193 above the bins.
   void (*scan)(double* x, std::size_t n, double low, double per_width, CellSums& sums,
                std::uint64_t* index);
-  // error: x, y, z of the tool, m. columns: each column has `stride` numbers; `stride` is a
-  // multiple of 8 and at least n.
+  // error: errors of the tool point in x, y, z, m. columns: each column has `stride` numbers;
+  // `stride` is a multiple of 8 and at least n.
   void (*chain)(const ChainProgram&, const double* columns, std::size_t stride, std::size_t n,
                 double* const* error);
 };

@@ -56,7 +56,7 @@ Result<PlanDraws> PlanDraws::create(const StudyPlan& plan, const Rig& rig,
   for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
     draws.function_.emplace_back(plan.quantities[i].distribution);
     auto targets = resolve_quantity(plan.quantities[i].name, rig);
-    if (!targets) continue;  // it belongs to the other axis
+    if (!targets) continue;  // the quantity belongs to the other axis
     for (QuantityTarget& target : *targets) {
       DrawnQuantity q;
       q.target = std::move(target);
@@ -81,7 +81,7 @@ Status PlanDraws::add_group(const PlannedCorrelation& planned) {
   for (const std::string& name : planned.quantities) {
     const auto found = std::find_if(drawn_.begin(), drawn_.end(),
                                     [&](const DrawnQuantity& q) { return q.target.name == name; });
-    if (found == drawn_.end()) continue;  // it belongs to the other axis
+    if (found == drawn_.end()) continue;  // the quantity belongs to the other axis
     found->group = groups_.size();
     group.members.push_back(static_cast<std::size_t>(found - drawn_.begin()));
   }

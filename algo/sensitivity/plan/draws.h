@@ -65,7 +65,7 @@ class PlanDraws {
 
   const std::vector<DrawnQuantity>& drawn() const { return drawn_; }
   void fill(const DrawRequest& request, DrawnNumbers& numbers) const;
-  // The number of another reading of an uncorrelated quantity that has a number for each reading.
+  // The number for a reading of a noise quantity. The quantity must not be correlated.
   double reading(const DrawnQuantity& quantity, const DrawRequest& request,
                  std::uint32_t reading) const;
 

@@ -22,7 +22,8 @@ double named_at(const std::vector<double>& local, const AxisReadings& r, const E
   return name.sign * local[r.at(reading, static_cast<std::size_t>(name.local)) + j];
 }
 
-// The named error stated at the fixture, to first order: e(0) = (δy - d εz, δz + d εy).
+// The named error at the origin of M (fixture) instead of the carriage, to first order in the
+// angles: (δy - d εz, δz + d εy) at the travel d.
 double named_at_fixture(const std::vector<double>& local, const AxisReadings& r,
                         const ErrorName& name, std::size_t reading, std::size_t j,
                         double travel_m) {
@@ -33,8 +34,8 @@ double named_at_fixture(const std::vector<double>& local, const AxisReadings& r,
   return at_carriage + name.sign * (across ? -turned : turned);
 }
 
-// Estimated and true values of one error at all positions, stated at the fixture. Lines are fitted
-// to them.
+// Estimated and true values of one error at all positions, at the origin of M. Lines are fitted to
+// these values.
 struct Series {
   std::vector<double> shown_m, found, travel_m, truth;
 

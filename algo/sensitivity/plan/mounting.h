@@ -49,9 +49,9 @@ class MountedFixture {
 
   // False: an angle exceeds the limit of the models (0.25 rad).
   bool mount(const Mounting& mounting);
-  // Readings of the probes: gain * (displacement - zero) + zero error + drift. If zero_at_start,
-  // the zero is the contribution of the mounting to the displacement at d = 0 without errors of
-  // motion; otherwise the zero is 0. Returns false as mount() does.
+  // Readings of the probes: gain * (displacement - zero) + zero_m + drift_m * course. If
+  // zero_at_start, `zero` is the contribution of the mounting to the displacement at d = 0 without
+  // errors of motion; otherwise `zero` is 0. Returns false as mount() does.
   bool read(double travel_m, const Errors5& local, double course, bool zero_at_start,
             std::span<double> reading_m);
   std::size_t probes() const { return nominal_.probes.size(); }

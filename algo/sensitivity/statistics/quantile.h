@@ -23,8 +23,8 @@ struct OutputScale {
 // The core for these values; values that are not finite are ignored. The core is twice as wide as
 // the central 98 % of the values, with the same middle. If the values are equal except for
 // rounding, the scatter of later values is unknown. The width of the core is then 1/512 of the
-// values, or 1/512 of the unit if the values are smaller. Such sums are valid from pm and prad to
-// more than mm and mrad.
+// values, or 1/512 of the unit if the values are below 1. The sums are then valid for later values
+// from pm and prad to more than mm and mrad.
 OutputScale scale_for(std::vector<double> values);
 
 // Counts of the values of one output. Core bin i is [low + i width, low + (i+1) width]; a value on

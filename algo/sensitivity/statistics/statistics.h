@@ -7,7 +7,7 @@
 //   - power sums of cells of 512 trials. The trials of a cell are added in a fixed order; the cells
 //     are added as 128-bit fixed-point numbers
 //   - a histogram with 8192 equal bins over a core that the pilot determines. Outside the core, the
-//     width of a bin is 1/64 of the distance, up to the largest double
+//     width of a bin is 1/64 of its distance from the core, up to the largest double
 // README.md has the error bounds.
 #pragma once
 
@@ -42,7 +42,7 @@ StudyScale pilot_scale(const Experiment& experiment, std::uint64_t trials = kPil
 std::uint64_t block_trials(const Experiment& experiment, std::uint64_t least = 10'000);
 
 // Recommended number of blocks for one call of add_block() if a trial is fast, because the
-// histograms then stay in the cache. 64 blocks of a preset take about 5 ms.
+// histograms then stay in the cache. 64 blocks of a simulation of the paper take about 5 ms.
 inline constexpr std::uint64_t kBlocksAtOnce = 64;
 
 // Requested contents of every OutputSummary.

@@ -13,13 +13,13 @@
 
 namespace mdof::algo {
 
-// Uses the error with index `named` in error_names(), stated at the point of the run. u contains
+// Uses the error with index `named` in error_names(), at the reference point of the run. u contains
 // noise and repeatability. The caller sets turn and shift.
 SetUp error_series(const Run& run, std::size_t named);
 
-// Changes of error_series() by the uncertainties that the rig declares. Does not include the
-// flatness of planes perpendicular to `normal`, because the separation determines this surface.
-// Error: as contributors().
+// Changes of the errors of error_series() by one standard uncertainty of each quantity that the rig
+// declares. Does not include the flatness of planes perpendicular to `normal`, because the
+// separation determines this surface. Error: as contributors().
 Result<std::vector<DeclaredShift>> declared_shifts(const Run& run, const Rig& rig,
                                                    std::size_t named, Axis normal);
 
@@ -29,8 +29,8 @@ struct ProbeSeries {
   SetUp set_up;
   Vec3 position_m{};  // position of the probe in M, machine axes
 };
-// The declared uncertainties are the sensitivity of the probe and its drift since the start of the
-// run. Errors: the rig has no such probe; the probe does not measure along `normal`.
+// `set_up.declared` contains the sensitivity of the probe and the drift of the probe since the
+// start of the run. Errors: the rig has no such probe; the probe does not measure along `normal`.
 Result<ProbeSeries> probe_series(const Run& run, const Rig& rig, const std::string& probe,
                                  Axis normal);
 

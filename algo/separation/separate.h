@@ -25,7 +25,7 @@ struct SeparationRequest {
   bool u_is_noise = false;  // u of the readings contains only noise and repeatability, as in runs
 };
 
-// Returns the parts of machine and target that the set-ups determine, with their uncertainties. u
+// Returns the parts of machine(x) and height(c) that the set-ups determine, with their u. u
 // includes u of the readings and the declared uncertainties of each set-up. A quantity that is
 // common to several set-ups is one quantity, and its effects are added with their signs. u does not
 // include a tilt of the target between the set-ups, because b_k describes it. `unseen` describes

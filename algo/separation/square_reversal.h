@@ -1,6 +1,7 @@
 // Squareness by reversal: the same two axes are measured with the same square in two set-ups. The
-// square is turned over between the set-ups, so that its angle error α has the opposite sign. m is
-// the squareness from the slopes only, c is the corner (schema/iso230/squareness.h):
+// square is turned over between the set-ups, so that its angle error α has the opposite sign.
+// With the squareness m from the slopes only, and the corner c (schema/iso230/squareness.h), of the
+// set-ups 1 and 2:
 //   EC0Y = m1 + c1 α = m2 + c2 α,   c2 = -c1
 //   EC0Y = (m1 + m2)/2,   α = c1 (m2 - m1)/2
 #pragma once
@@ -18,9 +19,9 @@ struct SquareSetUp {
 };
 
 // The declared uncertainties of the rigs are taken as common to both set-ups. Therefore u of EC0Y
-// contains their mean, without reduction. u of the angle of the square contains half of their sum,
-// which is their largest possible effect. Noise and repeatability of the set-ups are independent.
-// Errors: a corner is unknown; both set-ups have the same corner.
+// and u of the angle of the square contain the mean of the two declared uncertainties, without
+// reduction. For the angle, this is their largest possible effect. Noise and repeatability of the
+// set-ups are independent. Errors: a corner is unknown; both set-ups have the same corner.
 Result<SquareReversal> square_reversal(const SquareSetUp& first, const SquareSetUp& second);
 
 }  // namespace mdof::algo

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNothing = 1e-6;  // a shorter remainder of a shape of length 1 is rounding
+constexpr double kNothing = 1e-6;  // a smaller remainder of a shape of norm 1 is rounding
 
 // Collects the unseen shapes that have a name, as an orthonormal basis.
 class Named {

@@ -65,8 +65,8 @@ RunDrifts::RunDrifts(const std::vector<MeasuredPoint>& points) {
   group_linked_runs(visits.size());
 }
 
-// Decomposes the normal equations, from which the effects of the other kind are eliminated. They
-// have one row and one column for each effect.
+// Decomposes the normal equations after elimination of the effects of the other kind (runs or
+// visits). The matrix has one row and one column for each remaining effect.
 void RunDrifts::decompose(const std::vector<Entries>& shared, std::size_t effects) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(at(effects), at(effects));
   for (const Entries& entries : shared) {

@@ -40,7 +40,7 @@ class RunDrifts {
   void group_linked_runs(std::size_t visits);
 
   std::vector<std::size_t> run_of_;
-  // Effects of the entries: visits in of_run_, runs in of_visit_.
+  // Entry::effect is a visit in of_run_, and a run in of_visit_.
   std::vector<Entries> of_run_, of_visit_;
   std::vector<std::vector<std::size_t>> linked_runs_;
   bool runs_are_fewer_ = true;

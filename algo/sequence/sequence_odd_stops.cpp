@@ -14,7 +14,8 @@ namespace {
 
 // Share of the typical number of visits; a place with more visits is certainly a target.
 constexpr double kEnough = 0.6;
-constexpr double kAsMany = 0.75;    // share of the typical number of visits
+// Places with at least this share of the typical number of visits determine the typical approaches.
+constexpr double kAsMany = 0.75;
 constexpr double kTooNear = 0.6;    // distance to a certain target, in typical intervals
 constexpr double kTooFar = 1.6;     // distance to the last target, in typical intervals
 constexpr std::size_t kFewest = 4;  // places necessary if all places have one visit
@@ -126,8 +127,8 @@ bool may_be_a_target(const Place& place, const Neighbours& n, const Typical& typ
   return nearest_m <= kTooFar * typical.interval_m;
 }
 
-// Judges first the places that are nearest to a kept place, because targets with few visits are in
-// a row that continues from there.
+// Judges the places with the most visits first; among places with equal visits, the nearest to a
+// kept place first, because targets with few visits are in a row that continues from there.
 void judge(std::vector<Place>& places, const Typical& typical) {
   std::vector<std::size_t> order;
   std::vector<double> distance(places.size());

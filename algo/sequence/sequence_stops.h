@@ -48,8 +48,8 @@ bool merge_into(MeasuredPoint& stop, MeasuredPoint& part);
 // from `targets_m`; the target numbers of the points are changed accordingly.
 std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,
                                              std::vector<double>& targets_m);
-// The same for the first stop of the log at a target, if the axis leaves the target and then
-// approaches it again.
+// Removes and returns the first stop of the log if its approach was not observed, and the next stop
+// is at the same target with the same approach after the axis left the target.
 std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

@@ -31,7 +31,7 @@ class SequenceTail {
 
   SequenceOptions options_;
   bool by_passes_ = false;
-  // The approach of the last point is the direction of the next motion.
+  // True: the approach of the last point will be the direction of the next motion.
   bool awaits_direction_ = false;
   Passes passes_, passes_before_;  // passes_before_: state before the last visit
   std::map<Visited, int> visits_;

@@ -59,7 +59,7 @@ std::optional<double> shift_between(const Places& before, const Places& after) {
 
 std::optional<ShiftedTargets> find_shifted_targets(const Sequence& sequence) {
   const auto last = last_visits(sequence);
-  std::size_t still_visited = 0;  // latest last visit of the targets before `split`
+  std::size_t still_visited = 0;  // last visit of any target that has a visit before `split`
   for (std::size_t split = 1; split < sequence.points.size(); ++split) {
     const MeasuredPoint& newest = sequence.points[split - 1];
     still_visited = std::max(still_visited, last[index_of(newest)]);

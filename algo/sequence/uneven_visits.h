@@ -10,7 +10,7 @@
 
 namespace mdof::algo {
 
-// Returns whether means use this point: it has errors and a known approach.
+// Returns whether means use this point: its errors are valid and its approach is known.
 bool counts_in_means(const MeasuredPoint& point);
 // Returns whether a run lacks a visit that another run has. `counted`: points for which
 // counts_in_means() is true.
@@ -24,8 +24,9 @@ struct WithoutDrift {
 // approach. If a run lacks a visit that another run has, the means of different targets contain
 // different runs, so drifts between the runs would change the slope of the result. Then the mean
 // drift of each run relative to the other runs is subtracted from its errors (run_drifts.h); the
-// sum of the drifts is 0. u_level is s/√n of the n drifts. It is the uncertainty of the common
-// level of all targets, for targets with any number of runs. It is 0 if nothing was subtracted.
+// sum of the drifts is 0. u_level is s/√n of the n drifts, with their standard deviation s.
+// u_level is the uncertainty of the common level of all targets, for targets with any number of
+// runs. It is 0 if nothing was subtracted.
 WithoutDrift subtract_run_drifts(const std::vector<MeasuredPoint>& points);
 
 // Returns notices about missing visits and targets with one approach: which of them the means take

@@ -121,9 +121,9 @@ bool Residuals::explained(const MeasuredPoint& p, const std::vector<double>& rea
   return agreement(solver_, travel_m, readings_m, covariance, errors).explained();
 }
 
-// Measure of how well the readings agree without `probe`. Infinite if the other readings do not
-// agree. Otherwise the mean square distance between the errors without `probe` and the errors of
-// the unflagged points of the same target. This distance is needed if the readings agree without
+// Measure of the disagreement of the readings without `probe`. Infinite if the other readings do
+// not agree. Otherwise the mean square distance between the errors without `probe` and the errors
+// of the unflagged points of the same target. This distance is needed if the readings agree without
 // any one of several probes.
 double Residuals::misfit_without(std::size_t probe, const MeasuredPoint& p,
                                  const std::vector<MeasuredPoint>& all) const {

@@ -21,8 +21,8 @@ struct Agreement {
   bool explained() const;
 };
 
-// `u_m`: standard uncertainty of each reading, not 0. `errors`: solution of the rigid model, stated
-// at the carriage.
+// `u_m`: standard uncertainty of each reading, not 0. `errors`: solution of the rigid model, with
+// the origin of the carriage as reference point.
 Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
                     const std::vector<double>& u_m, const AxisErrors& errors);
 
@@ -45,7 +45,8 @@ class Residuals {
   // `solver` and `rig`.
   Residuals(const Solver& solver, const std::vector<double>& range_m, const Rig& rig,
             std::int64_t start_ns);
-  // Call this directly after a point is solved, while its errors are still stated at the carriage.
+  // Call this directly after a point is solved, while the reference point of its errors is still
+  // the origin of the carriage.
   void test(MeasuredPoint& point) const;
   std::optional<Notice> contradiction(const std::vector<MeasuredPoint>& points) const;
 

@@ -16,8 +16,8 @@
 
 namespace mdof::algo {
 
-// Change of the errors of each point of a run. Local frame, stated at the same place as the errors
-// of the run. 0 for a point without errors.
+// Change of the errors of each point of a run. Local frame, at the reference point of the run. 0
+// for a point without valid errors.
 using PointShifts = std::vector<Errors5>;
 
 // One line of a budget. Contributors are independent of each other. One contributor acts on all
@@ -31,7 +31,7 @@ struct Contributor {
   std::string unit;    // "ppm"
   // Changes of the errors by one standard uncertainty, as independent parts; the squares of the
   // parts add. Number of parts:
-  //   direction: two (rotations about two axes perpendicular to it)
+  //   direction: two (rotations about two axes perpendicular to the probe)
   //   encoder: one for each target, at most 256
   //   calibration covariance, flatness (flatness.h), linearity, expansion: one or more
   //   all others: one
@@ -46,12 +46,12 @@ struct Contributor {
 };
 
 // Contributors in this order: the uncertainties that `rig` declares, a removed drift, and the terms
-// that Model::simplified omits. `run` must be measured with `rig`. The probes were zeroed at d = 0
-// without errors. Therefore a shift or rotation of a probe has an effect only by its change since
-// then (simulation II of algo/sensitivity). The uncertainty of the zero is a part of the
-// calibration. The same applies to the heights of a flatness, which is a random surface that is the
-// same for all visits of a target. Errors: a run without points; a rig that does not determine all
-// five errors; an angle beyond the limit of the models.
+// that Model::simplified omits. `run` must be measured with `rig`. The probes were zeroed at the
+// travel d = 0 without errors. Therefore a shift or rotation of a probe contributes its effect
+// minus its effect at d = 0 (simulation II of algo/sensitivity). The heights of a flatness, a
+// random surface that is the same for all visits of a target, contribute in the same way. The
+// uncertainty of the zero is a part of the calibration. Errors: a run without points; a rig that
+// does not determine all five errors; an angle beyond the limit of the models.
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run);
 
 // Adds `shifts` to the errors of these points.

@@ -85,8 +85,8 @@ class Physics {
     add_left_out(k);
   }
 
-  // Adds the effect of the tilt factor on the reading, relative to the reading at the zero. If the
-  // tilt is corrected, the uncertainty is u of the factor. If the tilt is not corrected, the
+  // Adds the effect of the tilt factor on the reading, minus its effect when the probe reads 0. If
+  // the tilt is corrected, the uncertainty is u of the factor. If the tilt is not corrected, the
   // uncertainty is the root of factor² + u².
   void add_tilt(std::size_t k) {
     const ProbePhysics& probe = physics().probes[k];
@@ -165,8 +165,8 @@ class Physics {
         {of_probe(k, correction_m)});
   }
 
-  // Changes by a relative change `u` of the permittivity. The change of a reading is proportional
-  // to the gap.
+  // Changes of the errors by a relative change `u` of the permittivity. The change of a reading is
+  // proportional to the gap.
   std::vector<PointShifts> by_permittivity(double u) const {
     return {shifts([&](std::size_t j, std::size_t k) { return -u * at(j, k).gap_m; })};
   }
@@ -175,8 +175,8 @@ class Physics {
     if (!physics().has_known_air_effect()) return;
     const DeclaredAir& air = *physics().air;
     const double calibration = air_permittivity(air.calibration);
-    // If the rig does not contain a condition of the run, the condition of the calibration is used
-    // for it. The slopes at both conditions agree to 1 %.
+    // If the rig does not contain an ambient condition of the run, the condition of the calibration
+    // is used instead. The slopes at both conditions agree to 1 %.
     Air run = air.calibration;
     bool known = true;
     for (std::size_t q = 0; q < kAirQuantities; ++q) {

@@ -9,11 +9,11 @@
 namespace mdof::algo {
 
 struct PointSensitivity {
-  bool valid = false;   // false: the point has no errors; the other members are then 0
+  bool valid = false;   // false: the point has no valid errors; errors and changes are then 0
   double travel_m = 0;  // travel of the target
   Errors5 carriage{};   // errors of the carriage, local frame
   // Change of the errors by 1 m of each probe's reading (0 for a lost probe), and by 1 m of the
-  // travel. Local frame, stated at the same place as the errors of the run.
+  // travel. Local frame, at the reference point of the run.
   std::vector<Errors5> by_probe;
   Errors5 by_travel{};
   // Change of the errors if the true position of the point is 1 m further along the travel than the

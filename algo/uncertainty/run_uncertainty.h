@@ -13,9 +13,9 @@
 
 namespace mdof::algo {
 
-// Uncertainty of the errors as the run states them. u² is the sum of the random variance and of the
-// squares of all parts of all contributors (GUM 5.1.2). The random variance is the larger one of
-// two variances:
+// Uncertainty of the errors at the reference point of the run. u² is the sum of the random variance
+// and of the squares of all parts of all contributors (GUM 5.1.2). The random variance is the
+// larger one of two variances:
 //   - noise of the stop of this point; degrees of freedom: number of scans - 1
 //   - variance of one visit, from the repeated visits of the targets (visit_scatter.h); it includes
 //     the noise of the stop

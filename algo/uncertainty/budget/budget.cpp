@@ -104,7 +104,7 @@ std::size_t RunBudgets::cost() const {
 
 void RunBudgets::add(const Contributor& contributor, const std::vector<PointShifts>& parts) {
   Shifted& shifted = shifted_.emplace_back(Shifted{contributor, {}});
-  shifted.contributor.parts = nullptr;  // otherwise it keeps the whole run in memory
+  shifted.contributor.parts = nullptr;  // this function would keep the whole run in memory
   for (const PointShifts& part : parts) {
     MeanShifts& shifts = shifted.parts.emplace_back();
     for (const Errors5& at_target : changes_.of(part))

@@ -33,7 +33,8 @@ inline constexpr double kRunsScatterMore = 1.6;
 
 class RunBudgets {
  public:
-  // Budgets of the figures of the errors as the run states them. Error: as contributors().
+  // Budgets of the figures of the errors at the reference point of the run. Error: as
+  // contributors().
   static Result<RunBudgets> create(const Rig& rig, const Run& run);
   // Budgets with noise and repeatability only. add() adds the contributors of this run.
   RunBudgets(const Rig& rig, const Run& run);
@@ -41,15 +42,16 @@ class RunBudgets {
 
   const MeanErrors& means() const { return means_; }
   // Number of targets times number of independent parts. The time to calculate a figure is about
-  // proportional to it.
+  // proportional to this number.
   std::size_t cost() const;
   // Budget of first order (GUM 5). The contribution "noise and repeatability" is the effect of the
   // scatter of the visits on the figure. It includes the correlation in time of the residuals
   // (correlated_noise.h) and the shift that all targets of a pass have in common (repeatability.h).
-  // The runs give another variance s²/n of the figure. If it is more than kRunsScatterMore times
-  // the variance by the visits, the difference is added. U is k u; for a range, U is calculated as
-  // in range_interval.h. If all deviations of a range are equal, the first order is only rounding,
-  // and u is the root mean square of the trials. If the figure is NaN, the budget is NaN.
+  // The values of the figure in n runs, with the standard deviation s, give another variance s²/n.
+  // If this variance is more than kRunsScatterMore times the variance by the visits, the difference
+  // is added. U is k u; for a range, U is calculated as in range_interval.h. If all deviations of a
+  // range are equal, u of first order is only rounding, and u is the root mean square of the
+  // trials. If the figure is NaN, the budget is NaN.
   Budget of(const Figure& figure) const;
   // Budgets of several figures, from the same trials.
   std::vector<Budget> of(const std::vector<Figure>& figures) const;

@@ -118,7 +118,8 @@ RunBudgets::Random RunBudgets::random_of(const Figure& figure) const {
   const double seen = targets.u * targets.u + by_removed_drift(figure);
   if (!(runs.u * runs.u > kRunsScatterMore * seen)) return targets;
   // The part of the variance that exceeds independent noise of the visits has the few degrees of
-  // freedom of the runs. This applies also if correlated noise of the visits explains a part of it.
+  // freedom of the runs. This applies also if correlated noise of the visits explains some of this
+  // part.
   const double square = targets.u * targets.u + runs.u * runs.u - seen, u = std::sqrt(square);
   const UncertaintyPart& without = targets.independent;
   const std::array<UncertaintyPart, 2> both = {

@@ -4,9 +4,10 @@
 // - Scale: the expansion of the scale is proportional to the travel.
 // - Fixture: the positions of all probes move away from the origin of M, in proportion to their
 //   distance from this origin.
-// - Target: a temperature gradient g bends it. Its point r moves by α ((g·r) r - r² g/2). This
-//   displacement is free of stress, because the strain is α g·r in every direction. The
-//   displacement is 0 at the point that lies in the origin of M when d = 0.
+// - Target: a temperature gradient g bends the target. The point r of the target moves by
+//   α ((g·r) r - r² g/2), with the expansion coefficient α. This displacement is free of stress,
+//   because the strain is α g·r in every direction. The displacement is 0 at the point that lies in
+//   the origin of M at the travel d = 0.
 // The probes were zeroed at d = 0. Therefore a reading contains the change of an effect since d =
 // 0.
 #pragma once
@@ -22,7 +23,7 @@
 
 namespace mdof::algo {
 
-// Changes of the readings of all probes at a travel and errors of the carriage, m.
+// Changes of the readings of all probes, m, by the relative expansion `relative` of the fixture.
 Eigen::VectorXd readings_by_fixture_expansion(const Fixture& fixture, double relative,
                                               double travel_m, const Errors5& carriage);
 // `bend_per_m`: α g, local frame.

@@ -15,10 +15,10 @@ namespace mdof::algo {
 // from the mean of each target and approach; their uncertainties are calculated as in RunBudgets:
 //   B: largest absolute difference between the two means of a target
 //   E: range of the means
-//   M: straightness, or range of an angle; U as in the other budgets of the run
-// Noise makes B, E and M larger. The uncertainty of R is calculated from trials of the noise of
-// each dwell and of the declared uncertainties (repeatability_interval.h). Error: as
-// contributors().
+//   M: range of the means of both approaches; U as in the other budgets of the run
+// Without `keep_slope`, straightness errors are relative to their least-squares line. Noise makes
+// B, E and M larger. The uncertainty of R is calculated from trials of the noise of each dwell and
+// of the declared uncertainties (repeatability_interval.h). Error: as contributors().
 Result<RunPositioningUncertainty> run_positioning_uncertainty(const Rig& rig, const Run& run,
                                                               std::size_t named, bool keep_slope);
 

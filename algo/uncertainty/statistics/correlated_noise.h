@@ -32,7 +32,7 @@ class CorrelatedNoise {
 
   // `square`: variance of a figure divided by its variance for independent visits. `freedom`:
   // degrees of freedom of the variance of the figure. `by_target`: change of the figure by one unit
-  // of the mean at each target. Does not include the level of a pass.
+  // of the mean at each target. The variances do not include the level of a pass.
   struct Widened {
     double square = 1, freedom = 0;
   };

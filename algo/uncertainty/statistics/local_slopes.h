@@ -7,8 +7,8 @@
 
 namespace mdof::algo {
 
-// Slope of the errors at each point, by 1 m of the target's travel. Local frame, stated at the same
-// place as the errors of the run. The slope is calculated between the means of the two neighbouring
+// Slope of the errors at each point, per 1 m of the target's travel. Local frame, at the reference
+// point of the run. The slope is calculated between the means of the two neighbouring
 // targets, with the approach of the point. If the targets of this approach are all at one place,
 // the means of both approaches are used. If all targets are at one place, the slope is 0. Targets
 // at a smaller distance than 2 % of the mean step are taken as one place, because the difference

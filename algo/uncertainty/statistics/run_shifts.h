@@ -1,6 +1,6 @@
 // Uncertainty of the shifts of the runs relative to each other, and its effect on the means at the
-// targets. It exists only if runs lack visits (uneven_visits.h). The shifts are fitted by least
-// squares.
+// targets. This effect exists only if runs lack visits (uneven_visits.h). The shifts are fitted by
+// least squares.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ std::vector<std::map<TargetAndApproach, double>> parts_by_run_shifts(
 
 // Effect of the different levels of the two passes of a run on the means. The mean level of both
 // passes is the level of the run, and is removed from the means. Half the difference of the levels
-// of the two passes varies from run to run. It is not removed, and changes the means if a run lacks
-// a part of a pass.
+// of the two passes varies from run to run. This half difference is not removed, and changes the
+// means if a run lacks a part of a pass.
 struct PassLevels {
   // parts[i]: changes of the means if the half difference of run i is 1. Empty if no run lacks
   // visits, if there are more than kMostShiftedRuns runs, or if fewer than two runs have both

@@ -15,7 +15,8 @@ namespace {
 constexpr double kNmPerM = 1e9, kMicroseconds = 1e6, kMilliseconds = 1e3;
 // Wavelength in bins; shorter waves are measured more than 1 % too small.
 constexpr double kSeenWave = 2.5;
-constexpr double kOtherSpeed = 0.1;  // difference of the speeds, as share of the smaller speed
+// Smallest difference of the speeds that is reported, as share of the smaller speed.
+constexpr double kOtherSpeed = 0.1;
 constexpr double kBriefDelay_s = 1e-6;
 
 struct Speeds {
@@ -40,7 +41,7 @@ std::string mm_s(double speed_m_s) {
   return plain_number(to_mm(speed_m_s), 4) + " mm/s";
 }
 
-// Returns the root mean square of the standard deviations of all bins.
+// Returns the root mean square over all bins of the standard deviation of the readings of a probe.
 double scatter_m(const std::vector<PassBins>& passes, std::size_t probe) {
   double square = 0, n = 0;
   for (const PassBins& pass : passes) {
@@ -144,8 +145,8 @@ Status OnTheFly::check_has_points() const {
   }
   const double speed_m_s = way_m / passed_s, rate_hz = 1 / summary_.period_s;
   const double needed_m = static_cast<double>(kLeastReadingsPerBin + 1) * speed_m_s / rate_hz;
-  // If the axis stops between the bins, it passes the bins fast. Larger bins would contain the
-  // stops.
+  // If the mean speed allows enough scans in a bin, the axis stops between the bins and passes the
+  // bins fast. Larger bins would then contain the stops.
   const bool too_small = needed_m > grid_.bin_m();
   if (too_small && (dense || count_left_out(passes_, BinFault::too_few) > 0)) {
     return bad_input("at " + mm_s(speed_m_s) + " and " + plain_number(rate_hz) + " Hz a bin of " +

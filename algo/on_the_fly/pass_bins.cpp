@@ -15,7 +15,7 @@ constexpr double kMostUneven = 0.0075;  // rms deviation from a steady motion, a
 constexpr double kNoises = 3;
 // In resolution steps of the reading; smaller changes are rounding, not spikes.
 constexpr double kCoarseSteps = 3.5;
-constexpr double kCoarseShare = 1e-4;  // share of the range
+constexpr double kCoarseShare = 1e-4;  // share of the range of the probe
 
 struct Rows {
   std::size_t first = 0, last = 0;

@@ -12,7 +12,7 @@
 namespace mdof::algo {
 
 struct BinPoint {
-  std::int64_t place = 0;  // place number of the target (target_grid.h)
+  std::int64_t place = 0;  // number of the target (TargetGrid::Target)
   // Values of the probes at the target; probe_sd_m: standard deviation of single readings about the
   // fitted parabola.
   Point point;

@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMostBin_mm = 1;  // limit of the default; a longer bin must be requested
+constexpr double kMostBin_mm = 1;  // largest default length; a longer bin must be requested
 constexpr double kLeastBin_mm = 1e-3;
 constexpr double kMostTargets = 10'000;
 constexpr double kAlike = 1e-9;      // tolerance of equal intervals, as share of an interval

@@ -32,7 +32,7 @@ class TargetGrid {
   TargetGrid(const OnTheFlyOptions& options, std::vector<double> targets_m);
 
   struct Target {
-    std::int64_t place = 0;  // place number, which increases with the position
+    std::int64_t place = 0;  // number of the target, which increases with the position
     double position_m = 0;
   };
   double bin_m() const { return bin_m_; }

@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// A known error; frame, k and of_line are the indices in the result of derivatives().
+// A known error. frame, k and of_line identify the error in the result of derivatives().
 struct Known {
   std::size_t frame = 0, k = 0;
   bool of_line = false;
@@ -60,8 +60,8 @@ void add_parts(const std::vector<Known>& known, const std::vector<ErrorDerivativ
                                                       static_cast<Eigen::Index>(one.k));
 }
 
-// Adds the quantities that several bodies share at point `p`: one cause for each quantity, from the
-// index `first` on.
+// Adds the u of the quantities that several bodies share, at point `p`: one cause for each
+// quantity, from the index `first` on.
 void add_shared(const Machine& machine, const std::vector<ErrorDerivative>& all,
                 const std::vector<FrameValues>& values, std::size_t p, std::size_t points,
                 std::size_t first, MachineCauses& causes) {

@@ -11,7 +11,7 @@
 namespace mdof::algo {
 
 // One cause of the error at the points of a path: error = value + xi u. xi is a random number with
-// variance 1. It is the same for the whole path, because the uncertainty of, for example, a
+// variance 1. xi is the same for the whole path, because the uncertainty of, for example, a
 // squareness or a scale is the same at all points.
 struct PartCause {
   std::size_t layer = 0;

@@ -8,8 +8,8 @@ namespace {
 
 // Ratio of mean |second difference| to σ for white noise: √6 · √(2/π).
 constexpr double kBendOfNoise = 1.9544;
-// For means over n values, the lower quartile of σ calculated from the mean is below the true σ by
-// the share 0.72/√n. The factor was simulated for n = 4 to 50 and is accurate to 1 %.
+// If σ is calculated from means over n values, its lower quartile is below the true σ by the share
+// 0.72/√n. The factor was simulated for n = 4 to 50 and is accurate to 1 %.
 constexpr double kQuartileBelow = 0.72;
 constexpr int kBinsPerOctave = 8;
 constexpr int kSmallestExponent = -49;  // 2^-50 m is 1e-15 m; smaller values count as 0

@@ -19,7 +19,7 @@ constexpr std::size_t kFewestClipped = 3;
 // Largest difference of means of equal numbers, due to rounding.
 constexpr double kExact_m = 1e-14;
 constexpr double kWithinNoise = 8;          // times the u of the mean of a stop
-constexpr double kOthersMove = 50;          // times the limit for the constant probe
+constexpr double kOthersMove = 50;          // times the noise limit of the constant probe
 constexpr double kRestless = 30;            // times the usual sd in the stops
 constexpr std::size_t kFewestRestless = 3;  // probes
 
@@ -64,7 +64,7 @@ std::size_t same_from(const Stops& stops, std::size_t probe) {
   return first;
 }
 
-// Returns the median of the ranges of the other probes from this stop on.
+// Returns the median of the changes (highest - lowest mean) of the other probes from this stop on.
 double others_change_m(const RunToJudge& run, const MeasuredPoint& from, std::size_t probe) {
   std::vector<double> others_m;
   for (std::size_t k = 0; k < run.rig.probes.size(); ++k) {

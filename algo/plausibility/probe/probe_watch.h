@@ -27,7 +27,7 @@ struct SteppedProbe {
   double size_m = 0;
 };
 
-// A probe is frozen if its reading stays the same to the last bit
+// A probe is frozen if its reading stays the same to the last bit in one of these cases:
 // - for 128 scans and eight times longer than ever before, if its noise was larger than its
 //   resolution in every stop before (at least three), because rounding cannot hide such noise;
 // - over four fifths of the travel, if it changed by four times its resolution before, because

@@ -109,7 +109,7 @@ void DwellDetector::push_from(const FrameBlock& frames, std::size_t from, std::v
   }
 }
 
-// Pushes the rows from ... to - 1, which all have a place.
+// Pushes the rows from ... to - 1, which all have a valid position.
 void DwellDetector::push_rows(const FrameBlock& frames, std::size_t from, std::size_t to,
                               std::vector<Point>& out) {
   append_rows(buffer_, frames, from, to);

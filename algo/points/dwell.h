@@ -55,8 +55,8 @@ class DwellDetector {
                 std::vector<double> probe_range_m);
 
   // Appends the points of complete stops to `out`. A median of three readings removes spikes of one
-  // sample from the encoder. Frames without a place (place_watch.h) are counted and left out; many
-  // consecutive frames without a place are a gap.
+  // sample from the encoder. Frames without a valid position (place_watch.h) are counted and left
+  // out; many consecutive frames without a valid position are a gap.
   void push(const FrameBlock& frames, std::vector<Point>& out);
   // States that the axis was not observed between this time and the next frame. The current dwell
   // ends at this time, and the approach of the next dwell is unknown. Call it before frames after
@@ -78,7 +78,7 @@ class DwellDetector {
     double encoder_min_m = 0, encoder_max_m = 0;
     double period_s = 0;         // median of the first intervals
     std::uint64_t gaps = 0;      // number of intervals longer than three periods
-    std::uint64_t unplaced = 0;  // frames without a place (place_watch.h), not in `scans`
+    std::uint64_t unplaced = 0;  // frames without a valid position, not in `scans`
     double longest_still_s = 0;  // longest time at rest; explains why no stop was found
     double tolerance_m = 0;      // current value
     // Stops that became no point because they are too short or creep; only the first
@@ -106,7 +106,7 @@ class DwellDetector {
     double min_m = 0, max_m = 0;
     double bend_m = 0;           // sum of |second differences|, a measure of the noise at any speed
     double sharp_m = 0;          // largest |second difference|
-    std::uint64_t unplaced = 0;  // frames without a place from the beginning to this slot
+    std::uint64_t unplaced = 0;  // frames without a valid position up to this slot
     double middle() const { return 0.5 * (min_m + max_m); }
   };
 
@@ -166,7 +166,7 @@ class DwellDetector {
 
   bool dwelling_ = false, truncated_ = false;
   std::int64_t still_since_ns_ = 0;
-  std::uint64_t unplaced_before_ = 0;  // frames without a place before the current dwell
+  std::uint64_t unplaced_before_ = 0;  // frames without a valid position before the dwell
   std::size_t cut_row_ = 0;            // first row of the current dwell that is not averaged
   std::int64_t left_ns_ = 0;           // time and position of the end of the last stop; 0: none
   double left_m_ = 0;

@@ -24,7 +24,8 @@ double tilt_excess_m(const ProbePhysics& physics, double tilt_square, double gap
   return tilt_area(physics, tilt_square) / gap_m;
 }
 
-// d - a/d = g  =>  d = (g + sqrt(g² + 4 a))/2, the solution for which d = g if a = 0.
+// With a = tilt_area() and g = d_shown ε/ε_cal: d - a/d = g  =>  d = (g + sqrt(g² + 4 a))/2. This
+// is the solution for which d = g if a = 0.
 double true_gap_m(const ProbePhysics& physics, double shown_m, double tilt_square,
                   double permittivity_ratio) {
   const double g = shown_m * permittivity_ratio;

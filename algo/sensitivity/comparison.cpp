@@ -83,8 +83,9 @@ std::vector<ComparedOutput> ComparisonSums::result() const {
     ComparedOutput c{pairs_[p].key, std::sqrt(v), std::sqrt(w), unknown, unknown};
     if (v > 0) c.ratio = std::sqrt(w / v);
     if (v > 0 && w > 0 && blocks_.size() > 1) {
-      // To first order, the change of the ratio √(w/v) is ratio/2 (dw/w - dv/v). The squares are
-      // taken about the means of all trials, so that a block can have only one trial.
+      // To first order, the change of the ratio √(w/v) of the variances v and w is ratio/2 (dw/w -
+      // dv/v). The squares are taken about the means of all trials, so that a block can have only
+      // one trial.
       const double mean_ours = all.ours / all.n, mean_other = all.other / all.n;
       double squares = 0;
       for (const auto& [block, sums] : blocks_) {

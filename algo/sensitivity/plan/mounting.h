@@ -36,8 +36,8 @@ struct PlaneDeviation {
 };
 struct Mounting {
   std::vector<ProbeDeviation> probe;
-  std::array<PartDeviation, 3> part{};                 // by Part
-  std::array<PlaneDeviation, 3> plane{};               // by Part; unused for the fixture
+  std::array<PartDeviation, 3> part{};                 // index: Part
+  std::array<PlaneDeviation, 3> plane{};               // index: Part; unused for the fixture
   double fixture_expansion = 0, target_expansion = 0;  // relative expansion at course = 1
 };
 

@@ -35,7 +35,7 @@ struct Shortest {
 };
 
 // Searches the shortest interval among the ranks r = (rank at one end of a slice) - shift, for all
-// slices. last: the upper end of each slice, otherwise the lower end.
+// slices. last: true: at the upper end of each slice; false: at the lower end.
 void search_at_slice_ends(const OrderedTrials& trials, std::uint64_t q, std::uint64_t shift,
                           bool last, Shortest& best) {
   Cursor low(trials), high(trials);

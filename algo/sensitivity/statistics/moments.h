@@ -13,9 +13,9 @@ __extension__ using Int128 = __int128;
 
 // Σ u and Σ u² of any number of cells, as fixed-point integers. The sums of integers do not depend
 // on the order of the cells. Σ u of a cell is rounded to a multiple of 2^-48, and Σ u² to a
-// multiple of 2^-40; this is about the rounding of the double. A multiple of 2^86 or more is not
-// added, and `lost` is set for its power. This occurs if one |u| is above 3e11 (Σ u) or above 8e6
-// (Σ u²).
+// multiple of 2^-40; this is about the rounding error of a double. A multiple of 2^86 or more is
+// not added, and `lost` is set for this power of u. This occurs if one |u| is above 3e11 (Σ u) or
+// above 8e6 (Σ u²).
 struct PowerSums {
   std::array<Int128, 2> sum{};
   std::array<bool, 2> lost{};

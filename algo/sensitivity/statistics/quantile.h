@@ -1,6 +1,6 @@
 // Order statistics from a histogram that contains every finite value. The bins of the core have
-// equal width. Outside the core, the width of the bins increases with the distance, up to the
-// largest double.
+// equal width. Outside the core, the width of the bins increases with the distance from the
+// core, up to the largest double.
 #pragma once
 
 #include <cstdint>

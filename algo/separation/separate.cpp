@@ -119,7 +119,7 @@ Solution solve(const Equations& e) {
   return {fit.inverse() * w.asDiagonal(), fit.null_space(), fit.rank()};
 }
 
-// Orthonormal columns that span `count` rows of the null space, starting at row `from`.
+// Orthonormal basis of the undetermined shapes of `count` unknowns, from the unknown `from` on.
 MatrixXd unseen_part(const MatrixXd& null, Index from, Index count) {
   constexpr double kLeast = 1e-7;
   if (null.cols() == 0) return MatrixXd(count, 0);

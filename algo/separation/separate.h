@@ -4,10 +4,11 @@
 //   k         number of the set-up
 //   x         position
 //   c_k       place on the target (set_up.h)
+//   sign_k    height_sign of the set-up (set_up.h)
 //   sense     +1 if the target moves, -1 if the fixture moves
 //   a_k, b_k  offset and tilt of the target in its clamping, always unknown
-// Reversal is the special case of two set-ups with the signs +1 and -1: machine = (e1 + e2)/2 and
-// height = (e1 - e2)/2, each except for a straight line.
+// Reversal is the special case of two set-ups with the signs +1 and -1 and the errors e1 and e2:
+// machine = (e1 + e2)/2 and height = sense · (e1 - e2)/2, each except for a straight line.
 #pragma once
 
 #include <vector>

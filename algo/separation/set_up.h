@@ -47,7 +47,7 @@ struct SetUp {
   double shift_m = 0;
 };
 
-// Place of the readings, common to all set-ups.
+// Place of the probe and sides of the rig, common to all set-ups.
 struct ReadAt {
   Sides sides;
   double place_m = 0;  // position of the probe in frame M along the motion

@@ -24,7 +24,7 @@ void append(std::vector<StopLeftOut>& to, std::vector<StopLeftOut> more) {
   std::move(more.begin(), more.end(), std::back_inserter(to));
 }
 
-// If the axis is at rest at no target when the log begins, its first stop is a parked axis.
+// If the log begins while the axis is at rest at no target, this stop is reported as a parked axis.
 NoticeCode reason_off_targets(const std::vector<Point>& points, const Point& stop) {
   const bool parked = &stop == &points.front() && stop.direction == 0;
   return parked ? NoticeCode::stop_parked_at_start : NoticeCode::stop_near_no_target;

@@ -16,8 +16,8 @@ namespace {
 constexpr double kEnough = 0.6;
 // Places with at least this share of the typical number of visits determine the typical approaches.
 constexpr double kAsMany = 0.75;
-constexpr double kTooNear = 0.6;    // distance to a certain target, in typical intervals
-constexpr double kTooFar = 1.6;     // distance to the last target, in typical intervals
+constexpr double kTooNear = 0.6;    // smallest distance to a target, in typical intervals
+constexpr double kTooFar = 1.6;     // largest distance to the end target, in typical intervals
 constexpr std::size_t kFewest = 4;  // places necessary if all places have one visit
 constexpr int kCertainVisits = 3;   // typical number of visits; see may_be_a_target()
 

@@ -28,7 +28,7 @@ std::vector<std::size_t> last_visits(const Sequence& sequence) {
 
 // Returns the targets whose last visit is before point `split`, and the other visited targets, both
 // ascending. If no target has visits before and after `split`, these are the targets before and
-// after it.
+// after `split`.
 std::pair<Places, Places> split_targets(const Sequence& sequence,
                                         const std::vector<std::size_t>& last, std::size_t split) {
   std::pair<Places, Places> places;

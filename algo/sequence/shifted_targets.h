@@ -15,9 +15,9 @@ struct ShiftedTargets {
 };
 
 // Finds a time with these properties:
-// - At least three targets are visited only before it, and at least three other targets only after
-//   it.
-// - The positions after it are the positions before it plus one shift, within 50 µm.
+// - At least three targets are visited only before this time, and at least three other targets only
+//   after this time.
+// - The later positions are the earlier positions plus one shift, within 50 µm.
 // - The shift is less than half of the range of the targets.
 //
 // If the count jumps while the axis reverses or creeps, find_jump() cannot distinguish the jump

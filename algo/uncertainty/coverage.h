@@ -6,8 +6,8 @@
 namespace mdof::algo {
 
 // Effective degrees of freedom by Welch-Satterthwaite (GUM G.2b): u⁴ / Σ (u_i⁴ / ν_i) with u² = Σ
-// u_i². Infinite if all ν_i are infinite, if u is 0, or if the result is 1e7 or more, because k is
-// then the k of the normal distribution.
+// u_i² and the degrees of freedom ν_i of u_i. Infinite if all ν_i are infinite, if u is 0, or if
+// the result is 1e7 or more, because k is then the k of the normal distribution.
 struct UncertaintyPart {
   double u = 0, freedom = 0;
 };

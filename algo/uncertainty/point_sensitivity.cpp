@@ -10,7 +10,8 @@ namespace mdof::algo {
 namespace {
 
 // Steps of the central differences. They are so small that the curvature by an error of 1 mrad
-// changes the difference only by 1e-6, and large compared with the rounding of 0.1 m.
+// changes the difference only by 1e-6, and large compared with the rounding error of a position of
+// 0.1 m.
 constexpr double kReadingStep_m = 1e-7, kTravelStep_m = 1e-5;
 
 class Differences {

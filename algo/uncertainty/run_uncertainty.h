@@ -53,7 +53,7 @@ class PointUncertainties {
 
  private:
   // For the named errors of one point: variance of the noise; sum of u_i² and sum of u_i⁴/ν_i over
-  // the contributors (GUM G.2b).
+  // the contributors i (GUM G.2b), with the degrees of freedom ν_i.
   struct Sums {
     Errors5 noise{}, square{}, fourth_by_freedom{};
   };

@@ -9,8 +9,8 @@
 
 namespace mdof::algo {
 
-// The mean of both approaches at each target, in the order of the targets. `sides`: sides of the
-// run.
+// The mean of both approaches at each target, in the order of the targets. `sides`: header.sides
+// of the run.
 struct MeanErrors {
   Sides sides;
   std::vector<TargetMean> targets;
@@ -29,7 +29,7 @@ struct Figure {
 };
 
 // `named`: index in error_names(axis).
-Figure straightness_figure(Axis axis, std::size_t named);  // peak to valley, least-squares line
+Figure straightness_figure(Axis axis, std::size_t named);  // range about the least-squares line
 Figure slope_figure(Axis axis, std::size_t named);  // slope over the travel of the moving body
 Figure range_figure(Axis axis, std::size_t named);  // highest - lowest
 Figure error_figure(Axis axis, std::size_t named, int target);

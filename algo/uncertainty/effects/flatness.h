@@ -3,9 +3,10 @@
 // The heights have a normal distribution with the standard deviation u. The heights of two places
 // at the distance r have the covariance
 //   C(r) = u² Σ k⁻⁴ J₀(2π k r/L) / Σ k⁻⁴,  k = 1 … kFlatnessWaves
-// The surface is a sum of waves of the lengths L/k with the amplitudes 1/k², as in a sensitivity
-// study. All directions and phases of a wave are equally likely, so its covariance is J₀. The
-// probes were zeroed at d = 0. Therefore a reading contains the height minus the height at d = 0.
+// L is the length of the longest wave. The surface is a sum of waves of the lengths L/k with the
+// amplitudes 1/k², as in a sensitivity study. All directions and phases of a wave are equally
+// likely, so its covariance is J₀. The probes were zeroed at d = 0. Therefore a reading contains
+// the height minus the height at d = 0.
 #pragma once
 
 #include <Eigen/Core>

@@ -22,11 +22,13 @@ struct Repeatability {
   double freedom = std::numeric_limits<double>::infinity();
   std::array<bool, kErrorCount> by_scatter{};
   // Errors that change several means together, as independent parts: [part][target]. together:
-  // uncertainty of the shifts of the runs, if runs lack visits; and the trend of the reversal, if
-  // targets have only one approach. of_passes: levels of the passes, if runs lack visits.
+  // uncertainty of the shifts of the runs, if runs lack visits; and u of the change of the reversal
+  // along the axis, if targets have only one approach. of_passes: levels of the passes, if runs
+  // lack visits.
   std::vector<std::vector<Errors5>> together, of_passes;
   double passes_freedom = std::numeric_limits<double>::infinity();
-  // Correlated noise of the errors with by_scatter = true. Its targets are numbered as `means`.
+  // Correlated noise of the errors with by_scatter = true. Its target numbers are indices in
+  // `means`.
   std::array<std::optional<CorrelatedNoise>, kErrorCount> correlated;
   Errors5 u_visit{};  // u of one visit, pooled over all targets
   Errors5 u_shift{};  // u of the shift that all means have in common

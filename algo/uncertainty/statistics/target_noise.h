@@ -22,9 +22,10 @@ class TargetNoise {
 
  private:
   const Repeatability& random_;
-  // Normal numbers: drawn_[i][trial] for target i, and in the last row for the shift.
+  // Standard normal random numbers: drawn_[i][trial] for target i, and in the last row for the
+  // shift.
   std::vector<std::vector<double>> drawn_;
-  // The parts that change several means together, and the normal numbers together_[part][trial].
+  // The parts that change several means together, and their random numbers together_[part][trial].
   std::vector<const std::vector<Errors5>*> parts_;
   std::vector<std::vector<double>> together_;
   std::vector<double> for_freedom_;

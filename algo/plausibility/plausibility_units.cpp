@@ -21,7 +21,8 @@ constexpr double kQuietest_m = 0.5e-9;  // sd; the noise of every amplifier is l
 constexpr double kNoisiest = 2.5e-3;    // sd as share of the range
 constexpr double kNoisiest_m = 1e-6;
 constexpr double kThousandth = 1e-3;
-// Smallest mean gap, as share of the range, of a probe that reads a gap and has no offset.
+// Smallest gap (middle between the extremes), as share of the range, of a probe that reads a gap
+// and has no offset.
 constexpr double kOffZero = 0.1;
 
 double largest(const ProbeFigures& p) {

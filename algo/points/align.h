@@ -16,11 +16,11 @@
 namespace mdof::algo {
 
 struct AlignOptions {
-  // The aligner waits for the samples of a probe until the newest sample of all channels is later
-  // by this time. Then the values of the probe are marked as missing, so that one dead device does
-  // not delay the others. The time is longer than the time that any driver waits for a silent
-  // device. So late samples are not lost, and a replay gives the same frames although it mixes the
-  // samples of the devices in different blocks.
+  // The aligner waits for the samples of a probe at a sample of the encoder, until the newest
+  // sample of all channels is later by this time. Then the values of the probe are marked as
+  // missing, so that one dead device does not delay the others. The time is longer than the time
+  // that any driver waits for a silent device. So late samples are not lost, and a replay gives the
+  // same frames although it mixes the samples of the devices in different blocks.
   double lag_bound_s = 3;
   // If the time between two samples is longer than this, it is a gap. Values in a gap are not
   // interpolated.

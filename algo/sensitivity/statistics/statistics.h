@@ -7,7 +7,8 @@
 //   - power sums of cells of 512 trials. The trials of a cell are added in a fixed order; the cells
 //     are added as 128-bit fixed-point numbers
 //   - a histogram with 8192 equal bins over a core that the pilot determines. Outside the core, the
-//     width of a bin is 1/64 of its distance from the core, up to the largest double
+//     width of a bin is about 1/64 of its distance from the core, but at least the width of a bin
+//     of the core, up to the largest double
 // README.md has the error bounds.
 #pragma once
 

@@ -106,8 +106,8 @@ struct App::Parts {
     replayer.reset();
     query.reset();
     stations.clear();
-    reader.reset();  // Closed before the writer: the last connection to close leaves a single
-                     // database file.
+    reader.reset();  // Closed before the writer: only the writer can remove the journal files when
+                     // it closes last.
     keeper.reset();
   }
   Status open_store();

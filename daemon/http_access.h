@@ -27,7 +27,8 @@ struct HttpAccess {
 };
 
 // Parses a local address: "127.0.0.1:8080", "localhost:8080" or "[::1]:8080". An empty text means
-// the default address. Every other address is a usage error, because mdofd does not encrypt.
+// the default address. Every other address is a usage error, because mdofd does not encrypt its
+// connections.
 Result<HttpAccess> http_at(const std::string& address);
 // `folder`: folder of the token file if [http] names no other file. Returns nullopt if [http] is
 // missing.

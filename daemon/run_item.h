@@ -13,7 +13,7 @@ namespace mdof::daemon {
 
 // The header as JSON, much shorter than the limit of a reply. If the header is too long, then the
 // note and the notices are cut, the options are null, and "shortened" is true. The options that
-// determine the signs of an imported run are kept.
+// determine the signs of the errors of an imported run are kept.
 std::string header_item(const RunHeader& header,
                         std::optional<std::int64_t> superseded_by = std::nullopt);
 RunHeader shortened(RunHeader header);

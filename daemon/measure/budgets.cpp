@@ -22,8 +22,9 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kMostCost = 250'000;  // takes about one second; RunBudgets::cost() of 11
-                                            // targets with all declarations is 2,000
+constexpr std::size_t kMostCost =
+    250'000;  // limit of RunBudgets::cost(), about one second. A run of 11 targets whose rig
+              // declares all uncertainties costs 2,000.
 
 // The target whose mean position is nearest to at_m. Error: at_m is outside the range of the
 // targets by more than half of the largest interval between targets.

@@ -20,16 +20,16 @@
 
 namespace mdof::daemon {
 
-// Uncertainty of the points of a run, at the stated point of the run. The rig is read from the
-// provenance of the run.
+// Uncertainty of the errors at each point of a run, for the reference point of the run. The rig is
+// read from the provenance of the run.
 RunUncertainty uncertainty_of(const Run& run);
 // Uncertainty of some points of a run. `part` must contain the first point of the run. The
 // uncertainty does not include the repeatability of the run.
 RunUncertainty stop_uncertainty(const Run& part);
 
 // Budgets of the figures of the run. If the budgets cannot be calculated, or if the calculation
-// would take long, the result contains only the reason. `mdof budget RUN` calculates long budgets,
-// too.
+// would take long, the result contains only the reason. `mdof budget RUN` also calculates budgets
+// that take long.
 StatedFigures figure_budgets(const Run& run);
 
 // The results of uncertainty_of() and figure_budgets(). One call of stated_run() takes half the

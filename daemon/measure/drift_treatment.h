@@ -6,7 +6,7 @@
 
 namespace mdof::daemon {
 
-// Call this function before the figures are calculated. The errors of the points must be stated at
+// Call this function before the figures are calculated. The reference point of the errors must be
 // the fixture. If `remove` is true, a significant drift is removed from the errors. A notice states
 // the removed drift, or the reason why no drift was removed. If the drift exceeds the limit of the
 // rig, the run is doubtful, even if the drift is removed: after the removal of a large drift, a

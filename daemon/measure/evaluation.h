@@ -32,12 +32,12 @@ std::string run_document(const RunMembers& members, const std::string& result_sh
 // read from the configuration of the run.
 Result<Rig> rig_of(const RunHeader& run);
 
-// Reads a run and restates its errors at another reference point. Error: the reference is the tool,
-// but the rig has no tool_point_mm.
+// Reads a run and converts its errors to the given reference point. Error: the reference point is
+// the tool, but the rig has no tool_point_mm.
 Result<Run> restated_run(store::Store& store, std::int64_t run, Reference reference);
 
-// Reads the first point of the run, and then `count` points from `offset`. The drift of the run
-// starts at the first point. The result has no figures.
+// Reads the first point of the run, and then `count` points from `offset`. The first point is
+// always included, because the drift of the run is counted from it. The result has no figures.
 Result<Run> restated_points(store::Store& store, std::int64_t run, std::int64_t offset,
                             std::int64_t count, Reference reference);
 
@@ -45,7 +45,8 @@ struct TableRequest {
   std::vector<std::int64_t> runs;
   bool keep_slope = false;
   bool partial = false;  // also use partial runs
-  // default: the tool if the rig states tool_point_mm, otherwise the fixture.
+  // Reference point of the errors of the table. Default: the tool if the rig states tool_point_mm,
+  // otherwise the fixture.
   std::optional<Reference> reference;
   std::optional<HistoryEntry> action = std::nullopt;  // the requesting user
   algo::TableLimits limits = {};
@@ -68,9 +69,9 @@ Status store_table(store::Store& store, CompensationTable& table,
                    const std::optional<HistoryEntry>& action);
 
 // Means of a run for each target, as in a table of this run alone. The straightness contains its
-// slope and holds at the stated point of the run. The angles are relative to the first target. u
-// includes the uncertainties that the rig declares. Errors: those of algo::build_table() and
-// algo::add_declared_uncertainty().
+// slope. The reference point is the reference point of the run. The angles are relative to the
+// first target. u includes the uncertainties that the rig declares. Errors: those of
+// algo::build_table() and algo::add_declared_uncertainty().
 Result<CompensationTable> means_by_target(const Run& run);
 
 struct ActivationRequest {
@@ -84,7 +85,8 @@ struct ActivationRequest {
 // table that check_gate() rejects: a controller reads only the numbers, without the notices.
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request);
 // The two steps of activate_table(). check_activation() makes the checks, needs only a read-only
-// store and returns the marks of the table. activate_checked() stores the activation.
+// store and returns whether the table is simulated or doubtful. activate_checked() stores the
+// activation.
 Result<store::Marks> check_activation(store::Store& store, const ActivationRequest& request);
 Result<store::Activation> activate_checked(store::Store& store, const ActivationRequest& request,
                                            const store::Marks& marks);

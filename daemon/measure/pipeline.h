@@ -29,10 +29,10 @@ class Pipeline : RunBuilder {
   // the last scan before the loss.
   Status push(SampleBlock& raw);
 
-  // The points that are complete now: sorted, solved, stated at the fixture. Their targets may
-  // still change until finish().
+  // The points that are complete now, sorted and solved. The fixture is the reference point of
+  // their errors. Their targets may still change until finish().
   const std::vector<MeasuredPoint>& points();
-  // The stops until now that are not in points().
+  // The stops found until now that points() does not contain.
   const std::vector<StopLeftOut>& left_out() const { return sequence_.left_out; }
   // The newest calibrated frame, for the live view. The block is empty before the first frame.
   const FrameBlock& newest() const { return newest_; }
@@ -41,7 +41,8 @@ class Pipeline : RunBuilder {
   bool still() const { return dwell_.still(); }
   bool is_full() const { return found_.size() >= options_.max_stops; }
   std::optional<std::string> waiting_for() const { return aligner_.waiting_for(); }
-  // Calculates the errors from the readings of one frame, stated at the fixture.
+  // Calculates the errors from the readings of one frame. The reference point of the errors is the
+  // fixture.
   AxisErrors solve_at(double encoder_m, const std::vector<double>& readings_m,
                       const std::vector<double>& u_m) const;
   const algo::Solver& solver() const { return solver_; }

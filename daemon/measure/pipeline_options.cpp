@@ -62,7 +62,7 @@ std::string PipelineOptions::json() const {
 
 std::string PipelineOptions::settings_json() const {
   PipelineOptions o = *this;
-  o.align.interval_s.clear();  // the devices state it, not the configuration
+  o.align.interval_s.clear();  // the devices state the intervals, not the configuration
   o.sequence.targets_m.clear();
   o.repeats = 0;
   o.datum = {};

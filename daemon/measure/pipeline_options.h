@@ -22,18 +22,18 @@ struct PipelineOptions {
   algo::AlignOptions align;
   algo::DwellOptions dwell;
   algo::SequenceOptions sequence;
-  double stale_s = 0.5;     // the live view does not show an older frame as good
+  double stale_s = 0.5;     // in the live view, an older frame is not shown as good
   bool keep_points = true;  // false: only for a live view without a run
   int repeats = 0;  // requested points for each target and approach; 0: the user ends the run
   bool remove_drift = false;  // remove a significant drift from the errors (algo/drift)
   // Only for replays; if set, dwells are not searched.
   std::optional<algo::OnTheFlyOptions> on_the_fly;
-  EncoderDatum datum;                  // datum; the pushed positions contain it already
+  EncoderDatum datum;                  // the pushed positions already include its offset
   std::size_t max_stops = kMostStops;  // later stops are counted but not evaluated
 
   std::string json() const;  // text for the provenance
-  // The members of json() that the configuration states. The sampling rates of the devices, the
-  // targets and the datum are not included.
+  // The members of json() that the configuration states. The sampling intervals of the devices, the
+  // targets, `repeats` and the datum are not included.
   std::string settings_json() const;
 };
 

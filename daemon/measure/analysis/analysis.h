@@ -10,8 +10,8 @@
 
 namespace mdof::daemon {
 
-// The document of `mdof show --figures --json` and run.analyse. The errors hold at the point
-// run.header.stated. Error (bad_input): the run is imported.
+// The document of `mdof show --figures --json` and run.analyse. run.header.stated is the reference
+// point of the errors. Error (bad_input): the run is imported.
 Result<std::string> analysis_document(store::Store& store, const Run& run);
 
 }  // namespace mdof::daemon

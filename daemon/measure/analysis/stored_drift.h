@@ -10,7 +10,8 @@
 
 namespace mdof::daemon {
 
-// The drift of the errors at the fixture. It does not depend on the stated point of `run`.
+// The drift of the errors with the fixture as their reference point, also if `run` has another
+// reference point.
 struct StoredDrift {
   algo::RunDrift found;
   // Figures after removal of the drift; empty if the drift cannot be removed.

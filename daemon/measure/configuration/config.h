@@ -50,9 +50,9 @@ struct Config {
   RpcAccess access;
   std::optional<HttpAccess> http;  // the web page; off by default
   PipelineOptions measure;
-  bool gap_given = false;  // measure.align.max_gap_s is given; otherwise mdofd calculates the gap
-                           // from the sampling rates
-  Chain machine;           // from the table [machine]; unknown if this table is missing
+  bool gap_given = false;  // true: the file gives max_gap_s; false: mdofd calculates the longest
+                           // permitted gap from the sampling rates
+  Chain machine;           // the table [machine]; machine.known() is false if this table is missing
   std::vector<AxisConfig> axes;
   std::string text;  // the TOML text, for the provenance
   // For messages: the name of the file, and file, line and key of each path. They are set even if

@@ -1,4 +1,5 @@
-// Options for channels whose sampling interval is longer than the gap of the aligner.
+// Options for channels whose sampling interval is longer than the longest gap that the aligner
+// permits.
 #pragma once
 
 #include <string>
@@ -10,8 +11,8 @@
 
 namespace mdof::daemon {
 
-// Adds sampling intervals of channels to `align`. An interval is added only if it makes the gap of
-// its channel longer.
+// Adds sampling intervals of channels to `align`. An interval is added only if it makes the
+// permitted gap of its channel longer.
 algo::AlignOptions with_intervals(algo::AlignOptions align,
                                   const std::vector<drivers::DeviceInfo>& devices);
 

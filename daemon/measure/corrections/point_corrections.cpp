@@ -34,8 +34,8 @@ std::vector<const Point*> kept(const std::vector<Point>& before, const Run& run)
   return points;
 }
 
-// Linearity error c(t) along `measures`, in m. `includes_linearity`: whether the displacement
-// contains c(t) already.
+// Linearity correction of a displacement along the direction `measures` of the probe, in m.
+// `includes_linearity`: the displacement contains this correction already.
 double linearity_correction_m(const Calibration& c, double displacement_m,
                               bool includes_linearity) {
   const double sign = c.reads_gap ? -1 : 1;
@@ -188,8 +188,8 @@ void PointCorrections::report_failures(Run& run) const {
     run.header.notices.push_back(notice(NoticeCode::air_unknown, "", {{"points", without_air}}));
 }
 
-// The cause is from the flags of the point. The reason from the solver states only that a reading
-// is missing.
+// Reads the cause from the flags of the point, because the solver states only that a reading is
+// missing.
 std::string cause_of(const Point& point) {
   if (const auto frozen = channel_of(point, Flag::frozen))
     return "probe " + *frozen + " no longer changes; ";

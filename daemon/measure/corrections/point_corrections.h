@@ -1,6 +1,6 @@
 // Corrects the readings of the points of a run for the probe effects that the rig declares
-// (schema/rig/effects/physics.h). The correction is between averaging and solving. If the rig
-// declares no effect, the points do not change.
+// (schema/rig/effects/physics.h). The readings are corrected after they are averaged and before the
+// point is solved. If the rig declares no effect, the points do not change.
 #pragma once
 
 #include <array>

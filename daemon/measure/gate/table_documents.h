@@ -24,8 +24,8 @@ struct DocumentPage {
 // notices fit into one reply.
 DocumentPage page_with_notices(const Notices& notices, std::int64_t count);
 
-// `generation`: 0 if the table is not active. `doubtful`: the runs of the table or the table have a
-// doubtful notice.
+// `generation`: 0 if the table is not active. `doubtful`: whether the table or one of its runs has
+// a doubtful notice.
 std::string table_document(const CompensationTable& table, std::int64_t generation, bool doubtful,
                            const DocumentPage& page = {});
 std::string volumetric_document(const VolumetricTable& table, std::int64_t generation,

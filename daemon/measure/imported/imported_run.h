@@ -1,4 +1,5 @@
-// Functions for stored imported runs: notices, contributions to u, JSON document.
+// Functions for stored imported runs: notices, contributions to the standard uncertainty u, JSON
+// document.
 #pragma once
 
 #include <string>

@@ -13,8 +13,7 @@ namespace mdof::daemon {
 // E and B need both approaches at each target. E_forward needs the forward approach at each target,
 // and E_reverse the reverse approach. If readings do not state their approach, the only figure is
 // "EXX_range_um", the range of the means of all readings. The member `why` names the missing
-// figures. No figure depends on the sense of the deviations, because all figures are absolute
-// values.
+// figures. No figure depends on the sense of the deviations, because no figure has a sign.
 //
 // U of a range is U of the difference between the largest and the smallest mean. U is NaN if one of
 // these two means is from a single reading or from equal readings only. An uncertainty that the run

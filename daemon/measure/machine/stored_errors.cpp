@@ -63,8 +63,8 @@ struct StatedStraightness {
 };
 using StatedAxes = std::vector<StatedStraightness>;
 
-// The reference point for the squareness of an axis. It is the reference point of the table of the
-// axis.
+// The reference point of an axis in its squareness to other axes. It is the reference point of the
+// table of the axis.
 Result<StatedAt> point_of_slope(const MachineFrame& frame, const StatedAxes& stated) {
   StatedAt at = kAtFixture;
   for (const StatedStraightness& s : stated) {

@@ -23,16 +23,16 @@ struct StoredErrors {
 // the errors of the machine.
 //
 // If the description names measured runs of an axis, the errors of this axis are the means of the
-// runs, stated at the fixture. If it names a table, the errors are stated at the reference point of
-// the table. The squareness is stated at the same points, so that the slope that is removed from a
-// table is the slope that the squareness contains. The errors hold at the point holds_at_mm of the
-// axis. The positioning of an axis is from its imported runs. These runs contain position errors in
-// the coordinates of the controller. If the travel of the axis is "-", the error of the body has
-// the opposite sign.
+// runs, and the fixture is their reference point. If the description names a table, the reference
+// point is the reference point of the table. The squareness uses the same reference points, so that
+// the slope that is removed from a table is the slope that the squareness contains. holds_at_mm of
+// an axis is the position of the reference point in the machine. The positioning of an axis is from
+// its imported runs. These runs contain position errors in the coordinates of the controller. If
+// the travel of the axis is "-", the error of the body has the opposite sign.
 //
 // Errors:
 //   - a run, table or squareness is missing in the database;
-//   - it has another axis, chain, travel or moving side than the description;
+//   - its axis, chain, travel or moving side differs from the description;
 //   - the reference point of a table is the carriage or unknown;
 //   - the description states the same error a second time;
 //   - a table contains its straightness slope, and a squareness contains the same slope.

@@ -43,7 +43,8 @@ std::size_t body_error_index(const CompensationTable& table, std::size_t named);
 void set_covariance(MachineFrame& frame, const CompensationTable& table,
                     const algo::ErrorCovariances& covariances);
 // Adds a quantity that the probes of several axes share, and subtracts its part from the declared
-// covariance. by_row: change of the five errors for one standard uncertainty of the quantity.
+// covariance. by_row: for each row of the table, the change of the five errors for one standard
+// uncertainty of the quantity.
 void add_shared(MachineFrame& frame, const CompensationTable& table, const std::string& name,
                 const std::vector<Errors5>& by_row);
 // Whether at_m is more than one interval before the first or after the last position. The interval

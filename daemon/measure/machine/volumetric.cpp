@@ -74,7 +74,7 @@ std::string direction_text(const Eigen::Vector3d& d) {
 // Notice if no axis can move the tool in some direction of the workpiece, because two linear axes
 // are parallel at these positions of the rotary axes. The limit is the same as for the residual
 // error of one command. A machine with fewer than three linear axes gets no notice for the
-// directions that it never can move in.
+// directions in which it can never move.
 Notices fixed_direction_notices(const VolumetricTable& table) {
   double largest = 0;
   for (std::size_t k = 0; k < 3; ++k)

@@ -15,8 +15,8 @@ namespace mdof::daemon {
 std::vector<std::string> probe_ids(const Rig& rig);
 std::vector<double> probe_ranges_m(const Rig& rig);
 
-// Calculates the errors of the point, stated at the fixture. If the point has no errors, it gets a
-// reason. The reason begins with the cause that the flags of the point state.
+// Calculates the errors of the point. Their reference point is the fixture. If the point has no
+// errors, it gets a reason. The reason begins with the cause that the flags of the point state.
 void solve_point(const algo::Solver& solver, const Rig& rig, const algo::Residuals& residuals,
                  MeasuredPoint& p);
 

@@ -24,7 +24,7 @@
 
 namespace mdof::daemon {
 
-// Solved points, stated at the fixture.
+// Solved points. The reference point of their errors is the fixture.
 struct SolvedPoints {
   algo::Sequence sequence;
   const std::vector<Point>& as_read;  // averaged points without corrections

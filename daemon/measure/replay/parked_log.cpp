@@ -16,7 +16,7 @@ namespace mdof::daemon {
 namespace {
 
 constexpr double kShortStep_s = 0.1, kWindowsOfLog = 12;
-// If the mean positions differ by more than this, the axis moved.
+// If the mean positions of two time steps differ by more than this, the axis moved.
 constexpr double kMostTravel_m = 50e-6;
 constexpr std::chrono::milliseconds kParkedTimeout{1000};
 
@@ -180,8 +180,8 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   const double per_step =
       request.window_s.value_or(parked.length_s / kWindowsOfLog) / algo::kStepsOfWindow;
   // The number of steps is rounded down, so that a log contains twelve windows of a twelfth of its
-  // length. A window that is longer than the log is limited to more steps than the log has; the log
-  // then contains no window.
+  // length. If a window is longer than the log, the limit of std::clamp gives `steps` = 0, and the
+  // log is rejected.
   const auto together =
       static_cast<std::size_t>(std::clamp(std::floor(per_step / kShortStep_s + 1e-9), 1.0,
                                           static_cast<double>(reader.encoder.size() + 1)));

@@ -30,8 +30,8 @@ struct ParkedLog {
   std::optional<double> limit_m_per_s;  // the requested limit or the limit of the rig
   bool simulated = false;
   bool declares = false;  // whether the rig declares an uncertainty
-  // Readings of the probes, and errors of the moving body at the fixture. The first `probes` series
-  // are readings of probes; the other series are the five errors.
+  // Readings of the probes, and errors of the moving body with the fixture as their reference
+  // point. The first `probes` series are readings of probes; the other series are the five errors.
   std::size_t probes = 0;
   algo::ParkedReadings readings;
   Notices notices;

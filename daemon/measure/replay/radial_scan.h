@@ -25,7 +25,7 @@ struct RadialScan {
                            // these readings were subtracted
   // Standard uncertainties of a height. u_noise_m: from the scatter of neighbouring heights, RMS
   // over the map. u_motion_m: from the uncertainty of the subtracted errors of the axis, RMS over
-  // the targets of a run; of several runs, the largest value.
+  // the targets of a run; for several runs, the largest value.
   double u_noise_m = 0, u_motion_m = 0;
   bool simulated = false;
 };

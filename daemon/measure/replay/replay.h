@@ -62,8 +62,8 @@ Status check_axis(const std::string& source, const std::vector<std::string>& com
 Status check_channels(const std::string& source, const std::vector<Channel>& channels,
                       const Rig& rig);
 
-// Reads the whole log and calculates the run. The run has no id yet. It has a start time only if
-// the log has a start time. `progress` is called after every block and can cancel the replay.
+// Reads the whole log and calculates the run. The run has no id yet. The run has a start time only
+// if the log has a start time. `progress` is called after every block and can cancel the replay.
 // Errors: the rig does not fit the log; `progress` cancelled the replay; those of the driver and of
 // the pipeline.
 Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& options,

@@ -101,7 +101,8 @@ void read_by_channel(Members& members, const char* key, std::map<std::string, do
                      bool (*good)(double)) {
   const auto found = members.object(key);
   simdjson::dom::object channels;
-  if (!found || found->get(channels)) return;  // object() reports the error if it is not an object
+  if (!found || found->get(channels))
+    return;  // if the member is not an object, object() has reported the error
   to.clear();
   for (const auto member : channels) {
     double x = 0;
@@ -154,7 +155,7 @@ void read_targets(Members& members, PipelineOptions& options) {
   options.repeats = static_cast<int>(repeats);
 }
 
-// The member "kind" is required. The default kind would be the kind of an absolute encoder.
+// The member "kind" is required. The default would mean an absolute encoder.
 Status read_datum(element object, EncoderDatum& datum) {
   Members members(object, "options.encoder_datum.");
   datum = {};

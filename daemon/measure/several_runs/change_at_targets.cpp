@@ -12,7 +12,7 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kForward = 0, kReverse = 1, kReversal = 2;  // indices of kComparedSides
+constexpr std::size_t kForward = 0, kReverse = 1, kReversal = 2;  // indices into kComparedSides
 
 struct Changes {
   std::vector<double> x, y;  // x: positions, m; y: changes, m or rad
@@ -27,7 +27,7 @@ double change_of(const ComparedValue& value) {
   return value.after - value.before;
 }
 
-// Mean of the changes of both approaches. If one change is unknown, the other change.
+// Mean of the changes of both approaches. If one change is unknown, the result is the other change.
 double mean_change(const ComparedPoint& point, std::size_t error) {
   const double forward = change_of(point.side[kForward][error]),
                reverse = change_of(point.side[kReverse][error]);

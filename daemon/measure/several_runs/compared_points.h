@@ -22,7 +22,7 @@ struct ComparedValue {
 inline constexpr std::array<const char*, 3> kComparedSides = {"forward", "reverse", "reversal"};
 struct ComparedPoint {
   double position_m = 0;  // position of the target in the first run ("before")
-  // index: kComparedSides, then errors of ComparedPoints.
+  // side[i][k]: i is an index into kComparedSides, k is an index into ComparedPoints::errors.
   std::array<std::vector<ComparedValue>, kComparedSides.size()> side;
 };
 struct ComparedPoints {

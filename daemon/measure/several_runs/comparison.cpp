@@ -25,8 +25,8 @@ namespace {
 
 constexpr double kSameEnd_m = 1e-4;
 
-// For a figure that has changed its sign: the effects that both runs share add. u of the change
-// becomes the sum u_before + u_after.
+// For a figure that has changed its sign: the effects that both runs share do not cancel but add
+// up, so u of the change becomes the sum u_before + u_after.
 void add_shared(Budget& change, double u_before, double u_after) {
   const double freedom = change.freedom, k = change.coverage_factor;
   BudgetLine shared;

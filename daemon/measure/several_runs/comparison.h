@@ -24,10 +24,10 @@ struct ComparedFigure {
   // Change of the absolute value: |after| - |before|. A reduction is negative, also for a negative
   // slope. u assumes that the two runs are independent. Effects that the two runs share (gain of a
   // probe, mounting) cancel in the change; u is then too large. If the figure changes its sign,
-  // shared effects add; u is then the sum u_before + u_after.
+  // shared effects add up; u is then the sum u_before + u_after.
   Budget change;
-  // Result of change_at_targets(). If it is larger than U_before + U_after, noise does not explain
-  // it.
+  // Result of change_at_targets(). If this change is larger than U_before + U_after, noise does not
+  // explain the change.
   double at_targets = kNaN;
   Effect effect = Effect::not_shown;
 };
@@ -41,7 +41,7 @@ struct Comparison {
   Axis axis = Axis::x;
   StatedAt stated;
   std::vector<ComparedFigure> figures;  // figures that have a value in both runs
-  Notices differences;                  // other differences between the two runs than the action
+  Notices differences;                  // differences between the two runs besides the action
   Notices notices;                      // notices of the runs
   bool simulated = false;
   bool is_imported = false;  // true: runs of positioning; `stated` then has no meaning

@@ -48,10 +48,10 @@ struct Trend {
   std::vector<std::string> u_not_declared;
 };
 
-// Calculates the trends. All values are stated at the fixture. A run is used if it is complete,
-// measured, valid and not simulated, if no other run supersedes it, and if it is the newest run of
-// its recording. Its rig, model and options must be those of the newest run, unless `mixed` is set.
-// `left_out` lists the other runs. Error: the figure is unknown.
+// Calculates the trends. The reference point of all values is the fixture. A run is used if it is
+// complete, measured, valid and not simulated, if no other run supersedes it, and if it is the
+// newest run of its recording. Its rig, model and options must be those of the newest run, unless
+// `mixed` is set. `left_out` lists the other runs. Error: the figure is unknown.
 Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& request);
 
 }  // namespace mdof::daemon

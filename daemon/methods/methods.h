@@ -1,5 +1,4 @@
-// The RPC methods of mdofd. They are in groups. Each group has one file, and one line in
-// methods.inc.
+// The RPC methods of mdofd. Each group of methods has one file, and one line in methods.inc.
 #pragma once
 
 #include <array>
@@ -104,7 +103,7 @@ rpc::AsyncHandler on_query(Methods& m, Read read) {
 }
 // A change of the database. The thread "query" calculates the change. The thread of the storekeeper
 // writes it. The thread "query" waits until the change is written. The queue of the storekeeper
-// therefore contains at most one such change, and the measurement can use the queue.
+// therefore contains at most one such change and has space for the data of the measurement.
 using Change = std::function<Result<std::string>(store::Store&)>;
 void answer_with_change(Methods& m, rpc::Reply reply,
                         std::function<Result<Change>(store::Store& reader)> calculate);

@@ -57,7 +57,8 @@ void QueryThread::admit(const Key& client) {
         served_ && !served_->owner_before(entry.first) && !entry.first.owner_before(*served_);
     return entry.first.expired() && !served;
   });
-  // A client that connects again for each call is therefore not always served first.
+  // Without this initial cost, a client that connects again for each call would always be served
+  // first.
   order_.charge(clients_[client].share, kNewClientCost);
 }
 

@@ -78,7 +78,8 @@ class QueryThread {
   bool open_again_ = false;
   std::uint64_t refused_ = 0;
   std::string damage_;
-  // Messages of the thread use it, because they can arrive after the destruction.
+  // Messages from the thread to the event loop use this pointer, because they can arrive after the
+  // QueryThread is destroyed.
   const std::shared_ptr<QueryThread*> self_;
 
   store::Store store_;  // only the thread uses it

@@ -157,7 +157,7 @@ void begin_run(const Methods& m, Station& station, RunRequest request, Reply rep
   append_new(request.notices, unsettled_clock_notices(station));
   append_new(request.notices, device_setting_notices(station));
   // The reply contains the notice that the datum is missing. The stored run does not need this
-  // notice, because its options contain the datum.
+  // notice, because its options contain the kind of its datum.
   RunRequest told = request;
   if (auto missing = station.encoder().notice) told.notices.push_back(std::move(*missing));
   auto done = answer_with_run(std::move(reply), station.config().rig.axis, told);

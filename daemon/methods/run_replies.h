@@ -35,8 +35,8 @@ inline RunDone answer_with_run(rpc::Reply reply, Axis axis, const RunRequest& re
   };
 }
 
-// The reply for a run that has ended. The database contains its members. If the run cannot be read,
-// these members are null; the reply is no error, because the run has ended.
+// The reply for a run that has ended. State, superseded run and notices are read from the database.
+// If they cannot be read, they are null; the reply is no error, because the run has ended.
 inline std::string ended_reply(store::Store& reader, std::int64_t id, Axis axis) {
   auto stored = reader.run_header(id);
   JsonWriter json;

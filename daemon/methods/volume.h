@@ -14,7 +14,7 @@ std::optional<std::int64_t> expected_generation_param(const rpc::Params& params)
 // Whether the parameters contain {"axis": "volume"}.
 bool is_volume(const rpc::Params& params);
 void deactivate_volume(Methods& m, const rpc::Params& params, rpc::Reply reply);
-// null: no volumetric table is active.
+// Writes null if no volumetric table is active.
 void write_volume_status(JsonWriter& json, const Methods& m);
 Result<std::string> volume_grid(const Methods& m, const rpc::Params& params);
 Result<std::string> volume_at(const Methods& m, const rpc::Params& params);

@@ -60,9 +60,9 @@ Status check_file(const FileUser& user, const std::string& path, int place) {
 }
 
 // Opens the path with O_PATH first. Such a descriptor reads nothing, does not block and does not
-// affect locks on the file. A normal descriptor would release locks of mdofd when it is closed.
-// After the check, the same file is opened for reading, even if the path refers to another file
-// now.
+// affect locks on the file. If a normal descriptor of a file is closed, the locks of mdofd on this
+// file are released. After the check, the same file is opened for reading, even if the path refers
+// to another file now.
 Result<Descriptor> open_checked(const FileUser& user, const std::string& path) {
   const Descriptor place(::open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
   if (place.get() < 0) return cannot_open(path, errno);

@@ -1,5 +1,5 @@
-// Opens the files that clients name. mdofd opens each file only once and then checks the
-// permissions of the open file. It reads the file only through the descriptor.
+// Opens the files that clients name. mdofd opens each path only once, checks the permissions of the
+// open file, and reads the file only through its descriptor.
 #pragma once
 
 #include <sys/types.h>

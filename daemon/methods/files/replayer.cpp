@@ -30,7 +30,8 @@ struct Replayer::Shared {
   std::mutex mutex;  // protects ended and working
   std::condition_variable ended;
   bool working = false;
-  // Use it only with the mutex locked and `stopping` false; later it is destroyed.
+  // Use the storekeeper only while the mutex is locked and `stopping` is false. When `stopping` is
+  // true, it can be destroyed.
   Storekeeper& keeper;
 };
 

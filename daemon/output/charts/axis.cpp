@@ -10,7 +10,7 @@ namespace mdof::charts {
 namespace {
 
 constexpr double kLargest = 1e300, kLeastSpan = 1e-290;
-constexpr double kFarDecade = 1e150;  // limit on a logarithmic axis; ratios do not overflow
+constexpr double kFarDecade = 1e150;  // limit on a logarithmic axis, so that ratios do not overflow
 constexpr double kLabelGap = 14, kTickDistance = 28;  // px
 constexpr int kMostTicks = 10;
 constexpr double kLog2Of10 = 3.321928094887362, kLog10Of2 = 0.3010299956639812;

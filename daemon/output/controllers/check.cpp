@@ -24,12 +24,12 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
 
 // The simulated machine: the factors (+1 or -1) with which an error of the axis `along`, and a
 // correction of the axis `command`, move the tool relative to the work. The factors follow from the
-// bodies in the chain. They do not use the factor of the export, because the test must detect
-// errors in it.
+// bodies in the chain. The factor of the export is not used, because the test must detect errors in
+// this factor.
 struct Machine {
   double error = 1, command = 1;
   bool own = false;  // true: the correction moves the measured axis itself, and so changes the
-                     // position of E
+                     // position at which the error acts
 };
 
 Machine machine_of(const CompensationTable& table, const AppliedCorrection& applied) {
@@ -64,7 +64,7 @@ class Trial {
 
   // The largest error over all test points and both approaches. `sign`: 1: with the correction, 0:
   // without it, -1: with the wrong sign. `swapped`: with the correction of the other approach.
-  // `one_way`: uses the mean of both approaches.
+  // `one_way`: uses the mean error of both approaches.
   double residual(double sign, bool swapped, bool one_way) const {
     double largest = 0;
     for (const double x : places()) {
@@ -95,8 +95,8 @@ class Trial {
   }
   // Whether at least one test point is inside the measured range and inside the range of the file.
   bool has_test_points() const { return !places().empty(); }
-  // Largest |E dE/dx|. If the correction moves the measured axis, the error acts at another
-  // position, and changes by about this value.
+  // Largest |E dE/dx|, where E is the error at the position x. If the correction moves the measured
+  // axis, the error acts at another position, and changes by about this value.
   double second_order() const {
     if (!machine_.own) return 0;
     double largest = 0, steepest = 0;

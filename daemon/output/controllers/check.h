@@ -10,7 +10,8 @@
 
 namespace mdof::controllers {
 
-// The result of the same test with a deliberate mistake in the correction. The test must detect it.
+// The result of the same test with a deliberate mistake in the correction. The test must detect the
+// mistake.
 struct Control {
   std::string name;        // "wrong sign", "forward and reverse swapped"
   double residual = 0;     // m or rad
@@ -21,15 +22,15 @@ struct Control {
 struct CheckedError {
   std::string error;  // "EXX"; for a volumetric table the corrected command, "X"
   bool angle = false;
-  // The test uses the mean of both approaches, because of ExportOptions::one_approach.
+  // The test uses the mean error of both approaches, because of ExportOptions::one_approach.
   bool one_way = false;
   double before = 0;  // largest error without the correction, m or rad
   // Largest error with the correction, over both approaches, at the points and between them.
   double residual = 0;
-  // Errors that the file cannot correct, m or rad. They are part of `residual`. - by_reversal: the
-  // error that remains in each approach if the file has one value for both approaches. It is not
-  // part of `residual` if one_way is true. - between_nodes: the error between the nodes of a
-  // volumetric table.
+  // Errors that the file cannot correct, m or rad.
+  // - by_reversal: the error that remains in each approach if the file has one value for both
+  //   approaches. It is part of `residual`, unless one_way is true.
+  // - between_nodes: the error between the nodes of a volumetric table. It is part of `residual`.
   double by_reversal = 0, between_nodes = 0;
   // The error after a reversal whose correction LinuxCNC does not apply, because its ramp does not
   // start (ExportOptions::ramps), m or rad. It is also part of `residual`.

@@ -9,7 +9,8 @@
 namespace mdof::controllers {
 
 // axeserr.dat: a line "[X]", then rows of nominal position, forward error and backward error in mm.
-// The manual does not state the sign; its example shows that the value is + E.
+// The manual does not state the sign; its example shows that the value is + E (E = actual -
+// nominal).
 Result<Export> write_weihong(const std::vector<CompensationTable>& tables,
                              const ExportOptions& options);
 Result<std::vector<AppliedCorrection>> read_weihong(const std::vector<ControllerFile>& files);

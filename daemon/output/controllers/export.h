@@ -28,7 +28,7 @@ namespace mdof::controllers {
 // One error of one axis as a function of the position of this axis.
 struct Series {
   std::string error;   // "EXX"
-  char along = 'X';    // axis whose position is x of the series
+  char along = 'X';    // axis whose positions are in position_m
   char command = 'X';  // axis whose command gets the correction
   bool angle = false;
   int factor = 0;                                    // correction = factor * E; 0: unknown
@@ -37,7 +37,7 @@ struct Series {
 };
 
 struct ExportOptions {
-  // Largest interpolation error by omitting points, m or rad; 0: keep all points.
+  // Largest permitted interpolation error from omitted points, m or rad; 0: keep all points.
   double tolerance_m = 0;
   // Write one value for both approaches, although the reversal error remains.
   bool one_approach = false;
@@ -60,7 +60,7 @@ struct ExportOptions {
   // Limits of the residual in the self-test.
   // - residual_m: the residual may be at most residual_m + tolerance_m (rad for angles).
   // - residual_share: the residual may be at most this share of the error without correction. If
-  // this is less than the step of the numbers in the file, the step is the limit.
+  // this part of the error is less than the step of the numbers in the file, the step is the limit.
   double residual_m = algo::ResidualLimits{}.most_m;
   double residual_share = algo::ResidualLimits{}.share;
   // LinuxCNC only. `joints`: the joints that get the table of an axis; a gantry axis has two.
@@ -118,7 +118,7 @@ struct SquareAxes {
   double EC0Y_rad = 0;
   Budget budget;  // budget of EC0Y
   Chain machine;
-  StatedAt at = kAtFixture;  // point at which the angle holds
+  StatedAt at = kAtFixture;  // reference point of the angle
 };
 
 // `write` makes the files. `read` returns the corrections that the controller applies with these
@@ -149,7 +149,8 @@ struct Format {
   const char* limits;
   const char* sense;    // what the values in the file are, and their sign
   const char* source;   // source of this meaning
-  bool sign_confirmed;  // false: the user must allow the export explicitly
+  bool sign_confirmed;  // whether the sign in `sense` is confirmed; if not, the user must allow the
+                        // export explicitly
   double quantum_m;     // step of the numbers in the file, m; rad for a squareness
   bool takes_home;      // subtracts the correction at ExportOptions::home_m
   AxisFiles axes;       // A format supports axes, volume, square, or axes and volume.
@@ -160,7 +161,7 @@ struct Format {
                                  // corrects the reversal error
 };
 
-// In the order of the help.
+// All formats, in the order in which the help lists them.
 const std::vector<Format>& formats();
 // Controllers for which mdof writes no files: the reason, and what the user can do instead.
 struct UnsupportedController {

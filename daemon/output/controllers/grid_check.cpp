@@ -10,11 +10,12 @@ namespace {
 constexpr double kRoundingOfGrid_m = 1e-12;
 constexpr std::string_view kCommands = "XYZ";
 
-// Largest errors of one axis: without the correction, with it, and with deliberate mistakes in it.
+// Largest errors of one axis: without the correction, with the correction, and with deliberate
+// mistakes in the correction.
 struct Residuals {
   double before = 0, with = 0, wrong_sign = 0;
   std::optional<double> exchanged;  // X and Y exchanged; nullopt: impossible
-  double exchange = 0;              // largest change of the correction by this mistake
+  double exchange = 0;              // largest change of the correction by this exchange
 };
 
 // Errors that remain because of the table itself; no file can correct them.

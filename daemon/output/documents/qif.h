@@ -3,10 +3,9 @@
 //
 // Each figure of a run, and each error at each target and approach, is a user-defined
 // characteristic in µm or µrad; a measured point has five of them, one for each error.
-// combinedUncertainty is the standard uncertainty u. Its mean error is 0, because known systematic
-// errors have been corrected. The attributes U, k and coverage_probability state the expanded
-// uncertainty. A point
-// without errors has no value; its description gives the reason.
+// combinedUncertainty is the standard uncertainty u; its attribute meanError is 0, because known
+// systematic errors have been corrected. The attributes U, k and coverage_probability state the
+// expanded uncertainty. A point without errors has no value; its description gives the reason.
 #pragma once
 
 #include <string>

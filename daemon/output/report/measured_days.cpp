@@ -30,7 +30,7 @@ std::string text_of(year_month_day day) {
          two(static_cast<unsigned>(day.month())) + "-" + two(static_cast<unsigned>(day.day()));
 }
 
-// The day on which a run ended that began at `began` ("2026-11-26T10:47:33…").
+// The day on which a run ended. `began`: start of the run ("2026-11-26T10:47:33…").
 sys_days last_day(const std::string& began, const std::vector<MeasuredPoint>& points) {
   const double took_s =
       points.empty() ? 0 : ns_to_s(points.back().point.end_ns - points.front().point.begin_ns);

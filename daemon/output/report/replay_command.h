@@ -10,8 +10,8 @@ namespace mdof::report {
 // The name of the rig file in the command; empty: the run has no rig.
 std::string rig_file(const RunHeader& run);
 
-// A shell command with the rig and the options of the run. They override the rig and the options in
-// the recording.
+// A shell command with the rig and the options of the run. This rig and these options override the
+// rig and the options in the recording.
 std::string replay_command(const Run& run);
 
 }  // namespace mdof::report

@@ -17,7 +17,7 @@
 namespace mdof::charts {
 
 // The change "after - before" of each error at each target and approach, in µm or µrad, against the
-// position in mm. Bands show U of the difference; the two runs count as independent.
+// position in mm. Bands show U of the change; U assumes that the two runs are independent.
 // has_comparison() is false if the runs have no common target.
 bool has_comparison(const daemon::Comparison& comparison);
 std::string comparison_svg(const daemon::Comparison& comparison, output::Language language);

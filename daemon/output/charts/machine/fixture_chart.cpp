@@ -40,7 +40,7 @@ Range range_in_view(const Rig& rig, std::size_t axis, double span_mm) {
   return range;
 }
 
-constexpr double kNamePx = 14;  // side by side, if one probe covers another
+constexpr double kNamePx = 14;  // shift between the names of probes at the same place of a view
 
 Place place_of(const Panel& panel, const Probe& probe, std::size_t up) {
   return panel.at(to_mm(probe.position_m[0]), to_mm(probe.position_m[up]));

@@ -21,8 +21,8 @@ std::string run_title(const RunHeader& header, const std::string& what, Language
 // the same bytes.
 std::string about_run(const RunHeader& header, Language language);
 
-// Warnings for the top of a chart. Puts a warning that u contains noise only before `marks`, if
-// this is true.
+// Warnings for the top of a chart. If u contains noise only, the first warning states this. The
+// warnings in `marks` follow.
 std::vector<std::string> with_noise_only_mark(NoiseOnly noise_only, std::vector<std::string> marks,
                                               output::Language language);
 std::vector<std::string> with_noise_only_mark(bool noise_only, std::vector<std::string> marks,

@@ -30,7 +30,7 @@ std::vector<Mark> marks_of_series(const RawSeries& series, std::int64_t begin_ns
     Mark mark;
     mark.x = ns_to_s(series.time_ns[i] - begin_ns);
     mark.y = series.value[i];
-    mark.direction = 1;  // the value for a disc (draw_mark())
+    mark.direction = 1;  // draw_mark() draws a disc for this value
     mark.row = i;
     const Quality quality = series.quality[i];
     if (!std::isfinite(mark.y))

@@ -59,7 +59,7 @@ std::string table_svg(const CompensationTable& table, const std::vector<std::str
 struct SquarenessResults {
   Squareness squareness;
   Budget budget;     // budget of EC0Y, EB0Z or EA0Z
-  Run run_a, run_b;  // their errors are stated at the fixture
+  Run run_a, run_b;  // the reference point of their errors is the fixture
 };
 // The squareness of a pair of axes. `results` is nullopt if the squareness cannot be calculated.
 struct SquarenessOfPair {

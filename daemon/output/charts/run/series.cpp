@@ -123,7 +123,7 @@ void draw_band_of(Svg& svg, const Panel& panel, const std::vector<Mark>& marks, 
                    [](const Column& a, const Column& b) { return a.x < b.x; });
   if (band.empty()) return;
   std::vector<Place> outline;
-  const double wing = band.size() == 1 ? 2 * kMarkPx : 0;  // one target
+  const double wing = band.size() == 1 ? 2 * kMarkPx : 0;  // a band of one target gets a width
   for (const Column& c : band) {
     const Place at = panel.at(c.x, c.high);
     if (wing > 0) outline.push_back({at.x - wing, at.y});

@@ -17,7 +17,7 @@ namespace mdof::charts {
 struct Mark {
   double x = 0, y = 0;
   double U = std::nan("");
-  bool is_standard = false;  // `U` contains the standard uncertainty u
+  bool is_standard = false;  // true: the member `U` contains the standard uncertainty u
   int direction = 0;
   int target = 0;
   std::size_t row = 0;  // index of the point in the result, from 0; attribute data-row
@@ -40,21 +40,22 @@ Range with_room(const Range& range);
 // - a point with flags: its symbol with a cross
 // - a point without a value (y is NaN): a cross at the upper edge of the panel
 void draw_mark(Svg& svg, const Panel& panel, const Mark& mark);
-// Draws all marks. If an approach has more than kMostMarks, the function divides the panel into
-// columns that are 1 px wide, and draws a line from the minimum to the maximum of each column.
-// Outliers stay visible.
+// Draws a symbol for each mark. If an approach has more than kMostMarks marks, the function instead
+// divides the panel into columns that are 1 px wide, and draws a line from the minimum to the
+// maximum of each column. Outliers stay visible.
 void draw_marks(Svg& svg, const Panel& panel, std::span<const Mark> marks);
 bool are_drawn_as_columns(std::span<const Mark> marks);
 
-// Draws a band for each approach. At each target (or column, if the marks are drawn as columns) the
-// band reaches from the smallest y - U to the largest y + U. Draws no band if U is unknown.
+// Draws a band of U for each approach. At each target (or column, if the marks are drawn as
+// columns) the band extends from the smallest y - U to the largest y + U. Draws no band if U is
+// unknown.
 void draw_U_bands(Svg& svg, const Panel& panel, std::span<const Mark> marks);
 
 const char* line_of(int direction);  // CSS classes of a line: solid for forward, dashed for reverse
 
-// Draws the title ("run 3, axis X"), the subtitle below it, and then `marks` ("SIMULATED: …") in
-// the alarm colour. Draws at most three marks and states the number of the other marks. Returns the
-// lower edge of this area, px.
+// Draws the title ("run 3, axis X"), the subtitle below it, and then the warnings `marks`
+// ("SIMULATED: …") in the alarm colour. Draws at most three warnings and states the number of the
+// other warnings. Returns the lower edge of this area, px.
 double draw_run_head(Svg& svg, const std::string& title, const std::string& subtitle,
                      const std::vector<std::string>& marks, Language language);
 double run_head_height(const std::vector<std::string>& marks);

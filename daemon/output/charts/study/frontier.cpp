@@ -42,8 +42,8 @@ void add_point(std::vector<Frontier>& all, const Allocation& allocation,
   at->points.push_back({pair[0].value, pair[1]});
 }
 
-// Whether points are not drawn. If the second tolerance has no influence, its value is infinite,
-// and the point is not drawn.
+// Whether some points of a frontier are not drawn. If the second tolerance has no influence, its
+// value is infinite, and the point is not drawn.
 bool leaves_some_out(const StudyResult& result) {
   const auto left_out = [](const Allocation& a) {
     return std::any_of(a.frontier.begin(), a.frontier.end(),

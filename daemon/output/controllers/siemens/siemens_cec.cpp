@@ -30,7 +30,8 @@ struct CecTable {
 };
 
 constexpr int kDecimalsOfAxis = 6;  // mm
-// More decimals of values in mm, because the control adds about ten tables.
+// Also decimals of a value in mm. There are more, because the control adds the values of about ten
+// tables.
 constexpr int kDecimalsOfVolume = 9;
 
 std::string cec_text(std::size_t t, const CecTable& table, const std::string& error,
@@ -256,7 +257,8 @@ Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile
 namespace {
 
 constexpr std::string_view kLinearAxes = "XYZ";
-// Accuracy with which the sum represents the common effect of two axes.
+// Accuracy with which the sum of products represents a correction that depends on two axes
+// together.
 constexpr double kProductAccuracy_m = 2e-9;
 
 // Converts factors in √m to the numbers in the file. The product of two such numbers is in mm.

@@ -10,7 +10,7 @@ struct Row {
   int code;
 };
 
-// The server sends the code in the first row of an ErrorCode.
+// If an ErrorCode has several rows, the server sends the code in the first of these rows.
 constexpr std::array<Row, 13> kTable{{
     {ErrorCode::usage, kInvalidParams},
     {ErrorCode::changed, kChanged},

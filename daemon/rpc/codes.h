@@ -26,7 +26,7 @@ inline constexpr int kIo = -32011;             // a device, the file system or t
 inline constexpr int kCheck = -32012;          // the result does not pass a check
 inline constexpr int kReplyTooLarge = -32013;  // the client must request less: "offset", "count"
 
-// A code that a client may distinguish, as rpc.discover describes it.
+// An error code as rpc.discover describes it.
 struct CodeMeaning {
   const char* name;
   int code;

@@ -16,7 +16,7 @@ struct FairShare {
   std::chrono::nanoseconds end{0};
 };
 
-// Thread-bound, or protected by the owner's lock. It reads no clock: the caller measures the
+// Thread-bound, or protected by the owner's lock. The class reads no clock: the caller measures the
 // duration of a turn.
 template <class T>
 class FairOrder {

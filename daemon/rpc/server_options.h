@@ -21,8 +21,8 @@ struct ServerOptions {
   std::size_t max_batch = 100;              // requests in a batch
   std::size_t max_id_bytes = 256;           // length of an id as JSON text
 
-  // Limits of one client.
-  // A request only begins if its largest reply has space.
+  // Limits of each client. Replies that the client has not read yet. A request begins only if the
+  // largest possible reply still fits.
   std::size_t max_unsent_bytes = 1024 * 1024;
   std::chrono::microseconds turn{100};  // duration of a turn; then the other clients get a turn
   std::size_t max_subscriptions = 32;
@@ -52,8 +52,8 @@ struct ServerOptions {
 
   // Limits of browsers. Connections of browsers do not count in max_connections. max_line_bytes
   // limits the body of a request. request_timeout limits the time for the head of a request, and
-  // the time for its body. If there are more connections of browsers, the server closes the one
-  // that has been idle longest.
+  // the time for its body. If a further browser connects, the server closes the connection of a
+  // browser that has been idle longest.
   std::size_t max_http_connections = 128;
   std::size_t max_http_streams = 64;  // maximum number of connections with GET /events
   std::size_t max_http_head_bytes = 8 * 1024;

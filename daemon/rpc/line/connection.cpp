@@ -110,7 +110,7 @@ void Connection::send_due() {
   }
 }
 
-// Decides what the connection waits for: writing, another turn, its end, or reading.
+// Decides what the connection does next: write, take another turn, close, or read.
 void Connection::wait() {
   if (closed_) return;
   if (output_.unsent() > 0) wait_writable();

@@ -26,7 +26,7 @@ void ServerCore::adopt(int socket) {
 
 void ServerCore::request_turn(std::shared_ptr<Connection> connection) {
   if (connection.get() == in_turn_) {
-    again_ = true;  // give_turn() adds it to the queue at the end of this turn
+    again_ = true;  // give_turn() adds the connection to the queue at the end of this turn
     return;
   }
   const FairShare share = connection->share();

@@ -22,9 +22,9 @@ class EventLoop {
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
 
-  // Runs functions until stop() is called, also if there is nothing to do.
+  // Runs functions, and waits if there is none to run, until stop() is called.
   void run();
-  // Thread-safe. run() returns after the function that runs at this time.
+  // Thread-safe. run() returns when the function that it runs now has ended.
   void stop();
   // Thread-safe. Functions from one thread run in the order in which this thread posted them. Does
   // nothing after the loop has been destroyed.

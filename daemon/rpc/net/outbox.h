@@ -21,7 +21,7 @@ class Outbox {
   void forget_sent();
 
   std::string text_;
-  std::size_t sent_ = 0;  // bytes of text_
+  std::size_t sent_ = 0;  // number of bytes of text_ that were sent already
 };
 
 }  // namespace mdof::rpc

@@ -8,8 +8,8 @@ namespace mdof::rpc {
 class Executor {
  public:
   virtual ~Executor() = default;
-  // Thread-safe. Runs `work` on this thread: at once if the caller is on this thread, otherwise
-  // later. Drops `work` if the thread accepts no more work.
+  // Thread-safe. Runs `work` on the thread of the sessions: at once if the caller is on that
+  // thread, otherwise later. Drops `work` if that thread accepts no more work.
   virtual void dispatch(std::function<void()> work) = 0;
 };
 

@@ -47,9 +47,10 @@ Service::Service(std::shared_ptr<Executor> loop, const MethodTable& table, Serve
       dispatcher_(std::move(loop), table, options_),
       topics_(options_) {}
 
-// Which of the limits counts for a new client. A client in the group kept_for_group gets the
-// reserved place only if all ordinary places are in use. Browsers do not use these places, so that
-// they cannot exclude the machine's control; HttpServer limits their number.
+// The kind of place that a new client gets; each kind has its own limit. A client in the group
+// kept_for_group gets the reserved place only if all ordinary places are in use. Browsers do not
+// use these places, so that they cannot exclude the machine's control; HttpServer limits their
+// number.
 Result<Service::Place> Service::place_for(const Peer& peer) const {
   if (peer.http != Peer::Http::no) return Place::http;
   std::size_t of_user = 0, ordinary = 0, kept = 0;

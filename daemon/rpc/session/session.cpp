@@ -72,8 +72,8 @@ void Session::refuse(std::string_view why) {
   end_with(kInvalidRequest, "Invalid Request", why);
 }
 
-// Another client can then connect. If the client uses the closed connection again, it reads the
-// reason.
+// Ends the session, so that another client can connect. If the idle client uses the closed
+// connection again, it reads the reason.
 void Session::end_idle() {
   end_with(kBusy,
            "the connection was idle for " +

@@ -25,8 +25,9 @@ class Transport {
   // Sends one message. The transport adds the line end, or what else separates messages.
   virtual void send(std::string_view message) = 0;
   virtual std::size_t unsent() const = 0;  // bytes that were not sent yet
-  // Asks for a turn, because there is something to send, or because a request has space again. The
-  // function must not begin the turn itself, because it is called during other work.
+  // Asks for a turn, because there is something to send, or because the reply to a request has
+  // space again. The function must not begin the turn itself, because it is called during other
+  // work.
   virtual void wake() = 0;
 };
 
@@ -37,7 +38,8 @@ struct SessionParts {
   const ServerOptions& options;
 };
 
-// Thread-bound: the event loop. The transport releases the session before it is destroyed itself.
+// Thread-bound: the event loop. The transport releases the session before the transport is
+// destroyed.
 class Session final : public Caller,
                       public ReplySink,
                       public Subscriber,
@@ -64,8 +66,9 @@ class Session final : public Caller,
   std::optional<Clock::time_point> send_due(Clock::time_point now);
 
   bool has_subscriptions() const { return !subscriptions.empty(); }
-  bool has_nothing_pending() const;           // no open calls, no subscriptions
-  bool is_idle(Clock::time_point now) const;  // whether it was idle for longer than idle_timeout
+  bool has_nothing_pending() const;  // no open calls, no subscriptions
+  bool is_idle(
+      Clock::time_point now) const;  // whether the client was idle for longer than idle_timeout
 
   // Sends the reason and ends the session.
   void refuse(std::string_view why);

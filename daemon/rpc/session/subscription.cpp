@@ -9,7 +9,7 @@
 namespace mdof::rpc {
 namespace {
 
-// Age at which a value is old; values that are made every 20 ms are never old.
+// Age at which a value is old. If a new value is made every 20 ms, no pending value becomes old.
 constexpr std::chrono::milliseconds kOld{50};
 
 }  // namespace

@@ -15,7 +15,7 @@
 
 namespace mdof::rpc {
 
-// It reads no clock: the caller states the time.
+// The class reads no clock: the caller states the time.
 class Subscription {
  public:
   using Time = std::chrono::steady_clock::time_point;

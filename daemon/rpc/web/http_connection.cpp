@@ -153,7 +153,7 @@ void HttpConnection::begin_stream() {
   if (const auto error = subscribe_all()) return refuse(*error);
   const auto resumed = server_.kept.resume(head_->last_event_id);
   seen_ = resumed.after;
-  // Limits the data that waits in the kernel, because it becomes old there.
+  // Limits the data that waits in the kernel, because this data would be old when it is sent.
   const int bytes = 128 * 1024;
   (void)::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes);
   append_stream_head(output_.text());

@@ -15,7 +15,7 @@ struct EventQuery {
   std::chrono::milliseconds interval{100};  // shortest time between two values of a topic
 };
 
-// "topics=live.update,run.event&interval_ms=100", may be percent-encoded. Error: 400.
+// `query`: "topics=live.update,run.event&interval_ms=100"; it may be percent-encoded. Error: 400.
 tl::expected<EventQuery, HttpError> read_event_query(std::string_view query);
 
 }  // namespace mdof::rpc

@@ -9,7 +9,8 @@
 
 namespace mdof::daemon {
 
-// Does not read clocks. The caller reads both clocks at the same moment.
+// This class reads no clocks. The caller reads the UTC clock and the clock since boot at the same
+// moment.
 class ClockWatch {
  public:
   // The step of the UTC clock since the previous call, ns. nullopt if the step is 50 ms or less:

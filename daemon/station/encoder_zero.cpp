@@ -178,7 +178,7 @@ void EncoderZero::lose(const std::string& device) {
   runs_.clear();
   counts_ = true;
   found_ = false;
-  // The offset was valid only for the mark.
+  // The offset was valid only for a count from the reference mark.
   if (datum_.kind == EncoderDatum::Kind::index) datum_.offset_m = 0;
   datum_.kind = EncoderDatum::Kind::none;
   datum_.device = device;

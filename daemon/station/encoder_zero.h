@@ -17,9 +17,9 @@
 
 namespace mdof::daemon {
 
-// The current datum of the encoder. `notice`: the datum is missing or was lost. `note`: the text of
-// the notice; without a notice, a text that states who set the position and when; "" if no position
-// was set.
+// The current datum of the encoder. `notice`: set if the datum is missing or was lost. `note`: the
+// text of the notice; without a notice, a text that states who set the position and when; "" if no
+// position was set.
 struct EncoderState {
   EncoderDatum datum;
   std::optional<Notice> notice;

@@ -22,7 +22,7 @@ struct Station::OpenRun {
   std::chrono::steady_clock::time_point recorded;
   // Number of blocks for which the queue of the store had no space.
   std::uint64_t blocks_not_recorded = 0;
-  // Begin of the last stop that was reported as left out.
+  // Time of the beginning of the last stop that was reported as left out.
   std::optional<std::int64_t> left_out_ns = {};
   TroubleLog troubles = {};  // troubles of the devices after the run began
   EncoderDatum datum = {};   // datum of the positions

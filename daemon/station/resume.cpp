@@ -10,8 +10,8 @@ namespace mdof::daemon {
 namespace {
 
 constexpr std::chrono::milliseconds kLogTimeout{1000};
-// Pause between the two parts of the run. It is longer than the differences between the times of
-// the devices of an axis.
+// Shortest pause between the recorded times of the two parts of the run. The pause is longer than
+// the differences between the times of the devices of an axis.
 constexpr std::int64_t kPause_ns = 5'000'000'000;
 constexpr int kBlocksPerCommit = 64;
 

@@ -11,8 +11,8 @@
 namespace mdof::daemon {
 namespace {
 
-// A run with the first point and then the new points. The drift of the run begins at the first
-// point.
+// A run with the first point and then the new points. The first point is needed, because the drift
+// of the run is counted from it.
 Run first_and_new(std::int64_t run, const Rig& rig, Model model,
                   const std::vector<MeasuredPoint>& points, std::size_t first_row) {
   Run part;

@@ -13,7 +13,8 @@ namespace mdof::daemon {
 // Messages for the topic run.event with the points from index `first_row`:
 //   {"type": "points", "run", "axis", "offset", "reference", "u_covers", "points"}
 // If one line cannot contain all points, several messages are returned. A continued run begins with
-// many points. `points`: all points of the run until now, stated at the fixture.
+// many points. `points`: all points of the run until now; the fixture is the reference point of
+// their errors.
 std::vector<std::string> points_messages(std::int64_t run, const Rig& rig, Model model,
                                          const std::vector<MeasuredPoint>& points,
                                          std::size_t first_row);

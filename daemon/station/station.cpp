@@ -62,7 +62,8 @@ Station::~Station() {
   if (config_.live())
     for (auto& acquisition : acquisitions_) acquisition->stop();
   shared_->queue.close();
-  // The thread ends a run in progress; later no thread starts or stops a device.
+  // The thread ends a run in progress. After the thread has ended, no thread starts or stops a
+  // device.
   measure_thread_.join();
   acquisitions_.clear();
 }

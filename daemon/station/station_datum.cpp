@@ -1,6 +1,6 @@
 // Functions of Station that set the axis position. The measure thread calculates the setting. The
-// setting becomes valid when the store has stored it; until then no run can begin. Also the
-// functions for the reference mark of an encoder.
+// setting becomes valid when the store has stored it; until then no run can begin. This file also
+// contains the functions for the reference mark of an encoder.
 #include "daemon/history.h"
 #include "daemon/paths.h"
 #include "daemon/station/open_run.h"
@@ -61,8 +61,8 @@ void Station::put_datum(const Result<DatumSetting>& stored, const HistoryEntry& 
 }
 
 // The live view starts again, as in put_datum(). A run cannot continue, because its positions have
-// another origin. The difference of the two origins is not known well enough: its uncertainty is
-// the distance between two readings.
+// another origin. The difference of the two origins is not known well enough: its uncertainty is as
+// large as the distance between two readings.
 void Station::take_mark(const std::string& device) {
   if (!zero_.pass_mark(device, utc_now())) return;
   view_.reset();

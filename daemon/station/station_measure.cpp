@@ -40,7 +40,7 @@ PipelineOptions without_points(PipelineOptions options) {
   return options;
 }
 
-// Whether the points that were sent to the store are bit-identical with the result.
+// Whether the points that were sent to the store are bit-identical with the points of the result.
 bool same_points(const std::vector<MeasuredPoint>& stored,
                  const std::vector<MeasuredPoint>& result) {
   store::ResultHash a, b;
@@ -50,7 +50,7 @@ bool same_points(const std::vector<MeasuredPoint>& stored,
 }
 
 // Whether the approach of this point is only assumed. The next motion of the axis shows the
-// approach; the point is not stored before.
+// approach; until then, the point is not stored.
 bool approach_assumed(const MeasuredPoint& p) {
   return algo::has_flag(p.point, Flag::approach_assumed);
 }
@@ -158,8 +158,8 @@ void Station::handle(Samples& samples) {
   shared_->spare.put(std::move(samples.block));
 }
 
-// A replay is read once for each run. The queue can contain samples of an earlier reading; they do
-// not belong to this run.
+// A replay is read once for each run. The queue can contain samples of an earlier pass through the
+// log; these samples do not belong to this run.
 bool Station::is_this_pass(std::uint64_t pass) const {
   return config_.live() || pass == acquisitions_.front()->pass();
 }
@@ -306,7 +306,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
 void Station::finish(RunState state, Notices why, const drivers::SourceInfo& source, RunDone done,
                      const std::optional<HistoryEntry>& action) {
   if (!config_.live())
-    acquisitions_.front()->request_stop();  // samples that arrive later have the same pass number
+    acquisitions_.front()->request_stop();  // later samples would have the pass number of this run
   auto result = open_->pipeline.finish();
   // The last stop becomes a point only when the pipeline is finished.
   record();

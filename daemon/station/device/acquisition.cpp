@@ -20,8 +20,8 @@ using std::chrono::steady_clock;
 constexpr milliseconds kReadTimeout{100};
 constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{250};
 constexpr milliseconds kFullQueueSleep{10}, kRefresh{1000};
-// Largest time for opening and set-up. Some devices need seconds; the watchdog must not end mdofd
-// then.
+// Largest time for opening and set-up of a device. Some devices need seconds, and the watchdog must
+// not end mdofd during this time.
 constexpr milliseconds kOpening{20'000};
 
 // The sampling rate is checked over kWindow. A device becomes slow below kSlowShare of its nominal
@@ -88,13 +88,13 @@ void Acquisition::fail(const std::string& error) {
   }
   if (lost_since_) return;  // the error is reported already
   lost_since_ = steady_clock::now();
-  // The trouble contains the name of the device already.
+  // The trouble states the device in its own member, so the name is removed from the text.
   const std::string who = "device \"" + spec_.name + "\"";
   const std::size_t begin = error.starts_with(who) ? error.find_first_not_of(": ", who.size()) : 0;
   report(Trouble::Kind::lost, begin == std::string::npos ? error : error.substr(begin));
 }
 
-// Also adds the trouble to the status, for clients that connect later.
+// Reports a trouble. Also adds the trouble to the status, for clients that connect later.
 void Acquisition::report(Trouble::Kind kind, const std::string& text, const std::string& channel) {
   const Trouble trouble{kind, spec_.name, text, utc_now(), channel};
   {
@@ -326,7 +326,8 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
 }
 
 // Adds to block.lost the dropped scans, and the scans that were lost while the device was not open.
-// If the device does not count the latter, at least one lost scan is added.
+// If the device does not count the scans that were lost while it was not open, their number is
+// estimated from the time and the rate; it is at least 1.
 void Acquisition::note_loss(SampleBlock& block) {
   const std::lock_guard lock(status_mutex_);
   measure_rate(block);

@@ -30,8 +30,8 @@ struct DeviceStatus {
   std::uint64_t reopened = 0;  // how often the device was opened again
 };
 
-// Receives the samples. All functions are called on the acquisition thread. `pass`: a replay is
-// read once for each run; this is the number of the reading.
+// Receives the samples. All functions are called on the acquisition thread. `pass`: number of the
+// pass through the log, because a replay reads the log once for each run.
 struct DeviceSink {
   // True: the receiver has taken the block. `block` is then an older block, so that its memory can
   // be used again. False: the queue had no space within the time `wait`; `block` did not change.
@@ -53,7 +53,7 @@ class DeviceReader {
   virtual ~DeviceReader() = default;  // calls stop()
   virtual void start() = 0;
   virtual void stop() = 0;          // afterwards no function of the sink is called
-  virtual void request_stop() = 0;  // the thread stops soon; does not wait for it
+  virtual void request_stop() = 0;  // asks the thread to stop, and does not wait for the thread
   // A user has set the position of the axis, so the datum of the encoder is valid again.
   virtual void trust_count() = 0;
   virtual void wake() = 0;  // a device was plugged in: open the device now, without further waiting

@@ -84,8 +84,8 @@ const FactKind* kind_named(std::string_view name) {
   return nullptr;
 }
 
-// Also appends the storage class of the value. Otherwise a text that was changed to equal bytes
-// would have the same hash, but queries for the text would not find it.
+// Also appends the storage class of the value. Otherwise a text that was replaced by a BLOB with
+// the same bytes would have the same hash, but queries for the text would not find the BLOB.
 void append_value(const Statement& row, int column, std::string& to) {
   const char storage = row.storage_class(column);
   to += storage;

@@ -37,7 +37,7 @@ class ResultHash {
 };
 
 std::string result_sha256(const Run& run);
-// The first 8 bytes of the SHA-256 of one point, with the bytes of ResultHash.
+// The first 8 bytes of the SHA-256 of the bytes that ResultHash uses for one point.
 std::uint64_t row_hash(const MeasuredPoint& point);
 
 }  // namespace mdof::store

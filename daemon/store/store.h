@@ -61,7 +61,8 @@ struct ActiveTable {
   std::int64_t generation = 0;
   std::string actor;
   std::string activated_utc;
-  bool doubtful = false;  // whether the runs of the table are doubtful; the store does not set it
+  bool doubtful =
+      false;  // whether the runs of the table are doubtful; the store does not set this member
 };
 
 struct ActiveVolumetric {

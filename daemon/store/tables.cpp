@@ -131,7 +131,7 @@ Squareness squareness_from(const Statement& row) {
   if (row.storage_class(13) == 'i' || row.real(13) > 0) s.artefact.u_rad = row.real(13);
   s.artefact.corner = static_cast<int>(row.integer(14));
   s.axes = {axis_from(row.text(16)).value_or(Axis::x), axis_from(row.text(17)).value_or(Axis::y)};
-  // Row of schema 2.
+  // Rows of schema 2 (reference point: carriage) contain form_rad in the column of u_error_rad.
   if (row.text(15) == "carriage") s.form_rad = std::exchange(s.u_error_rad, kNotKnown);
   return s;
 }

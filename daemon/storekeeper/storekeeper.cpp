@@ -17,7 +17,7 @@ namespace {
 constexpr std::chrono::milliseconds kLongestPop{500};
 constexpr std::chrono::milliseconds kFileCheckInterval{200};
 constexpr std::chrono::seconds kOpenRetryInterval{1};
-// Number of jobs: blocks of samples, points, calls of clients.
+// Largest number of pending jobs: blocks of samples, points, calls of clients.
 constexpr std::size_t kQueueLength = 4096;
 
 Result<store::Store> open_database(const Storekeeper::Options& options) {
@@ -234,8 +234,8 @@ void Storekeeper::announce_head() {
   changes_announced_ = store_->changes();
   const auto head = store_->chain_head();
   if (!head || *head == announced_ || !store_->check_head(announced_)) return;
-  // Writes the head to a file only with full durability. Otherwise a power failure can remove the
-  // announced head from the database without a fault.
+  // Writes the head to a file only with full durability. Otherwise the announced head can be
+  // missing in the database after a power failure, although nobody changed the database.
   const auto generation = store_->generation();
   if (options_.durability == store::Durability::full && generation) {
     const Status written = store::write_announced_head(options_.database, {*head, *generation});

@@ -204,7 +204,7 @@ class Storekeeper {
   std::chrono::steady_clock::time_point last_open_attempt_{};
   mutable std::mutex fault_mutex_;  // protects the next seven members
   std::string lost_, full_, held_, damaged_;
-  StorageState unopened_;  // reason why store_ is nullopt; "ok" if it is not
+  StorageState unopened_;  // reason why store_ is nullopt; "ok" if store_ exists
   store::ChainHead announced_;
   std::map<std::int64_t, std::string> open_reasons_;
   // Value of store_->changes() when the head was announced last.

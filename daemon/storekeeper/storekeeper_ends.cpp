@@ -1,5 +1,5 @@
 // Functions of Storekeeper that store points and ends of runs. If another program locks the
-// database, they are stored later.
+// database, the points and ends are stored later.
 #include "daemon/paths.h"
 #include "daemon/storekeeper/storage_errors.h"
 #include "daemon/storekeeper/storekeeper.h"
@@ -50,7 +50,7 @@ store::RunEnd with_rejection_notice(store::RunEnd whole, const Error& error) {
 
 }  // namespace
 
-// Stores the ends that the disk rejected before. If the disk rejects an end again, it stays
+// Stores the ends that the disk rejected before. If the disk rejects an end again, the end stays
 // pending.
 void Storekeeper::end_finished_runs() {
   std::erase_if(unended_, [&](Unended& waiting) {
@@ -208,7 +208,7 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
   return superseded;
 }
 
-// Stores the end of a run. If the disk rejects it, end_finished_runs() tries again.
+// Stores the end of a run. If the disk rejects the end, end_finished_runs() tries again.
 Status Storekeeper::end_or_wait(std::int64_t run, const store::RunEnd& end) {
   Status ended = store_->end_run(run, end);
   if (!ended && !is_busy(ended))

@@ -1,7 +1,7 @@
 // The file "FILE.head" in the folder of the database. It contains the head of the chain of hashes
 // that mdofd announced last (in the journal and in server.info). At the next start, mdofd compares
-// it with the chain. It detects a chain that was cut or recalculated, and links that were lost with
-// a -wal file. An older table is then not served as active.
+// this head with the chain. mdofd thus detects a chain that was cut or recalculated, and links that
+// were lost with a -wal file. In these cases, an older table is not served as active.
 #pragma once
 
 #include <filesystem>

@@ -18,8 +18,8 @@ class WriterLock {
   // Whether a process holds the lock. It can be this process.
   static bool held(const std::filesystem::path& database);
 
-  // Call this function when the open runs that a crash interrupted have ended. From then, every
-  // open run belongs to this writer.
+  // Call this function after the ends of the runs that a crash interrupted were stored. From then,
+  // every open run belongs to this writer.
   Status claim_open_runs();
   static bool open_runs_claimed(const std::filesystem::path& database);
 

@@ -1,4 +1,4 @@
-// Creates entries of the history (the action, the user and the time) and writes them as text and
+// Creates entries of the history (the action, the user and the time) and writes entries as text and
 // JSON.
 #pragma once
 

@@ -21,8 +21,8 @@ struct HttpAccess {
   std::uint16_t port = 8080;          // 0: any free port
   std::filesystem::path token_file;
   std::vector<std::string> hosts = {};  // "name:port"; localhost is always accepted
-  // Keys of these values in the configuration, with file and line, for messages. They are set even
-  // if the configuration does not contain the keys.
+  // Keys of these values in the configuration, with file and line, for messages. The members are
+  // set even if the configuration does not contain the keys.
   std::string listen_key, token_key;
 };
 

@@ -22,9 +22,9 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kMostCost =
-    250'000;  // limit of RunBudgets::cost(), about one second. A run of 11 targets whose rig
-              // declares all uncertainties costs 2,000.
+// Limit of RunBudgets::cost(), about one second. The cost of a run with 11 targets whose rig
+// declares all uncertainties is 2,000.
+constexpr std::size_t kMostCost = 250'000;
 
 // The target whose mean position is nearest to at_m. Error: at_m is outside the range of the
 // targets by more than half of the largest interval between targets.
@@ -159,7 +159,7 @@ struct FoundSetUp {
   bool simulated = false;
 };
 
-// Calculates the squareness of one set-up. It assumes that the square has no angle error.
+// Calculates the squareness of one set-up under the assumption that the square has no angle error.
 Result<FoundSetUp> square_set_up(store::Store& store, SquarenessRequest request) {
   request.given = {0.0, 0.0};
   MDOF_TRY(const SquarenessRuns of, squareness_runs(store, request));

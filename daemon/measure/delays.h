@@ -27,8 +27,8 @@ void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDela
 // after the stop.
 PipelineOptions with_delays(PipelineOptions options, const Rig& rig, const ChannelDelays& delays);
 
-// For a replay. `options` contain the delays of the rig `recorded`. Replaces them by the delays of
-// `rig`. A default-constructed `recorded` has no delays.
+// For a replay. Replaces the delays of the rig `recorded`, which `options` contain, by the delays
+// of `rig`. A default-constructed `recorded` has no delays.
 PipelineOptions with_delays_of(const Rig& rig, const Rig& recorded, PipelineOptions options);
 
 // Error: options.dwell.settle_s is shorter than the largest delay (options.dwell.leave_s). The

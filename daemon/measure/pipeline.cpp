@@ -125,8 +125,8 @@ void Pipeline::take_new_points() {
   }
 }
 
-// Recognises and solves the whole sequence. This takes long in a long log. A replay calls it only
-// once.
+// Recognises and solves the whole sequence. This takes long for a long log, so a replay calls this
+// function only once.
 void Pipeline::take_points() {
   taken_ = found_.size();
   dwell_.mark(found_);
@@ -214,8 +214,8 @@ Status Pipeline::check_dead_probes(Notices& notices) const {
   return {};
 }
 
-// An axis that moves all the time reverses at the ends of its travel. It can rest there so long
-// that the rest is recognised as a stop.
+// An axis that moves all the time reverses at the ends of its travel. The axis can rest at an end
+// so long that mdof recognises a stop.
 std::optional<Notice> Pipeline::never_stops() const {
   const auto& targets_m = sequence_.targets_m;
   if (!options_.sequence.targets_m.empty() || targets_m.size() > 2) return std::nullopt;

@@ -121,8 +121,8 @@ std::string status(const Methods& m) {
   return json.take();
 }
 
-// Rejects parameters that apply only to the other kind of table. If they were ignored, the client
-// would believe that they have an effect.
+// Rejects parameters that apply only to the other kind of table. If these parameters were ignored,
+// the client would believe that they have an effect.
 Status refuse(const Params& params, std::initializer_list<const char*> keys, const char* why) {
   for (const char* key : keys)
     if (params.has(key)) return fail(ErrorCode::usage, std::string(key) + why);

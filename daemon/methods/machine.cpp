@@ -19,7 +19,7 @@ constexpr std::string_view kLetters = "XYZABC";
 constexpr const char* kComponents[] = {"x_um", "y_um", "z_um", "a_urad", "b_urad", "c_urad"};
 
 // Rejects a machine file that refers to other files. Clients call this method for each commanded
-// position, so it reads no files.
+// position, so the method reads no files.
 Status check_no_files(const Machine& machine) {
   if (!has_table_files(machine)) return {};
   return bad_input(

@@ -26,7 +26,7 @@ inline std::string run_reply(std::int64_t id, Axis axis, const RunRequest& reque
   return json.take();
 }
 
-// Returns a callback for a station. The callback sends the reply. It runs on the thread of the
+// Returns a callback for a station. The callback sends the reply, and runs on the thread of the
 // station.
 inline RunDone answer_with_run(rpc::Reply reply, Axis axis, const RunRequest& request) {
   auto shared = std::make_shared<rpc::Reply>(std::move(reply));

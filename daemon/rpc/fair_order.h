@@ -41,9 +41,9 @@ class FairOrder {
     return who;
   }
 
-  // Adds the duration `cost` of a turn to the used time of a user. Call it before the next take().
-  // For a new user, call it with a duration that delays its first turn; then a client has no
-  // advantage if it connects again and again.
+  // Adds the duration `cost` of a turn to the used time of a user. Call this function before the
+  // next take(). For a new user, call it with a duration that delays the first turn of this user;
+  // then a client that connects again and again has no advantage.
   void charge(FairShare& share, std::chrono::nanoseconds cost) { share.end = now_ + cost; }
 
   template <class Condition>

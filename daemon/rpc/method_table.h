@@ -18,7 +18,7 @@ namespace mdof::rpc {
 enum class ParamType { string, number, integer, boolean, array, object };
 const char* to_string(ParamType type);  // as in JSON Schema
 
-// Limits of a parameter's value. They limit the work and memory that a request can demand. The
+// Limits of a parameter's value, which limit the work and memory that a request can demand. The
 // limits of numbers also apply to each number in an array.
 struct Bounds {
   double least = -9007199254740992.0, most = 9007199254740992.0;  // 2^53
@@ -57,8 +57,8 @@ struct Method {
   std::variant<SyncHandler, AsyncHandler> handler;
 };
 
-// The table is complete before the server starts; then one thread reads it. It must exist longer
-// than the server and must not move.
+// The table is complete before the server starts; then one thread reads it. The table must exist
+// longer than the server and must not move.
 class MethodTable {
  public:
   // Title and version that rpc.discover states. The table contains the method rpc.discover from the

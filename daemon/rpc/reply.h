@@ -8,9 +8,9 @@
 
 namespace mdof::rpc {
 
-// Move-only. Call operator() once, with JSON text or an Error. If the Reply is destroyed before,
-// the client gets the error -32603. Any thread may own and call it. If the client or the server no
-// longer exists, the answer is dropped.
+// Move-only. Call operator() once, with JSON text or an Error. If the Reply is destroyed before
+// this call, the client gets the error -32603. Any thread may own and call it. If the client or the
+// server no longer exists, the answer is dropped.
 class Reply {
  public:
   struct Slot;  // see exchange.h

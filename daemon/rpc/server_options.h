@@ -38,17 +38,17 @@ struct ServerOptions {
   // Limits of the server.
   std::size_t max_connections = 64;
   std::size_t max_connections_of_user = 32;  // sum of the Unix and TCP connections of one user
-  // One of max_connections is reserved for clients in this group. It is the group of the machine's
-  // control, which can then connect even if other users have all other connections.
+  // One of max_connections is reserved for clients in this group. The control of the machine is in
+  // this group, and can thus connect even if other users have all other connections.
   std::optional<gid_t> kept_for_group;
   // Only clients in this group may call methods with Method::approves. nullopt: every client that
-  // may write may call them.
+  // may write may call these methods.
   struct Group {
     gid_t id = 0;
     std::string name;
   };
   std::optional<Group> approvers;
-  bool tcp_may_write = false;  // allows writing methods over loopback TCP
+  bool tcp_may_write = false;  // true: clients over loopback TCP may call methods that change data
 
   // Limits of browsers. Connections of browsers do not count in max_connections. max_line_bytes
   // limits the body of a request. request_timeout limits the time for the head of a request, and

@@ -29,8 +29,8 @@ struct EncoderState {
 // datum(), state() and device() are thread-safe. Call all other functions on the measure thread.
 class EncoderZero {
  public:
-  // `before`: the last position that was set before this program started. It is no longer valid.
-  // `um_per_V`: scale of an encoder whose readings are in volts.
+  // `before`: the last position that was set before this program started. This position is no
+  // longer valid. `um_per_V`: scale of an encoder whose readings are in volts.
   explicit EncoderZero(const std::vector<drivers::DriverSpec>& devices,
                        std::optional<DatumSetting> before = std::nullopt,
                        std::optional<double> um_per_V = std::nullopt);
@@ -76,8 +76,8 @@ class EncoderZero {
   std::set<std::int64_t> runs_;
   std::string device_;             // protected by mutex_
   std::optional<double> index_m_;  // axis position at the reference mark of the encoder
-  // The last setting. since_start_: whether it was made after this program started. Protected by
-  // mutex_.
+  // The last setting. since_start_: whether the last setting was made after this program started.
+  // Protected by mutex_.
   std::optional<DatumSetting> last_;
   bool since_start_ = false;
   bool found_ = false;  // set by find(), reset when the count gets a new origin

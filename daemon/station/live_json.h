@@ -16,7 +16,8 @@ namespace mdof::daemon {
 // Writes {"drift_ppm", "jitter_ms", "settled", "steps"}, or null without a clock.
 void write_clock(JsonWriter& json, const std::optional<drivers::ClockState>& clock);
 // One device as in the reply of device.list, without the member "axis". "rate_hz" is the rate that
-// the device states. If the device states no rate, it is the measured rate, or null if unknown.
+// the device states. If the device states no rate, "rate_hz" is the measured rate, or null if this
+// rate is unknown.
 std::string device_json(const DeviceStatus& status);
 // An array of devices.
 std::string devices_json(const std::vector<DeviceStatus>& devices);

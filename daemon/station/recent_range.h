@@ -1,5 +1,5 @@
-// Smallest and largest reading of each probe during the last second. The live view uses them,
-// because it shows only few of the frames.
+// Smallest and largest reading of each probe during the last second. The live view shows these
+// readings, because it shows only few of the frames.
 #pragma once
 
 #include <array>

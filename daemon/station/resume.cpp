@@ -39,8 +39,8 @@ Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisCon
   return {};
 }
 
-// Whether the new run keeps this notice of the old run. It is kept if the new run cannot calculate
-// it again from the samples.
+// Whether the new run keeps this notice of the old run. A notice is kept if the new run cannot
+// calculate the notice again from the samples.
 bool stays(const Notice& of_run) {
   using enum NoticeCode;
   const std::initializer_list<NoticeCode> kept = {run_goes_on,         device_trouble,

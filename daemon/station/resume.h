@@ -46,7 +46,7 @@ Result<std::int64_t> record_again(const CutOffRun& cut_off, const Storekeeper& k
 class Continuation {
  public:
   explicit Continuation(std::int64_t after_ns) : after_ns_(after_ns) {}
-  // The shift is at least 0. It is needed because the clock of the computer may have restarted
+  // The shift is at least 0. A shift is needed because the clock of the computer may have restarted
   // after the old run. The first block of each device states lost scans, because the axis was not
   // measured between the two parts.
   void shift(SampleBlock& block);

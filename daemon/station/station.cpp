@@ -97,7 +97,7 @@ DeviceSink Station::sink() {
   return sink;
 }
 
-// ---- main thread ----
+// ---- functions on the main thread ----
 
 PipelineOptions Station::options_for(const RunRequest& request) const {
   PipelineOptions options = with_devices(options_);

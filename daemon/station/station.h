@@ -134,7 +134,7 @@ class Station {
   void keep_new_points(const std::vector<MeasuredPoint>& points);
   void attach(std::int64_t run, const RunRequest& request, const Options& options,
               Beginning* beginning, const RunDone& done);
-  // station_datum.cpp
+  // Functions in station_datum.cpp:
   void take_datum(double position_m, const HistoryEntry& action, const DatumDone& done);
   void store_datum(const DatumSetting& setting, const HistoryEntry& action, const DatumDone& done);
   void put_datum(const Result<DatumSetting>& stored, const HistoryEntry& action,

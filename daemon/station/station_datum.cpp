@@ -8,7 +8,7 @@
 
 namespace mdof::daemon {
 
-// ---- main thread ----
+// ---- functions on the main thread ----
 
 void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDone done) {
   const std::string axis(1, letter(config_.rig.axis));
@@ -23,7 +23,7 @@ void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDo
   });
 }
 
-// ---- measure thread; set_encoder() has checked that no run is in progress ----
+// ---- functions on the measure thread; set_encoder() has checked that no run is in progress ----
 
 void Station::take_datum(double position_m, const HistoryEntry& action, const DatumDone& done) {
   const auto found = zero_.find(config_.rig.axis, position_m, action.utc);

@@ -80,7 +80,7 @@ std::optional<std::size_t> expected_target(const RunRequest& request,
   return last > 0 ? last - 1 : 0;
 }
 
-// Whether the result begins with the stored points. It can contain further points.
+// Whether the result begins with the stored points. The result can contain further points.
 bool begins_with(const std::vector<MeasuredPoint>& result,
                  const std::vector<MeasuredPoint>& stored) {
   if (result.size() < stored.size()) return false;
@@ -271,7 +271,7 @@ void Station::report_unsolved(const std::vector<MeasuredPoint>& points) {
   }
 }
 
-// Clients wait for the next point. Reports to them why a stop did not become a point.
+// Clients wait for the next point. Reports to the clients why a stop did not become a point.
 void Station::report_left_out() {
   for (const StopLeftOut& stop : open_->pipeline.left_out()) {
     if (stop.reason != to_string(NoticeCode::stop_near_no_target)) continue;

@@ -55,8 +55,8 @@ Status add_link(sqlite::Connection& connection, Fact fact, std::int64_t row);
 Status link_old_facts(sqlite::Connection& connection);
 
 Result<ChainHead> chain_head(sqlite::Connection& connection);
-// Whether the chain contains `head`, as its head or as an earlier link. If it does, the chain was
-// neither cut nor recalculated.
+// Whether the chain contains `head`, as its head or as an earlier link. If the chain contains
+// `head`, the chain was neither cut nor recalculated.
 Result<bool> has_link(sqlite::Connection& connection, const ChainHead& head);
 Result<bool> has_hash(sqlite::Connection& connection, const std::string& sha256);
 

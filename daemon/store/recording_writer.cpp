@@ -35,7 +35,7 @@ void make_folder(const fs::path& folder) {
   if (fs::create_directory(folder, ec)) sync_folder(fs::absolute(folder, ec).parent_path());
 }
 
-// Creates the file. Error if it exists, so that no recording is overwritten.
+// Creates the file. Error if the file exists, so that no recording is overwritten.
 Status create_file(const fs::path& file) {
   make_folder(file.parent_path());
   const int fd = ::open(file.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644);

@@ -27,7 +27,8 @@ class RecordingWriter {
                                         const RecordingHeader& header,
                                         sqlite::Durability durability = sqlite::Durability::full);
 
-  // Removes an incomplete recording that is not needed. It must have no writer.
+  // Removes an incomplete recording that is not needed. No RecordingWriter may write to this
+  // recording.
   static void remove(const std::filesystem::path& file);
 
   // Copies the block into memory. Error (bad_input): the time of a device does not increase. Error

@@ -36,7 +36,7 @@ Status make_parent(const fs::path& file) {
 }
 
 // Error if the file has a second name (hard link). SQLite derives the name of the journal from the
-// name of the file, so it would not find the journal by the second name.
+// name of the file, so SQLite would not find the journal by the second name.
 Status check_one_name(const fs::path& file) {
   std::error_code ec;
   const auto names = fs::hard_link_count(file, ec);

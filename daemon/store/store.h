@@ -44,7 +44,7 @@ struct RunEnd {
   RunState state = RunState::complete;  // must not be RunState::open
   std::uint64_t scans = 0, scans_lost = 0;
   Notices notices;
-  // SHA-256 of the recording, if it was not complete when the run began.
+  // SHA-256 of the recording, if the recording was not complete when the run began.
   std::string recording_sha256;
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
@@ -198,9 +198,10 @@ class Store {
 
   // ---- sensitivity studies ----
 
-  // A study begins, stores checkpoints while it calculates, and ends. It ends as complete, or as
-  // interrupted with a checkpoint from which it can continue. After each call the data are on the
-  // disk. Each call can use another store object, so a long study need not keep the database open.
+  // A study begins, stores checkpoints while it calculates, and ends. A study ends as complete, or
+  // as interrupted with a checkpoint from which it can continue. After each call the data are on
+  // the disk. Each call can use another store object, so a long study need not keep the database
+  // open.
   Result<std::int64_t> begin_study(const StudyRecord& study);  // study.id is ignored
   Status save_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
   // nullopt: removes the stored checkpoint.
@@ -228,8 +229,9 @@ class Store {
   Status check_head(const ChainHead& reported);
 
   const std::filesystem::path& file() const { return connection_.file(); }
-  // For a store with write access: the reason why it stores no data any more. Another program has
-  // changed the -wal or -shm file (schema/base/database/journal_watch.h). Empty: no fault.
+  // For a store with write access: the reason why this store stores no data any more. Another
+  // program has changed the -wal or -shm file (schema/base/database/journal_watch.h). Empty: no
+  // fault.
   std::string journal_fault() { return connection_.journal_fault(); }
   // The last message of SQLite about a damaged file. Empty: no damage was found.
   const std::string& damage() const { return connection_.damage(); }
@@ -240,7 +242,7 @@ class Store {
   Store(WriterLock lock, sqlite::Connection connection, Access access)
       : lock_(std::move(lock)), connection_(std::move(connection)), access_(access) {}
 
-  // write.cpp
+  // Functions in write.cpp:
   Status end_interrupted_runs();
   Result<std::int64_t> insert_run(const RunHeader& header);
   Result<std::int64_t> document_id(const std::string& text);
@@ -259,7 +261,7 @@ class Store {
                                            const std::optional<RunUncertainty>& uncertainty);
   Status insert_all_of_end(std::int64_t run, const RunEnd& end);
   Status check_open(std::int64_t run) const;
-  // read.cpp
+  // Functions in read.cpp:
   Result<std::vector<RunHeader>> headers(std::string_view where, std::int64_t a, std::int64_t b,
                                          std::optional<Axis> axis);
   Result<RunHeader> header_of(sqlite::Statement& row);
@@ -281,31 +283,31 @@ class Store {
   // Error (not_found): the row does not exist. The message states the command that lists the
   // existing rows.
   Status check_exists(RowOf table, std::int64_t id);
-  // plausibility_read.cpp
+  // Functions in plausibility_read.cpp:
   Result<std::optional<Plausibility>> plausibility(std::int64_t run);
-  // tables.cpp
+  // Functions in tables.cpp:
   Result<CompensationTable> table_of(sqlite::Statement& row);
   Result<std::vector<std::int64_t>> integers(std::string_view sql, std::int64_t of);
   Result<std::int64_t> next_generation(const std::string& utc);
   std::string active_text();
-  // volumetric.cpp
+  // Functions in volumetric.cpp:
   Result<std::int64_t> next_table();
   Result<VolumetricTable> volumetric_of(sqlite::Statement& row);
-  // history.cpp
+  // Functions in history.cpp:
   Status insert_action(std::string_view subject, std::int64_t row,
                        const std::optional<HistoryEntry>& action);
   Status insert_reason(std::int64_t action, std::string_view text);
   Result<std::vector<HistoryEntry>> read_actions(sqlite::Statement& rows);
   Status add_detail(HistoryEntry& action);
-  // encoder_data.cpp
+  // Functions in encoder_data.cpp:
   Result<std::optional<DatumSetting>> read_datum(sqlite::Statement& row);
   Result<std::optional<DatumSetting>> datum(std::int64_t id);
-  // study_write.cpp
+  // Functions in study_write.cpp:
   Status replace_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
   Status insert_outcome(std::int64_t study, const StudyOutcome& outcome);
-  // study_read.cpp
+  // Functions in study_read.cpp:
   Status verify_studies(std::vector<std::string>& findings);
-  // verify.cpp
+  // Functions in verify.cpp:
   Status verify_ledger(std::vector<std::string>& findings);
   Status verify_file(std::vector<std::string>& findings);
   Status verify_documents(std::vector<std::string>& findings);
@@ -316,8 +318,8 @@ class Store {
   Access access_;
   // Run that this object began -> index of the next point.
   std::map<std::int64_t, std::int64_t> open_runs_;
-  // For the run of the last call of points(): the stored hash of the run, which was correct, and
-  // row_hash() of each point.
+  // For the run of the last call of points(): the stored hash of the run (checked), and row_hash()
+  // of each point.
   struct CheckedRows {
     std::int64_t run = 0;
     std::string sha256;

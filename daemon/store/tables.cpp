@@ -310,8 +310,8 @@ std::int64_t seconds_since_1970(const std::string& utc) {
 
 }  // namespace
 
-// A number that no earlier change had, even if the database was deleted and created again. If a
-// client knows the number, it has the data of this generation.
+// A number that no earlier change had, even if the database was deleted and created again. A client
+// that knows this number therefore has the data of this generation.
 Result<std::int64_t> Store::next_generation(const std::string& utc) {
   MDOF_TRY(const std::int64_t last, generation());
   return std::max(last + 1, seconds_since_1970(utc));

@@ -24,7 +24,7 @@ Status Store::verify_ledger(std::vector<std::string>& findings) {
   MDOF_CHECK(store::verify_ledger(connection_, findings));
   if (findings.empty()) {
     // Some columns of a volumetric table are not in the ledger. Only the hash of the table protects
-    // them.
+    // these columns.
     MDOF_TRY(const auto ids, integers("SELECT id FROM volumetric_table WHERE ? = 0", 0));
     for (const std::int64_t id : ids) {
       const auto table = volumetric(id);

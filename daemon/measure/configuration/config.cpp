@@ -199,8 +199,8 @@ Status check_rates(const TomlTable& table, const AxisConfig& axis, const Config&
   return {};
 }
 
-// Exactly one device of an axis must provide each channel of the rig. If a device is a replay or
-// simulated, it must be the only device of the axis.
+// Exactly one device of an axis must provide each channel of the rig. A replay or a simulated
+// device must be the only device of the axis.
 Status check_together(TomlTable& table, const AxisConfig& axis) {
   std::map<std::string, std::string> source;
   for (const auto& device : axis.devices) {

@@ -55,8 +55,8 @@ struct Config {
   Chain machine;           // the table [machine]; machine.known() is false if this table is missing
   std::vector<AxisConfig> axes;
   std::string text;  // the TOML text, for the provenance
-  // For messages: the name of the file, and file, line and key of each path. They are set even if
-  // the file does not contain the keys.
+  // For messages: the name of the file, and file, line and key of each path. These members are set
+  // even if the file does not contain the keys.
   std::string source, database_key, recordings_key, socket_key;
 };
 

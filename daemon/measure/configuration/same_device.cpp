@@ -35,8 +35,8 @@ Result<Source> source_of(TomlTable& table, const std::vector<AxisConfig>& above)
                    "\"; devices above: " + (known.empty() ? "none" : known));
 }
 
-// Error: two axes cannot use the samples of this device. They can use only hardware whose channels
-// are known before the device is opened.
+// Error: two axes cannot share this device. Two axes can share only hardware whose channels are
+// known before the device is opened.
 Status check_source(const TomlTable& table, const drivers::DriverSpec& device) {
   if (device.live && device.recorded && !device.simulated && !device.part.empty()) return {};
   return bad_input(table.where("same_as") + ": \"" + device.name + "\" (" + device.driver +

@@ -1,4 +1,4 @@
-// Ambient conditions during a run. They are read from the columns temperature_C, pressure_kPa and
+// Ambient conditions during a run, read from the columns temperature_C, pressure_kPa and
 // humidity_percent of a log, or from the channels of these quantities.
 #pragma once
 

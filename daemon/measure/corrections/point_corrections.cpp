@@ -158,8 +158,8 @@ void PointCorrections::report(const algo::Solver& solver, const std::vector<Poin
   report_failures(run);
 }
 
-// The notice contains the ambient conditions at the first and at the last point, because they can
-// change during the run.
+// The notice contains the ambient conditions at the first and at the last point, because the
+// conditions can change during the run.
 void PointCorrections::report_air(Run& run) const {
   if (!known_.dielectric || run.points.empty()) return;
   const auto first = air_at(run.points.front().point), last = air_at(run.points.back().point);

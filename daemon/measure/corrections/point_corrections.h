@@ -39,7 +39,7 @@ class PointCorrections {
   void apply(const algo::Solver& solver, std::vector<Point>& points) const;
   // Adds notices to a run whose points were corrected. The notices state the largest change, the
   // declared effects that were not corrected, and the points that could not be corrected. `before`:
-  // the averaged points before the correction. They may include points that are not in the run.
+  // the averaged points before the correction. `before` may include points that are not in the run.
   void report(const algo::Solver& solver, const std::vector<Point>& before, Run& run) const;
 
  private:
@@ -60,8 +60,8 @@ class PointCorrections {
   std::optional<AirSeries> air_;
 };
 
-// The cause why a point has no errors. It is the beginning of a sentence: "probe A no longer
-// changes; ".
+// The beginning of a sentence with the cause why a point has no errors, "probe A no longer changes;
+// ".
 std::string cause_of(const Point& point);
 
 }  // namespace mdof::daemon

@@ -1,6 +1,6 @@
-// Checks data before they are used where nobody reads their notices: in a controller or in a rig.
-// Activation, export, import and separation use the same rule. Simulated data and doubtful data are
-// accepted only if the user requests it. Invalid data are always rejected.
+// Checks data before they are used in a controller or in a rig, where nobody reads the notices of
+// the data. Activation, export, import and separation use the same rule. Simulated data and
+// doubtful data are accepted only if the user requests it. Invalid data are always rejected.
 #pragma once
 
 #include <string>

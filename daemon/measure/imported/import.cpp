@@ -66,7 +66,7 @@ MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targ
   return p;
 }
 
-// If all deviations are smaller than this, they are probably values in mm that were read as µm.
+// Deviations that are all smaller than this are probably values in mm that were read as µm.
 constexpr double kSmallest_m = 0.1e-6;
 
 // The unit of the deviations is probably wrong in two cases: a deviation is as large as the

@@ -114,7 +114,7 @@ Status set_table_covariance(store::Store& store, MachineFrame& frame,
 // Adds the quantities that the probes of several axes share.
 void add_shared_quantities(const UsedTables& taken) {
   const auto parts = algo::shared_quantities(taken.built_from);
-  if (!parts) return;  // the notices of the table state why they are unknown
+  if (!parts) return;  // the notices of the table state why the shared quantities are unknown
   for (const algo::SharedQuantity& part : *parts)
     for (std::size_t t = 0; t < taken.frames.size(); ++t)
       add_shared(*taken.frames[t], taken.built_from[t].table, contributor_text(part.name),

@@ -29,7 +29,7 @@ std::string names_of(const std::vector<std::string>& names) {
 // Notices about the residual error of one command. The residual error has two parts: the reversal
 // error and the interpolation error between nodes. The limit is the limit of the self-test of an
 // export. If the sum of the two parts exceeds the limit, the larger part gets a doubtful notice.
-// The smaller part gets a doubtful notice if it alone exceeds the limit.
+// The smaller part gets a doubtful notice if this part alone exceeds the limit.
 Notices residual_notices(const VolumetricTable& table, std::size_t k) {
   const std::string command(1, "XYZ"[k]);
   const double reversal = table.reversal_m[k], between = table.interpolation_m[k];

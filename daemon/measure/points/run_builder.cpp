@@ -42,7 +42,7 @@ RunHeader RunBuilder::head(const algo::DwellDetector::Summary& summary) const {
   return header;
 }
 
-// Calculates the plausibility of the whole run, and adds the notices about it.
+// Calculates the plausibility of the whole run, and adds the notices about the plausibility.
 void RunBuilder::add_plausibility(const SolvedPoints& points, Run& run) const {
   const bool given = !options_.sequence.targets_m.empty();
   const algo::RunToJudge whole{rig_,  points.sequence, points.summary,

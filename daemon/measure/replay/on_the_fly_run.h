@@ -14,8 +14,8 @@ namespace mdof::daemon {
 // Thread-bound.
 class OnTheFlyRun : RunBuilder {
  public:
-  // `options` must contain on_the_fly. check_on_the_fly() must have accepted it. Errors: those of
-  // Pipeline.
+  // `options` must contain on_the_fly, and check_on_the_fly() must have accepted these options.
+  // Errors: those of Pipeline.
   static Result<OnTheFlyRun> create(const Rig& rig, const PipelineOptions& options);
 
   // Takes a block. Errors: those of Pipeline; a pass is too long; the run would have too many

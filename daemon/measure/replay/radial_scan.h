@@ -31,8 +31,9 @@ struct RadialScan {
 };
 
 // The height is the reading of the scanning probe minus the reading that the five errors of the
-// same run cause. The rigid model calculates this reading at each target; between targets it is
-// interpolated linearly. The position of a height in the frame of the workpiece is
+// same run cause. The rigid model calculates the reading from the errors at each target; between
+// targets this reading is interpolated linearly. The position of a height in the frame of the
+// workpiece is
 //   x = rho cos(angle), y = -rho sin(angle).
 // At the angle 0, x is along the axis of the run. z is along `measures` of the scanning probe. rho
 // is the distance of the probe from the axis of the spindle, positive towards x. Encoder and angle

@@ -36,7 +36,7 @@ class ReplayLog {
   std::string started_utc() const;    // start time of the recording; empty for a CSV log
   std::string configuration() const;  // mdofd.toml in the recording; empty for a CSV log
   // The request and the options of the recorded run. The options are read from mdofd.toml of the
-  // recording; the request of the run overrides them. A CSV log has the default options.
+  // recording; the request of the run overrides these options. A CSV log has the default options.
   Result<RecordedRequest> asked_for() const;
   std::vector<std::string> comments() const;  // comments in the CSV log
   Progress progress() const;                  // in bytes (CSV log) or in chunks (recording)

@@ -23,9 +23,9 @@ struct ReplayRequest {
   std::optional<double> interval_mm, bin_mm, from_mm, to_mm;
 };
 
-// Calculates a run with the options of the recording. Options of the request override them. The run
-// has no id yet. Errors: those of replay() in replay.h; a CSV log has no rig; an option is out of
-// range.
+// Calculates a run with the options of the recording; options of the request override these
+// options. The run has no id yet. Errors: those of replay() in replay.h; a CSV log has no rig; an
+// option is out of range.
 Result<Run> replay(const ReplayRequest& request, const ProgressCallback& progress = {});
 
 }  // namespace mdof::daemon

@@ -101,8 +101,8 @@ void read_by_channel(Members& members, const char* key, std::map<std::string, do
                      bool (*good)(double)) {
   const auto found = members.object(key);
   simdjson::dom::object channels;
-  if (!found || found->get(channels))
-    return;  // if the member is not an object, object() has reported the error
+  // If the member is not an object, object() has reported the error.
+  if (!found || found->get(channels)) return;
   to.clear();
   for (const auto member : channels) {
     double x = 0;

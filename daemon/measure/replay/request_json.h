@@ -1,5 +1,5 @@
 // The request of a run as JSON. The header of the recording contains this text. A replay without
-// options uses it, so that the run of the replay is bit-identical.
+// own options uses the recorded request, so that the result of the replay is bit-identical.
 #pragma once
 
 #include <string>

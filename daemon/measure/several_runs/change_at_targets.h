@@ -1,5 +1,5 @@
-// The change of the errors at the targets from one run to another. It can be large although a
-// figure of these errors, such as a range, has not changed.
+// The change of the errors at the targets from one run to another. This change can be large
+// although a figure of these errors, such as a range, has not changed.
 #pragma once
 
 #include "daemon/measure/several_runs/compared_points.h"

@@ -1,5 +1,5 @@
 // Errors of an axis at its targets before and after an action on the axis, such as a compensation.
-// Charts show them. Runs of positioning can be compared, too.
+// Charts show these errors. Imported runs of positioning can be compared, too.
 #pragma once
 
 #include <array>
@@ -39,7 +39,8 @@ struct TabledRun {
 // Compares those targets of the two runs whose positions differ by at most 0.1 mm. The coverage
 // probability of U is 95 %. For imported readings, the coverage factor is from Student's t
 // distribution, with the repeats at the target. For measured runs, k = 1.96. U of the reversal does
-// not include the uncertainty that a run declares, because the two approaches have it in common.
+// not include the uncertainty that a run declares, because this uncertainty is common to both
+// approaches.
 ComparedPoints compared_points(const TabledRun& before, const TabledRun& after);
 
 // Writes a member of an open object. Unknown values are null.

@@ -41,8 +41,8 @@ struct Trend {
   std::optional<algo::Chart> chart;   // nullopt: there are too few values for a chart
   std::vector<std::string> left_out;  // sentences: the runs that were left out, with the reason
   Notices notices;                    // notices that the runs have different rigs or models
-  // Contributions to u. They are from the budget of the last value whose u contains noise only; if
-  // there is no such value, from the first value.
+  // Contributions to u, from the budget of the last value whose u contains noise only; if there is
+  // no such value, from the budget of the first value.
   Covers u_covers;
   NoiseOnly noise_only = NoiseOnly::none;  // summary for all values of the trend
   std::vector<std::string> u_not_declared;
@@ -50,8 +50,8 @@ struct Trend {
 
 // Calculates the trends. The reference point of all values is the fixture. A run is used if it is
 // complete, measured, valid and not simulated, if no other run supersedes it, and if it is the
-// newest run of its recording. Its rig, model and options must be those of the newest run, unless
-// `mixed` is set. `left_out` lists the other runs. Error: the figure is unknown.
+// newest run of its recording. The rig, model and options of a run must be the same as in the
+// newest run, unless `mixed` is set. `left_out` lists the other runs. Error: the figure is unknown.
 Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& request);
 
 }  // namespace mdof::daemon

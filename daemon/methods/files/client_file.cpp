@@ -21,8 +21,8 @@ bool is_member(const FileUser& user, gid_t group) {
 }
 
 // Whether the user has the permission to read the file. mdofd must not read other files for the
-// user. Exception: users of the socket may read files of the group of mdofd if this group may read
-// them.
+// user. Exception: all users of the socket may read a file of the group of mdofd if this group may
+// read the file.
 bool may_read(const FileUser& user, const struct stat& file) {
   if (user.uid == 0 || user.uid == ::geteuid()) return true;
   if (user.uid == file.st_uid) return (file.st_mode & S_IRUSR) != 0;

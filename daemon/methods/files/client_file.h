@@ -21,15 +21,15 @@ struct FileUser {
 
 struct ClientFile {
   rpc::Descriptor file;
-  rpc::Descriptor wal;  // the WAL file of a recording: it contains changes that are not in the file
-                        // yet; -1: no WAL file
+  rpc::Descriptor wal;  // the WAL file of a recording, with changes that are not in the file yet;
+                        // -1: no WAL file
 };
 
-// Opens the file for reading. If the path is a terminal, it does not become the controlling
-// terminal of mdofd. If the path is a pipe without a writer, the function does not block. Errors:
-// the path is not absolute, or is a link; the file is not a regular file; mdofd is writing the
-// file; the user or mdofd has no permission to read the file. Do not call the function on the event
-// loop, because the file system can block it.
+// Opens the file for reading. A terminal does not become the controlling terminal of mdofd. If the
+// path is a pipe without a writer, the function does not block. Errors: the path is not absolute,
+// or is a link; the file is not a regular file; mdofd is writing the file; the user or mdofd has no
+// permission to read the file. Do not call the function on the event loop, because the file system
+// can block it.
 Result<ClientFile> open_for(const FileUser& user, const std::string& path);
 
 }  // namespace mdof::daemon

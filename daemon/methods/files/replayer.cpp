@@ -31,7 +31,7 @@ struct Replayer::Shared {
   std::condition_variable ended;
   bool working = false;
   // Use the storekeeper only while the mutex is locked and `stopping` is false. When `stopping` is
-  // true, it can be destroyed.
+  // true, the storekeeper can be destroyed.
   Storekeeper& keeper;
 };
 

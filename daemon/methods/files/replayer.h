@@ -26,15 +26,15 @@ class Replayer {
   static bool was_abandoned();
 
   // A calculated run. `uncertainty`: stored with the run, for users who read the database with SQL.
-  // `document`: writes the reply from the stored run. It runs on the thread that stores the run, so
-  // it must be short.
+  // `document`: writes the reply from the stored run. This function runs on the thread that stores
+  // the run, so it must be short.
   struct Made {
     std::shared_ptr<Run> run;
     RunUncertainty uncertainty;
     std::function<std::string(const Run&)> document;
   };
-  // `make` runs on the thread "replay". It must end soon after its callback has returned false.
-  // `done` receives the document of the stored run, or the error; it can be called on another
+  // `make` runs on the thread "replay", and must end soon after its callback has returned false.
+  // `done` receives the document of the stored run, or the error; `done` can be called on another
   // thread. If another file is in progress, `done` receives the error `conflict` at once.
   using Make = std::function<Result<Made>(const ProgressCallback&)>;
   using Done = std::function<void(Result<std::string>)>;

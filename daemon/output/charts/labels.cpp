@@ -69,7 +69,7 @@ int decimal_exponent(double x) {
 
 std::string fixed_text(double x, int decimals) {
   if (!std::isfinite(x)) return "–";
-  char buffer[700];  // 309 digits before the point and at most 340 after it
+  char buffer[700];  // 309 digits before the decimal point and at most 340 digits after the point
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::fixed,
                                  std::clamp(decimals, 0, 340));
   const std::string_view text(buffer, static_cast<std::size_t>(end.ptr - buffer));

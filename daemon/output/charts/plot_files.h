@@ -16,7 +16,7 @@ struct NamedChart {
 };
 
 // Creates the folder if it is missing, and writes all files into it. Returns their paths. Error
-// (io): a file cannot be written; then no file is written.
+// (io): one of the files cannot be written; then none of the files is written.
 Result<std::vector<std::string>> write_charts(const std::vector<NamedChart>& charts,
                                               const std::filesystem::path& folder);
 

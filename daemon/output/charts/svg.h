@@ -1,5 +1,6 @@
-// Writes an SVG 1.1 document: it needs no other files, its texts can be searched, and coordinates
-// have a resolution of 0.01 px. Any text makes valid XML. Positions are in px, with y downwards.
+// Writes an SVG 1.1 document. The document needs no other files, its texts can be searched, and
+// coordinates have a resolution of 0.01 px. Any text makes valid XML. Positions are in px, with y
+// downwards.
 #pragma once
 
 #include <span>

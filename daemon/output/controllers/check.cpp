@@ -165,9 +165,9 @@ Series without_missing(const Series& s) {
   return whole;
 }
 
-// The correction at home, which was subtracted from all values in the file. It only shifts the zero
-// of the machine and is no error. If home is outside the range of the file, the controller uses the
-// value at the end of the file; so does this function.
+// The correction at home, which was subtracted from all values in the file. This constant only
+// shifts the zero of the machine and is no error. If home is outside the range of the file, the
+// controller uses the value at the end of the file, and this function uses the same value.
 double zero_of(const Series& s, const AppliedCorrection& applied, const ExportOptions& options) {
   const std::optional<double> home_m = options.home_m(applied.along);
   if (!home_m) return 0;
@@ -207,8 +207,8 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
   e.bound = std::min(
       thinning + trial.second_order() + step + left + e.by_ramp,
       algo::ResidualLimits{residual_limit(options), options.residual_share}.of(e.before, step));
-  // If all values are less than the step of the numbers in the file, they are rounded to 0 and
-  // nothing is corrected. This happens, for example, if values in mm are read as um.
+  // If all values are less than the resolution of the numbers in the file, all values are rounded
+  // to 0 and nothing is corrected. This happens, for example, if values in mm are read as um.
   const bool lost = e.nothing && e.before > kRounding_m;
   e.cancels = trial.has_test_points() && e.residual <= e.bound && !lost;
   e.controls.push_back(

@@ -32,20 +32,21 @@ struct CheckedError {
   //   approaches. It is part of `residual`, unless one_way is true.
   // - between_nodes: the error between the nodes of a volumetric table. It is part of `residual`.
   double by_reversal = 0, between_nodes = 0;
-  // The error after a reversal whose correction LinuxCNC does not apply, because its ramp does not
-  // start (ExportOptions::ramps), m or rad. It is also part of `residual`.
+  // The error after a reversal whose correction LinuxCNC does not apply, because the ramp of
+  // LinuxCNC does not start (ExportOptions::ramps), m or rad. This error is also part of
+  // `residual`.
   double by_ramp = 0;
   // Limit of `residual`. For tables of axes it is the sum of the following terms, but at most the
   // limit in ExportOptions:
   // - the deviation by thinning
-  // - the step of the numbers in the file
+  // - the resolution of the numbers in the file
   // - the second-order effect: a correction changes the position at which the error acts
   // - by_ramp
   // - by_reversal, unless one_way is true
   // For volumetric tables and the squareness it is the limit in ExportOptions.
   double bound = 0;
   bool cancels = false;
-  // The error without correction is below the step of the numbers in the file.
+  // The error without correction is below the resolution of the numbers in the file.
   bool nothing = false;
   std::vector<Control> controls;
 };
@@ -55,8 +56,9 @@ struct Check {
   std::vector<std::string> not_judged;  // written errors whose correction sign is unknown
   // Limits from ExportOptions; the first includes the tolerance.
   double most_residual_m = 0, share = 0;
-  bool passed() const;              // whether all errors with a known sign pass
-  bool nothing_to_correct() const;  // all errors are below the step of the numbers in the file
+  bool passed() const;  // whether all errors with a known sign pass
+  // Whether all errors are below the resolution of the numbers in the file.
+  bool nothing_to_correct() const;
 };
 
 // Checks the files that `format` wrote for these tables. The simulated axis has the errors of the

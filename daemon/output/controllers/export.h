@@ -6,8 +6,8 @@
 // Sign: a table contains errors E = actual - nominal of the moving body. The correction of an axis
 // command is factor * E. For the positioning error the factor is always -1. For other errors the
 // factor follows from the chain of the machine (schema/rig/correction.h). A file contains either
-// the correction or the error. formats.cpp states for each controller which of them it is, and the
-// source of this information.
+// the correction or the error. For each controller, formats.cpp states which of the two the file
+// contains, and the source of this information.
 #pragma once
 
 #include <cstddef>
@@ -60,7 +60,8 @@ struct ExportOptions {
   // Limits of the residual in the self-test.
   // - residual_m: the residual may be at most residual_m + tolerance_m (rad for angles).
   // - residual_share: the residual may be at most this share of the error without correction. If
-  // this part of the error is less than the step of the numbers in the file, the step is the limit.
+  // this part of the error is less than the resolution of the numbers in the file, the resolution
+  // is the limit.
   double residual_m = algo::ResidualLimits{}.most_m;
   double residual_share = algo::ResidualLimits{}.share;
   // LinuxCNC only. `joints`: the joints that get the table of an axis; a gantry axis has two.
@@ -151,7 +152,7 @@ struct Format {
   const char* source;   // source of this meaning
   bool sign_confirmed;  // whether the sign in `sense` is confirmed; if not, the user must allow the
                         // export explicitly
-  double quantum_m;     // step of the numbers in the file, m; rad for a squareness
+  double quantum_m;     // resolution of the numbers in the file, m; rad for a squareness
   bool takes_home;      // subtracts the correction at ExportOptions::home_m
   AxisFiles axes;       // A format supports axes, volume, square, or axes and volume.
   VolumeFiles volume;

@@ -80,8 +80,8 @@ Residuals residuals_of(const VolumetricTable& table, const VolumetricTable& appl
 }
 
 // The error angle that remains if the controller moves X to x + k y: motion of the tool along X, in
-// m, for a command of 1 m along Y. It follows from the bodies in the chain; the angle between the
-// axes is 90 deg + EC0Y.
+// m, for a command of 1 m along Y. This motion follows from the bodies in the chain; the angle
+// between the axes is 90 deg + EC0Y.
 double angle_after_shear(const SquareAxes& axes, double k) {
   const auto moved = [&](char axis, double command) {
     const ChainAxis* of = axes.machine.find(axis);

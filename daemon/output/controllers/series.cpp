@@ -145,7 +145,7 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables) {
   return {};
 }
 
-// A warning can contain text of a user. In a file it must not begin a new line or contain a
+// A warning can contain text of a user. In a file, this text must not begin a new line or contain a
 // character that the controller does not support.
 std::string plain_ascii_line(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kPlain[] = {

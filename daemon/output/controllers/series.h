@@ -41,12 +41,12 @@ std::string plain_ascii_line(std::string_view text);
 // Joins the lines to a text. Each line begins with `sign` and a space.
 std::string commented(const std::vector<std::string>& lines, const std::string& sign);
 
-// The mean of both approaches at a position, interpolated linearly. Beyond the ends of the series
-// it is the value at the end.
+// The mean of both approaches at a position, interpolated linearly. Beyond the ends of the series,
+// the result is the value at the end.
 double mean_error_at(const Series& series, double position_m);
 
-// The note that `taken_m` was subtracted from all numbers in a file, and that they are therefore 0
-// at home. `each`: name of one number, "trim".
+// The note that `taken_m` was subtracted from all numbers in a file, and that the number at home is
+// therefore 0. `each`: name of one number, "trim".
 std::string zeroed_at_home_note(const Series& series, const std::string& each, double taken_m,
                                 double home_m);
 std::string fixed(double x, int decimals);  // "0" instead of "-0"

@@ -7,9 +7,9 @@ namespace mdof::controllers {
 
 // ISG's tabular format, which TF5280 reads, and the list file that names the table file. The file
 // states the corrections as the errors EXX, EYX, EZX of one axis, as functions of the positions of
-// all axes of the grid. It contains no angles and declares all axes on the side of the tool. Under
-// these conditions the controller adds exactly the values of the table, for every chain of the
-// machine.
+// all axes of the grid. The file contains no angles and declares all axes on the side of the tool.
+// Under these conditions the controller adds exactly the values of the table, for every chain of
+// the machine.
 Result<Export> write_isg_csv(const VolumetricTable& table, const ExportOptions& options);
 Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files);
 

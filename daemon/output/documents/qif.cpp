@@ -142,7 +142,7 @@ Document document_of(const Report& report) {
   for (const auto& pair : report.squareness) {
     if (!pair.results) continue;
     const Squareness& s = pair.results->squareness;
-    // The squareness is a result of two runs; the document states it with the last run.
+    // The squareness is a result of two runs; the document states the squareness with the last run.
     add_figure(document, document.runs.back(), pair.results->budget,
                {pair.results->budget.figure,
                 "of runs " + std::to_string(s.run_a) + " and " + std::to_string(s.run_b),

@@ -99,8 +99,8 @@ void Connection::take_line(Clock::time_point until) {
   if (!out.empty() && out.back() != '\n') out += '\n';
 }
 
-// Sends due notifications as long as the socket accepts them. The others wait until the socket can
-// be written, or until they are due.
+// Sends due notifications as long as the socket accepts data. The other notifications wait until
+// the socket can be written, or until they are due.
 void Connection::send_due() {
   while (is_open() && output_.unsent() == 0 && session_->has_subscriptions()) {
     const auto next = session_->send_due(Clock::now());
@@ -138,8 +138,8 @@ bool Connection::finished() {
   return input_ended_ && output_.unsent() == 0 && session_->has_nothing_pending();
 }
 
-// Call it only if no complete line is in the buffer, because receiving makes the result of
-// LineBuffer::next() invalid.
+// Call this function only if no complete line is in the buffer, because receiving makes the result
+// of LineBuffer::next() invalid.
 void Connection::receive() {
   if (draining_since_) input_.discard();
   const auto space = input_.space();
@@ -160,9 +160,9 @@ void Connection::input_ended() {
   send(message);
 }
 
-// Sends the reason, waits until the client has read it, and closes the connection. During this time
-// input is discarded, because the kernel also discards unsent output when a socket with unread
-// input is closed.
+// Sends the reason, waits until the client has read the reason, and closes the connection. During
+// this time input is discarded, because the kernel also discards unsent output when a socket with
+// unread input is closed.
 void Connection::refuse(std::string_view why) {
   session_->refuse(why);
   server_.service.log(session_->name() + " refused: " + std::string(why));

@@ -17,7 +17,7 @@ namespace mdof::rpc {
 
 struct ServerCore;
 
-// Thread-bound: the event loop. Only take_turn() receives, handles requests and sends; the server
+// Thread-bound to the event loop. Only take_turn() receives, handles requests and sends; the server
 // calls it for all connections in a fair order. All other events only ask the server for a turn. A
 // handler therefore never runs inside another handler.
 class Connection final : public ClientSocket {
@@ -57,8 +57,8 @@ class Connection final : public ClientSocket {
 
   ServerCore& server_;
   LineBuffer input_;
-  std::optional<LineBuffer::Line> line_;  // the line in progress; it stays valid because the
-                                          // connection reads nothing until it is finished
+  std::optional<LineBuffer::Line> line_;  // the line in progress; this line stays valid because the
+                                          // connection reads nothing until the line was handled
   FairShare share_;
   std::optional<Clock::time_point> line_since_;      // time of the first byte of an incomplete line
   std::optional<Clock::time_point> draining_since_;  // not nullopt: further input is discarded

@@ -14,7 +14,7 @@ class LineBuffer {
   // `padding`: number of bytes after a line that its user may read.
   LineBuffer(std::size_t max_line_bytes, std::size_t padding);
 
-  // The space for received bytes. It is empty only if the next line is too long. The call makes the
+  // The space for received bytes; empty only if the next line is too long. The call makes the
   // result of next() invalid.
   std::span<char> space();
   void received(std::size_t bytes) { end_ += bytes; }

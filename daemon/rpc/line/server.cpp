@@ -13,7 +13,7 @@
 namespace mdof::rpc {
 namespace {
 
-// A socket file. The destructor removes it if the path still leads to the same file.
+// A socket file. At its end, the server removes this file if the path still leads to the same file.
 struct SocketFile {
   std::string path;
   dev_t device = 0;

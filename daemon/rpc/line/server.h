@@ -12,8 +12,8 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: call it on the loop's thread, or while the loop does not run. The service and the
-// loop must exist longer than the server.
+// Thread-bound: use the server on the thread of the loop, or while the loop does not run. The
+// service and the loop must exist longer than the server.
 class LineServer {
  public:
   LineServer(EventLoop& loop, Service& service);

@@ -9,7 +9,7 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: the event loop.
+// Thread-bound to the event loop.
 struct ServerCore final : ClientSet<Connection> {
   using ClientSet::ClientSet;
   ~ServerCore() override { close_all(); }

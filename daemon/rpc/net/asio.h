@@ -1,7 +1,7 @@
-// Includes Boost.Asio without deprecated names. This folder uses its event loop for descriptors,
-// timers and signals. It opens and writes sockets with plain system calls. The standalone Asio
-// library is not used, because Boost.Beast (daemon/rpc/web/) needs Boost.Asio, and one program must
-// not contain both. Private header.
+// Includes Boost.Asio without deprecated names. This folder uses the event loop of Boost.Asio for
+// descriptors, timers and signals, but opens and writes sockets with plain system calls. The
+// standalone Asio library is not used, because Boost.Beast (daemon/rpc/web/) needs Boost.Asio, and
+// one program must not contain both. Private header.
 #pragma once
 
 #ifndef BOOST_ASIO_NO_DEPRECATED

@@ -16,7 +16,7 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: the event loop. `C`: a ClientSocket with check_times().
+// Thread-bound to the event loop. `C`: a ClientSocket with check_times().
 template <class C>
 struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
   using Clock = std::chrono::steady_clock;

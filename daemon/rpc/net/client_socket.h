@@ -14,7 +14,7 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: the event loop.
+// Thread-bound to the event loop.
 class ClientSocket : public Transport, public std::enable_shared_from_this<ClientSocket> {
  public:
   using Clock = std::chrono::steady_clock;

@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The pending wait holds a reference to the object, so that it is not destroyed.
+// The pending wait holds a reference to the Ticker, so that the Ticker is not destroyed.
 struct Ticker : std::enable_shared_from_this<Ticker> {
   Ticker(asio::io_context& context, Clock::duration every, std::function<void()> call)
       : timer(context), period(every), work(std::move(call)), due(Clock::now()) {}

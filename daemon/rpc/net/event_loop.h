@@ -17,7 +17,7 @@ class EventLoop {
   struct Core;  // contains the Asio objects; see event_loop_core.h
 
   EventLoop();
-  // Call it after run() has returned. Queued work is destroyed without being run.
+  // Destroy the loop after run() has returned. Queued work is destroyed without being run.
   ~EventLoop();
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
@@ -29,15 +29,15 @@ class EventLoop {
   // Thread-safe. Functions from one thread run in the order in which this thread posted them. Does
   // nothing after the loop has been destroyed.
   void post(std::function<void()> work);
-  // Call it before run() or on the loop. Calls `work` at multiples of `period`; missed calls are
-  // skipped.
+  // Call call_every() before run() or on the loop. Calls `work` at multiples of `period`; missed
+  // calls are skipped.
   void call_every(std::chrono::nanoseconds period, std::function<void()> work);
-  // Call it before run() or on the loop. Calls `work(number)` on the loop for each of these
-  // signals.
+  // Call on_signal() before run() or on the loop. Calls `work(number)` on the loop for each of
+  // these signals.
   void on_signal(const std::vector<int>& signals, std::function<void(int)> work);
-  // Call it before run() or on the loop. Calls `work` whenever the descriptor is readable; `work`
-  // must read the data. The descriptor belongs to the caller, who must not close it before run()
-  // returns.
+  // Call on_readable() before run() or on the loop. Calls `work` whenever the descriptor is
+  // readable; `work` must read the data. The descriptor belongs to the caller, who must not close
+  // it before run() returns.
   void on_readable(int descriptor, std::function<void()> work);
 
   const std::shared_ptr<Core>& core() const { return core_; }

@@ -12,7 +12,7 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: the event loop.
+// Thread-bound to the event loop.
 class Listener : public std::enable_shared_from_this<Listener> {
  public:
   // Passes each connected, non-blocking socket to `adopt`, which then owns it.

@@ -36,7 +36,7 @@ tl::unexpected<Error> cannot(const std::string& what, int number) {
 }
 
 // Removes an old socket file before bind(). Errors: the file is not a socket; a process answers on
-// it.
+// this socket.
 Status remove_stale(const std::string& path) {
   struct stat info {};
   if (::lstat(path.c_str(), &info) != 0) return {};

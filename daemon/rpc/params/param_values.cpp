@@ -94,7 +94,7 @@ Status check_number(const Param& param, const element& value) {
 }
 
 Status check_array(const Param& param, const simdjson::dom::array& items) {
-  std::size_t count = 0;  // array.size() is limited to 2^24
+  std::size_t count = 0;  // counted here, because array.size() is at most 2^24
   for (const element item : items) {
     if (++count > param.bounds.items)
       return usage("parameter " + in_quotes(param.name) + " may have at most " +

@@ -25,7 +25,7 @@ struct Handled {
   bool begun = false;  // the batch contains requests that have not been called yet
 };
 
-// Thread-bound: the event loop. Not reentrant: a handler must not call handle().
+// Thread-bound to the event loop. Not reentrant: a handler must not call handle().
 class Dispatcher {
  public:
   Dispatcher(std::shared_ptr<Executor> executor, const MethodTable& table,

@@ -27,7 +27,7 @@ struct ReplyLimits {
   std::size_t max_id_bytes;
 };
 
-// Thread-bound: the event loop.
+// Thread-bound to the event loop.
 class Exchange {
  public:
   Exchange(ReplyLimits limits, std::size_t members, bool batch, std::weak_ptr<ReplySink> sink);
@@ -37,7 +37,7 @@ class Exchange {
   void answer(std::string_view id, const Result<std::string>& result);
   void answer_error(std::string_view id, int code, std::string_view message,
                     std::string_view data = {});
-  // Call it after all requests of the message were called. True: the reply is complete and was
+  // Call seal() after all requests of the message were called. True: the reply is complete and was
   // appended to `out`; nothing is appended if all requests are notifications. False: the sink
   // receives the reply later.
   bool seal(std::string& out);

@@ -14,8 +14,8 @@ namespace mdof::rpc {
 struct Peer {
   std::optional<Credentials> credentials = {};  // nullopt if the kernel does not report them (TCP)
   std::vector<gid_t> further_groups = {};       // groups besides the group of the credentials
-  // Owner of the socket of a TCP client on this machine. It only serves to limit the connections of
-  // a user (max_connections_of_user); the client gets no permissions from it.
+  // Owner of the socket of a TCP client on this machine. mdofd uses this uid only to limit the
+  // connections of a user (max_connections_of_user); the client gets no permissions from this uid.
   std::optional<uid_t> socket_owner = {};
   // no: not a browser. reads, writes: a request of a browser, without or with the token that
   // permits writing.

@@ -49,7 +49,7 @@ Service::Service(std::shared_ptr<Executor> loop, const MethodTable& table, Serve
 
 // The kind of place that a new client gets; each kind has its own limit. A client in the group
 // kept_for_group gets the reserved place only if all ordinary places are in use. Browsers do not
-// use these places, so that they cannot exclude the machine's control; HttpServer limits their
+// use these places, so that browsers cannot exclude the machine's control; HttpServer limits their
 // number.
 Result<Service::Place> Service::place_for(const Peer& peer) const {
   if (peer.http != Peer::Http::no) return Place::http;

@@ -19,8 +19,8 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: use it on the thread of the loop, or while the loop does not run. The table must
-// exist longer than the service, and the service longer than all transports.
+// Thread-bound: use the service on the thread of the loop, or while the loop does not run. The
+// table must exist longer than the service, and the service longer than all transports.
 class Service {
  public:
   // `loop` sends replies that become complete after their handler has returned.
@@ -39,8 +39,8 @@ class Service {
   // nullptr if the topic does not exist.
   const Topic* topic(std::string_view name) const { return topics_.topic(name); }
   // From now on, calls `hear` with each event before the subscribers receive the event, also if
-  // there is no subscriber. The HTTP server uses it to keep events for browsers that reconnect. An
-  // empty function ends the calls.
+  // there is no subscriber. The HTTP server uses these calls to keep events for browsers that
+  // reconnect. An empty function ends the calls.
   using Hear = std::function<void(std::string_view topic, std::string_view json)>;
   void on_event(Hear hear) { event_listener_ = std::move(hear); }
   // The interval at which the program should make values of this topic:

@@ -18,7 +18,7 @@
 
 namespace mdof::rpc {
 
-// Transmits the messages of one session. The session calls it on the event loop.
+// Transmits the messages of one session. The session calls these functions on the event loop.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -26,7 +26,7 @@ class Transport {
   virtual void send(std::string_view message) = 0;
   virtual std::size_t unsent() const = 0;  // bytes that were not sent yet
   // Asks for a turn, because there is something to send, or because the reply to a request has
-  // space again. The function must not begin the turn itself, because it is called during other
+  // space again. The function must not begin the turn itself, because wake() is called during other
   // work.
   virtual void wake() = 0;
 };
@@ -38,7 +38,7 @@ struct SessionParts {
   const ServerOptions& options;
 };
 
-// Thread-bound: the event loop. The transport releases the session before the transport is
+// Thread-bound to the event loop. The transport releases the session before the transport is
 // destroyed.
 class Session final : public Caller,
                       public ReplySink,
@@ -55,10 +55,11 @@ class Session final : public Caller,
   // Whether the largest possible reply has space in the unsent output. A request only begins if
   // this is true; all limits depend on this rule.
   bool has_room() const;
-  // Handles one message. Dispatcher::kPadding readable bytes must follow it. Call it only if
-  // has_room() is true, and before end(). If the reply is known at once, appends it to `out`;
-  // otherwise sends it later with Transport::send(). Returns false if a batch was not finished at
-  // the time `until`; then call it again with the same message before any other message.
+  // Handles one message. Dispatcher::kPadding readable bytes must follow the message. Call handle()
+  // only if has_room() is true, and before end(). If the reply is known at once, appends it to
+  // `out`; otherwise sends it later with Transport::send(). Returns false if a batch was not
+  // finished at the time `until`; then call handle() again with the same message before any other
+  // message.
   bool handle(std::string_view message, std::string& out,
               Clock::time_point until = Clock::time_point::max());
   // Sends the due notifications, at most about max_reply_bytes. Returns the time of the next

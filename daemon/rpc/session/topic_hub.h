@@ -25,7 +25,7 @@ struct Subscriber {
   virtual void wake() = 0;
 };
 
-// Thread-bound: the event loop.
+// Thread-bound to the event loop.
 class TopicHub {
  public:
   explicit TopicHub(const ServerOptions& options) : options_(options) {}

@@ -202,8 +202,8 @@ void HttpConnection::reply(const HttpReply& reply) {
   request_ends(head_->keep_alive);
 }
 
-// Sends the reason, waits until the client has read it, and closes the connection. During this time
-// input is discarded.
+// Sends the reason, waits until the client has read the reason, and closes the connection. During
+// this time input is discarded.
 void HttpConnection::refuse(const HttpError& error, std::string fields) {
   append_refusal(output_.text(), error, std::move(fields));
   request_ends(false);
@@ -243,8 +243,8 @@ void HttpConnection::send_events() {
   }
 }
 
-// Sends events and due values as long as the socket accepts them. The others wait until the socket
-// can be written, or until they are due.
+// Sends events and due values as long as the socket accepts data. The other values wait until the
+// socket can be written, or until they are due.
 void HttpConnection::send_stream() {
   while (is(State::streaming) && output_.unsent() == 0) {
     send_events();

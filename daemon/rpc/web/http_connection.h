@@ -1,5 +1,5 @@
-// One connection of a browser. It handles requests one after the other, or sends a stream of
-// events. Its limits protect the other clients. Private header.
+// One connection of a browser, which handles requests one after the other, or sends a stream of
+// events. The limits of the connection protect the other clients. Private header.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ namespace mdof::rpc {
 
 struct HttpServerCore;
 
-// Thread-bound: the event loop. Each request and each stream has its own session. The connection
+// Thread-bound to the event loop. Each request and each stream has its own session. The connection
 // reads the next request after the client has received the answer to the previous request. Pending
 // messages of a stream are in KeptEvents and Subscription, which limit them. A slow browser
 // therefore needs little memory.

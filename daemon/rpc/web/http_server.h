@@ -23,8 +23,8 @@ struct HttpSetup {
   std::span<const PageFile> files = page_files();
 };
 
-// Thread-bound: call it on the loop's thread, or while the loop does not run. The service and the
-// loop must exist longer than the server.
+// Thread-bound: use the server on the thread of the loop, or while the loop does not run. The
+// service and the loop must exist longer than the server.
 class HttpServer {
  public:
   HttpServer(EventLoop& loop, Service& service, HttpSetup setup);

@@ -16,7 +16,7 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: the event loop.
+// Thread-bound to the event loop.
 struct HttpServerCore final : ClientSet<HttpConnection> {
   HttpServerCore(std::shared_ptr<EventLoop::Core> event_loop, Service& shared, HttpSetup given);
   ~HttpServerCore() override;

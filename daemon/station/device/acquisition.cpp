@@ -25,7 +25,7 @@ constexpr milliseconds kFullQueueSleep{10}, kRefresh{1000};
 constexpr milliseconds kOpening{20'000};
 
 // The sampling rate is checked over kWindow. A device becomes slow below kSlowShare of its nominal
-// rate. It is no longer slow above kRecoveredShare of this rate.
+// rate. The device is no longer slow above kRecoveredShare of this rate.
 constexpr std::chrono::seconds kWindow{5};
 constexpr double kSlowShare = 0.8, kRecoveredShare = 0.95;
 
@@ -134,7 +134,7 @@ void Acquisition::acquire(std::uint64_t pass) {
       return sink_.ended(pass, "", spec_.source_info(**driver));
     }
     if (!acquiring_) break;
-    if (!spec_.live) {  // a file that cannot be read cannot recover
+    if (!spec_.live) {  // a file that cannot be read now cannot be read later
       const std::string why = status().error;
       set_state("ended");
       return sink_.ended(pass, why, {});
@@ -210,7 +210,7 @@ void Acquisition::refresh_info(const drivers::Driver& driver) {
   watch_datum(info);
 }
 
-// Reports a lost datum only once, because it stays lost.
+// Reports a lost datum only once, because the datum stays lost.
 void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
   std::map<std::string, std::string> lost = info.further_datum_lost;
   lost[kEncoderChannel] = info.datum_lost;

@@ -78,7 +78,7 @@ class Acquisition final : public DeviceReader {
   std::int64_t opened_ns_ = 0;           // time of the first scan after the device was opened
   std::uint64_t scans_since_opened_ = 0;
   std::chrono::steady_clock::time_point next_refresh_;
-  std::uint64_t dropped_scans_ = 0;  // number; the next block reports it
+  std::uint64_t dropped_scans_ = 0;  // number of dropped scans; the next block reports this number
   std::optional<std::chrono::steady_clock::time_point> lost_since_;
   std::set<std::string> datum_lost_;  // channel ids of the encoders with a lost datum
   int marks_passed_ = 0;
@@ -87,7 +87,7 @@ class Acquisition final : public DeviceReader {
   std::chrono::steady_clock::time_point window_end_;  // end of the window of watch_rate()
   std::uint64_t scans_in_window_ = 0, lost_in_window_ = 0;
 
-  std::uint64_t pass_ = 0;  // only start() changes it
+  std::uint64_t pass_ = 0;  // number of the pass; only start() changes it
   std::thread thread_;
 };
 

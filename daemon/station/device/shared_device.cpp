@@ -75,7 +75,7 @@ class DevicePart final : public DeviceReader {
 SharedDevice::SharedDevice(const drivers::DriverSpec& spec)
     : acquisition_(whole(spec), sink_for_all_axes()) {}
 
-// ---- acquisition thread ----
+// ---- functions on the acquisition thread ----
 
 DeviceSink SharedDevice::sink_for_all_axes() {
   DeviceSink sink;
@@ -116,7 +116,7 @@ void SharedDevice::distribute_block(const SampleBlock& block, std::uint64_t pass
   }
 }
 
-// ---- main thread ----
+// ---- functions on the main thread ----
 
 void SharedDevice::join(const std::shared_ptr<AxisPart>& axis_part) {
   {

@@ -32,7 +32,7 @@ class SharedDevice {
     DeviceSink sink;
     SampleBlock block;  // memory for the channels of the axis in the next block
     bool asked_to_stop = false;
-    std::uint64_t dropped_scans = 0;      // number; the next block reports it
+    std::uint64_t dropped_scans = 0;  // number of dropped scans; the next block reports this number
     std::uint64_t dropped = 0, lost = 0;  // number of blocks, number of scans; as in DeviceStatus
   };
   DeviceSink sink_for_all_axes();

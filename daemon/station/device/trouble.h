@@ -38,8 +38,9 @@ std::string trouble_line(const Trouble& trouble);
 // "text", "utc"}.
 std::string trouble_json(Axis axis, std::int64_t run, const Trouble& trouble);
 
-// The trouble that a point has no errors. It states the probes without usable readings and their
-// device. `channels`: channel ids by the name of the device. Returns nullopt for a solved point.
+// The trouble that a point has no errors. The trouble states the probes without usable readings and
+// their device. `channels`: channel ids by the name of the device. Returns nullopt for a solved
+// point.
 using ChannelsByDevice = std::map<std::string, std::vector<std::string>>;
 std::optional<Trouble> unsolved(const MeasuredPoint& point, const Rig& rig,
                                 const ChannelsByDevice& channels, const std::string& utc);
@@ -60,9 +61,9 @@ class TroubleLog {
   std::map<std::string, std::map<Trouble::Kind, RepeatedTrouble>> devices_;
 };
 
-// Limits the number of lines in the journal. In each interval of 10 s it admits one line for each
-// key. The next admitted line states the number of omitted lines. Does not read clocks and writes
-// nothing.
+// Limits the number of lines in the journal. In each interval of 10 s this class admits one line
+// for each key. The next admitted line states the number of omitted lines. The class reads no
+// clocks and writes nothing.
 class JournalLimit {
  public:
   using Time = std::chrono::steady_clock::time_point;

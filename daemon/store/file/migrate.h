@@ -12,8 +12,8 @@ namespace mdof::store {
 inline constexpr int kApplication = 0x6d646f66;  // application_id of SQLite: the bytes of "mdof"
 
 // Checks the database and does not change it. An empty database and a database of mdof are
-// accepted. Error (bad_input): the database belongs to another application, or its schema is newer
-// than `known`. The message states both versions.
+// accepted. Error (bad_input): the database belongs to another application, or the schema of the
+// database is newer than `known`. The message states both versions.
 Status check_kind(sqlite::Connection& connection, int known);
 
 // Applies the missing migrations, each in one transaction. Before the first migration, a database

@@ -37,8 +37,9 @@ struct flock one_byte(off_t byte, short type) {
 }
 
 // Descriptors of databases that are not in use now. They are never closed: when a process closes
-// any descriptor of a file, it releases all locks of SQLite on this file. A child process has its
-// own list, because a descriptor from the parent process shares the lock with the parent.
+// any descriptor of a file, the locks that SQLite holds in this process on this file are released.
+// A child process has its own list, because a descriptor from the parent process shares the lock
+// with the parent.
 class Idle {
  public:
   int take(const struct stat& file, int access) {
@@ -106,8 +107,8 @@ WriterLock::~WriterLock() {
 }
 
 Result<WriterLock> WriterLock::acquire(const fs::path& database, int timeout_ms) {
-  // This descriptor never writes. sqlite::is_open_for_writing() distinguishes it from the
-  // descriptors of SQLite by the flag O_APPEND.
+  // Nothing is written with this descriptor. The flag O_APPEND distinguishes this descriptor from
+  // the descriptors of SQLite for sqlite::is_open_for_writing().
   WriterLock lock(descriptor_of(database, O_CREAT | O_RDWR | O_APPEND));
   if (lock.fd_ < 0) return not_opened(database);
   constexpr int kStepMs = 10;

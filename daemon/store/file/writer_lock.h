@@ -1,6 +1,6 @@
 // Allows only one writer for each database. Reason: SQLite before 3.51.3 can damage a WAL database
 // if two connections write or make a checkpoint at the same moment. The lock is on the database
-// file, so it also works if programs open the file by different names or links.
+// file, so the lock also works if programs open the file by different names or links.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class WriterLock {
   // Waits for the end of another writer, at most `timeout_ms`. Error (conflict): the other writer
   // still holds the lock.
   static Result<WriterLock> acquire(const std::filesystem::path& database, int timeout_ms);
-  // Whether a process holds the lock. It can be this process.
+  // Whether any process (also this process) holds the lock.
   static bool held(const std::filesystem::path& database);
 
   // Call this function after the ends of the runs that a crash interrupted were stored. From then,

@@ -1,6 +1,6 @@
 // The charts of the differences between the visits of a target. A difference is the error at one
-// visit minus the mean error of this target and approach. One chart shows it against the position
-// (repeatability), the other against the time of the run (drift).
+// visit minus the mean error of this target and approach. One chart shows the differences against
+// the position (repeatability), the other chart against the time in the run (drift).
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -207,7 +207,7 @@ Status check_count(std::size_t tables, const ExportOptions& options, Export& out
   return {};
 }
 
-// Comment lines with the omitted errors; the file itself must state them.
+// Comment lines with the omitted errors; the file itself must state the omitted errors.
 std::string left_out_lines(const Export& out) {
   std::string text;
   for (const std::string& left : out.left_out)

@@ -13,7 +13,7 @@ namespace mdof::controllers {
 namespace {
 
 constexpr const char* kLecHead = "%_N_AX_EEC_INI";
-constexpr double kStepOfLec_m = 2e-9;  // step of the numbers in the file, with rounding
+constexpr double kStepOfLec_m = 2e-9;  // resolution of the numbers in the file, with rounding
 
 // The series with the mean of both approaches, because ENC_COMP has one value for both.
 Series mean_of_approaches(Series s) {

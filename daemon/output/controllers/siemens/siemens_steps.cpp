@@ -10,8 +10,8 @@ namespace mdof::controllers {
 namespace {
 
 constexpr double kSameStep_m = 1e-9;
-constexpr double kPermittedLoss =
-    0.01;  // ratio of the largest change by resampling to the largest error
+// Ratio of the largest change by resampling to the largest error.
+constexpr double kPermittedLoss = 0.01;
 
 double value_at(const EqualSteps& e, const std::vector<double>& values, double at_m) {
   const double place =

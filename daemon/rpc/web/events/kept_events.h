@@ -14,7 +14,7 @@
 namespace mdof::rpc {
 
 // The id of an event is the id of the event before it + 1. The first id is the start time of mdofd
-// in microseconds; ids therefore also increase when mdofd restarts. They are below 2^53, because
+// in microseconds; ids therefore also increase when mdofd restarts. The ids are below 2^53, because
 // JavaScript represents larger integers inexactly.
 class KeptEvents {
  public:
@@ -33,9 +33,8 @@ class KeptEvents {
   std::uint64_t last_id() const { return next_ - 1; }
   std::size_t size() const { return events_.size(); }
 
-  // The position at which a client continues whose last event has the id `id`. `count` is the
-  // number of lost events. It is nullopt if the number is unknown, because `id` is from an earlier
-  // start of mdofd.
+  // The position at which a client continues whose last event has the id `id`. `count`: number of
+  // lost events; nullopt if this number is unknown, because `id` is from an earlier start of mdofd.
   struct Resumed {
     std::uint64_t after;
     bool lost = false;

@@ -1,5 +1,5 @@
-// Default paths of the database and the socket. An option or an environment variable overrides
-// them.
+// Default paths of the database and the socket. An option of mdof or a key of mdofd.toml
+// overrides a default path.
 #pragma once
 
 #include <filesystem>

@@ -17,8 +17,8 @@ bool all_measured(const std::vector<double>& targets_m, int repeats,
 // Notices that state why the run is partial; empty if the run is complete.
 //   If repeats > 0: for each target and approach, the number of missing or unsolved points.
 //   If repeats == 0: the targets that have no solved point.
-//   Points that could not be solved: if they are more than half of all points, or if there is
-//   another notice.
+//   The number of unsolved points, if it is more than half of all points or if there is another
+//   notice.
 Notices missing_notices(const std::vector<double>& targets_m, int repeats,
                         const std::vector<MeasuredPoint>& points);
 

@@ -57,7 +57,7 @@ struct TableRequest {
 struct BuiltTable {
   CompensationTable table;
   Notices notices;   // notices of the source runs
-  Notices doubtful;  // those notices that check_gate() rejects
+  Notices doubtful;  // the notices for which check_gate() rejects the table
 };
 // Calculates and stores a table. Errors: those of algo::build_table() and algo::check_limits(); the
 // rigs of the runs state different machines.
@@ -78,7 +78,7 @@ struct ActivationRequest {
   std::int64_t table = 0;
   Consent consent;
   HistoryEntry action;  // the requesting user
-  // The activation fails if the generation of all active tables is another number.
+  // If set, the activation fails unless the generation of all active tables is this number.
   std::optional<std::int64_t> expected_generation = std::nullopt;
 };
 // Activates the table. Rejects a table whose content does not match its hash. Also rejects every

@@ -16,7 +16,7 @@
 namespace mdof::daemon {
 namespace {
 
-// Below this number of stops, each new stop restarts the recognition.
+// Below this number of stops, each new stop restarts the recognition of the whole sequence.
 constexpr std::size_t kFullRecognitionLimit = 256;
 
 // Copies the last frame of `frames` into `newest`.

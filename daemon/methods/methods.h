@@ -69,8 +69,9 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 #undef METHODS
 }
 
-// Functions that several groups use.
-// The user is the caller; the time is now.
+// ---- functions that several groups use ----
+
+// An action of the caller at the present time.
 HistoryEntry caller_action(const rpc::Params& params, std::string name);
 // As caller_action(). The parameter "reason" becomes the detail of the action.
 HistoryEntry action_with_reason(const rpc::Params& params, std::string name);

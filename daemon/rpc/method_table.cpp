@@ -11,8 +11,8 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::size_t kEnvelopeBytes =
-    512;                               // size of a JSON-RPC reply without the document, with the id
+// Size of a JSON-RPC reply with its id, but without the document.
+constexpr std::size_t kEnvelopeBytes = 512;
 constexpr std::size_t kEndBytes = 64;  // size of the text after the methods
 constexpr const char* kLeftOut =
     R"({"description":"the schema does not fit into max_bytes; give a larger max_bytes"})";

@@ -54,7 +54,7 @@ class EncoderZero {
 
   EncoderDatum datum() const;
   EncoderState state() const;
-  // Notes that a run begins.
+  // Notes that this run begins with the present origin of the count.
   void begins(std::int64_t run);
   // Whether the origin of the count is the same as at the beginning of the run. False if the run
   // began before this program started, or before the device lost power: the origin is then unknown.

@@ -1,5 +1,5 @@
 // Smallest and largest reading of each probe during the last second. The live view shows these
-// readings, because it shows only few of the frames.
+// readings, because only few of the frames are shown.
 #pragma once
 
 #include <array>

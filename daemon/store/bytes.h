@@ -16,7 +16,8 @@ inline std::string_view bytes_of(std::span<const double> x) {
   return {reinterpret_cast<const char*>(x.data()), x.size_bytes()};
 }
 
-// Copies doubles from `bytes` to `x`. The number is the smaller one of the two sizes.
+// Copies doubles from `bytes` to `x`. The number of copied doubles is the smaller one of the two
+// sizes.
 inline void doubles_from(std::string_view bytes, std::span<double> x) {
   const std::size_t n = std::min(x.size(), bytes.size() / sizeof(double));
   if (n > 0) std::memcpy(x.data(), bytes.data(), n * sizeof(double));

@@ -61,8 +61,8 @@ struct ActiveTable {
   std::int64_t generation = 0;
   std::string actor;
   std::string activated_utc;
-  bool doubtful =
-      false;  // whether the runs of the table are doubtful; the store does not set this member
+  // Whether the runs of the table are doubtful. The store does not set this member.
+  bool doubtful = false;
 };
 
 struct ActiveVolumetric {

@@ -63,7 +63,8 @@ class Storekeeper {
     store::Durability durability = store::Durability::full;
     std::chrono::milliseconds commit_interval{50};
     // Longest time that a write waits while another program locks the database. After the same
-    // time, the thread tries to write the pending data again. In between, it does other work.
+    // time, the thread tries to write the pending data again. In between, the thread does other
+    // work.
     std::chrono::milliseconds busy_timeout{1000};
     std::size_t most_waiting = 4096;  // maximum number of pending points
   };
@@ -103,10 +104,10 @@ class Storekeeper {
   // dropped_blocks() counts the call once.
   bool record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait);
   // Stores points of a run, then calls `done`. If another program locks the database, the points
-  // are pending until it releases the database; the recording contains their samples. If more than
-  // `most_waiting` points are pending, these points and all later points of the run are dropped:
-  // `done` receives an error, and dropped_points() counts them. At the end of the run, they are
-  // stored in a new run that supersedes the run.
+  // are pending until that program releases the database; the recording contains their samples. If
+  // more than `most_waiting` points are pending, these points and all later points of the run are
+  // dropped: `done` receives an error, and dropped_points() counts these points. At the end of the
+  // run, all points are stored in a new run that supersedes the run.
   void append_points(std::int64_t run, std::vector<MeasuredPoint> points,
                      std::function<void(Status)> done);
   // Seals the recording and ends the run. If the result differs from the stored points, the stored

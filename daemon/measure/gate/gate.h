@@ -49,7 +49,7 @@ const char* only_approach(const Run& run);
 // conformity can be decided. The text has no full stop at its end. Possible reasons:
 //   - the run is invalid, incomplete or superseded;
 //   - the readings of all probes, or of all but one, never change (notice probes_dead);
-//   - a measured run has only one approach, at all or at some targets.
+//   - a measured run has only one approach at all targets or at some targets.
 std::string undecidable_reason(store::Store& store, const Run& run);
 
 // `consequence`: text for the message, "it is not activated". Error (conflict): the data are

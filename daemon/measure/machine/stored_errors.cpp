@@ -55,7 +55,8 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
   return {};
 }
 
-// Reference point of the straightness of a measured axis, and whether its slope is removed.
+// Reference point of the straightness of a measured axis, and whether the slope of the straightness
+// is removed.
 struct StatedStraightness {
   std::string axis;
   StatedAt at = kAtFixture;

@@ -16,7 +16,7 @@ namespace mdof::daemon {
 struct StoredErrors {
   std::vector<std::int64_t> runs;  // runs of the errors, including the runs of the tables
   Notices notices;                 // notices of the tables that were built
-  Notices doubtful;                // those notices that check_gate() rejects
+  Notices doubtful;                // the notices for which check_gate() rejects a table
 };
 
 // Reads the runs, tables and squareness results that the description of the machine names, and sets

@@ -29,8 +29,8 @@ std::vector<double> larger(const std::vector<double>& forward, const std::vector
 // beyond the last position, the last values are used. u does not change. Before the first position,
 // nothing changes, because the angles of a table are 0 at its first position.
 void set_angle_zero_at(ErrorFunction& f, double zero_m);
-// Replaces u of an angle that set_angle_zero_at() has shifted by an upper bound. The bound is valid
-// for any covariance between the positions.
+// After set_angle_zero_at(), replaces u of the shifted angle by an upper bound, which is valid for
+// any covariance between the positions.
 void bound_angle_u(ErrorFunction& f, double zero_m);
 std::vector<double> scaled(std::vector<double> values, double by);
 

@@ -22,7 +22,7 @@ struct VolumetricTableRequest {
 struct BuiltVolumetric {
   VolumetricTable table;
   Notices notices;
-  Notices doubtful;  // those notices that check_gate() rejects
+  Notices doubtful;  // the notices for which check_gate() rejects the table
 };
 // Errors: those of read_stored_errors() and algo::build_volumetric().
 Result<BuiltVolumetric> calculate_volumetric(store::Store& store,

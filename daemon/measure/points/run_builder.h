@@ -32,9 +32,9 @@ struct SolvedPoints {
   double least_dwell_s = 0;
   const algo::Residuals& residuals;
   std::vector<double> targets_m;  // requested targets; empty: targets were recognised
-  // Notices for four places in the list of the run: the beginning; after the notices about the
-  // signals; after the notices about the corrections; the end. The notices of `partial` state why
-  // the run is partial.
+  // Notices for four places in the list of notices of the run: `first` at the beginning,
+  // notices_after_signals after the notices about the signals, `of_points` after the notices about
+  // the corrections, `partial` at the end. `partial` states why the run is partial.
   Notices first = {}, notices_after_signals = {}, of_points = {}, partial = {};
 };
 

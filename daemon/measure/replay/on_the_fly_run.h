@@ -28,7 +28,7 @@ class OnTheFlyRun : RunBuilder {
  private:
   OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver);
   Status check_room();
-  // Removes points during which the encoder was suspect. Error: no other point exists.
+  // Removes points during which the encoder was suspect. Error: no point is left.
   Status leave_suspect_out(algo::Sequence& sequence, Notices& notices) const;
   void correct(algo::Sequence& sequence) const;
   Status solve(algo::Sequence& sequence, const algo::Residuals& residuals) const;

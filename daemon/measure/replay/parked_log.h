@@ -21,7 +21,7 @@ struct ParkedRequest {
   // limit_um_per_h in the table [drift] of the rig. If the rig has no such key, there is no limit.
   std::optional<double> limit_m_per_s;
   std::optional<double> angle_limit_rad_per_s;  // drift limit for the angles; default: no limit
-  std::optional<double> window_s;               // default: a twelfth of the length of the log
+  std::optional<double> window_s;  // length of a time window; default: a twelfth of the log
 };
 
 struct ParkedLog {

@@ -8,7 +8,8 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kMostVisits = 1500;  // largest number of values n_ij in one reply
+// Largest size of the matrix n_ij (plausibility.h) in one reply.
+constexpr std::size_t kMostVisits = 1500;
 
 std::string document(const RunMembers& members) {
   JsonWriter json;

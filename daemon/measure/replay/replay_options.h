@@ -29,7 +29,7 @@ struct ReplayOption {
   std::string command_line_name() const;  // "--settle-s"
 };
 
-// All options, in the order of the help.
+// All options, in the order in which the help lists them.
 const std::vector<ReplayOption>& replay_options();
 
 // Error (usage): a number is not finite or out of range, or an option does not apply to this kind

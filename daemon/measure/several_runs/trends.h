@@ -22,7 +22,7 @@ struct TrendRequest {
   std::optional<Axis> axis;
   std::string figure;  // name of the only requested figure: "EYX_straightness_um", "EC0Y_urad";
                        // empty: all figures
-  std::size_t baseline = 0;  // number of values; as in algo::control_chart()
+  std::size_t baseline = 0;  // number of first values that determine the limits of the chart
   bool mixed = false;        // also use runs with other rigs, models or options
 };
 
@@ -36,7 +36,7 @@ struct TrendValue {
 };
 struct Trend {
   std::string figure;
-  std::size_t baseline = 0;           // requested number of values
+  std::size_t baseline = 0;           // as in TrendRequest
   std::vector<TrendValue> values;     // values, in the order of time
   std::optional<algo::Chart> chart;   // nullopt: there are too few values for a chart
   std::vector<std::string> left_out;  // sentences: the runs that were left out, with the reason

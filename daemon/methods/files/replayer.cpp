@@ -84,7 +84,7 @@ void Replayer::start(Make make, const HistoryEntry& action, Done done) {
     return done(
         fail(ErrorCode::conflict,
              "mdofd is replaying or importing another file; try again when mdofd has finished"));
-  // Waits only briefly: `busy` was false, so the thread is at its end.
+  // Waits only briefly: `busy` was false, so the thread has almost ended.
   if (thread_.joinable()) thread_.join();
   {
     const std::lock_guard lock(shared_->mutex);

@@ -63,8 +63,8 @@ class Trial {
       : series_(series), applied_(applied), machine_(machine), zero_(zero) {}
 
   // The largest error over all test points and both approaches. `sign`: 1: with the correction, 0:
-  // without it, -1: with the wrong sign. `swapped`: with the correction of the other approach.
-  // `one_way`: uses the mean error of both approaches.
+  // without the correction, -1: with the wrong sign. `swapped`: with the correction of the other
+  // approach. `one_way`: uses the mean error of both approaches.
   double residual(double sign, bool swapped, bool one_way) const {
     double largest = 0;
     for (const double x : places()) {

@@ -38,7 +38,7 @@ struct CheckedError {
   double by_ramp = 0;
   // Limit of `residual`. For tables of axes it is the sum of the following terms, but at most the
   // limit in ExportOptions:
-  // - the deviation by thinning
+  // - the deviation that omitted points cause
   // - the resolution of the numbers in the file
   // - the second-order effect: a correction changes the position at which the error acts
   // - by_ramp
@@ -54,7 +54,7 @@ struct CheckedError {
 struct Check {
   std::vector<CheckedError> errors;
   std::vector<std::string> not_judged;  // written errors whose correction sign is unknown
-  // Limits from ExportOptions; the first includes the tolerance.
+  // Limits from ExportOptions; most_residual_m includes the tolerance.
   double most_residual_m = 0, share = 0;
   bool passed() const;  // whether all errors with a known sign pass
   // Whether all errors are below the resolution of the numbers in the file.

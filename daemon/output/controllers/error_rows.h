@@ -22,8 +22,8 @@ Result<Export> write_ssfk(const std::vector<CompensationTable>& tables,
 Result<std::vector<AppliedCorrection>> read_ssfk(const std::vector<ControllerFile>& files);
 
 // $AA_ENC_COMP: the value is + E, because the control moves the axis in the negative direction if
-// the value is positive. A file has one value for both approaches: the mean of their errors. At
-// most 200 points at equal steps.
+// the value is positive. A file has one value for both approaches: the mean of the errors of the
+// two approaches. At most 200 points at equal steps.
 Result<Export> write_lec(const std::vector<CompensationTable>& tables,
                          const ExportOptions& options);
 Result<std::vector<AppliedCorrection>> read_lec(const std::vector<ControllerFile>& files);

@@ -22,7 +22,8 @@ std::string document_of(const CompensationTable& table, const ExportOptions& opt
   return json.take() + "\n";
 }
 
-// `of`: a JSON element, or a simdjson result that may be an error. NaN: no such number.
+// Returns NaN if `of` has no number with this key. `of`: a JSON element, or a simdjson result that
+// may be an error.
 template <class Of>
 double number_of(const Of& of, const std::string& key) {
   double x = std::nan("");

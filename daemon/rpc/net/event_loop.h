@@ -24,7 +24,7 @@ class EventLoop {
 
   // Runs functions, and waits if there is none to run, until stop() is called.
   void run();
-  // Thread-safe. run() returns when the function that it runs now has ended.
+  // Thread-safe. Makes run() return; a function that runs now is finished first.
   void stop();
   // Thread-safe. Functions from one thread run in the order in which this thread posted them. Does
   // nothing after the loop has been destroyed.

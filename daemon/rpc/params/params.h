@@ -30,7 +30,7 @@ class Params {
   Result<std::vector<double>> numbers(std::string_view name) const;
   Result<std::vector<std::int64_t>> integers(std::string_view name) const;
   Result<std::vector<std::string>> strings(std::string_view name) const;
-  // Any value as JSON text without spaces. Empty if absent.
+  // Any value as JSON text without spaces. Empty if the parameter is absent.
   std::string json(std::string_view name) const;
 
   Caller& caller() const { return caller_; }

@@ -68,8 +68,8 @@ class Session final : public Caller,
 
   bool has_subscriptions() const { return !subscriptions.empty(); }
   bool has_nothing_pending() const;  // no open calls, no subscriptions
-  bool is_idle(
-      Clock::time_point now) const;  // whether the client was idle for longer than idle_timeout
+  // Whether the client was idle for longer than idle_timeout.
+  bool is_idle(Clock::time_point now) const;
 
   // Sends the reason and ends the session.
   void refuse(std::string_view why);

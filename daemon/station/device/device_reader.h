@@ -41,8 +41,8 @@ struct DeviceSink {
   std::function<void(std::uint64_t pass, const std::string& reason, const drivers::SourceInfo&)>
       ended;
   std::function<void(const Trouble&)> trouble;  // may be empty
-  // The encoder of this device has passed its reference mark. From the next block, its positions
-  // are counted from the mark. The function may be empty.
+  // The encoder of this device has passed its reference mark. From the next block, the positions of
+  // the encoder are counted from the mark. The function may be empty.
   std::function<void(const std::string& device)> mark = {};
 };
 

@@ -43,8 +43,9 @@ class SharedDevice {
   DeviceStatus status_of(const AxisPart& axis_part) const;
 
   mutable std::mutex mutex_;
-  std::vector<std::shared_ptr<AxisPart>> axis_parts_;  // protected by mutex_, also the objects
-  Acquisition acquisition_;                            // destroyed first
+  // mutex_ protects the list and the objects in it.
+  std::vector<std::shared_ptr<AxisPart>> axis_parts_;
+  Acquisition acquisition_;  // destroyed first
 };
 
 // The devices that several axes share, by name. A device is created for the first axis that uses

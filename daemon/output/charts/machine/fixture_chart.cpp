@@ -18,7 +18,7 @@ using output::phrase;
 
 constexpr double kViewPx = 280, kArrowPx = 34, kViewTopPx = 104;
 constexpr double kDimensionPx = 12,
-                 kTickLengthPx = 4;  // dimension lines
+                 kTickLengthPx = 4;  // distance of dimension lines from the panel; half of a tick
 
 double longest_span_mm(const Rig& rig) {
   double longest = 1;

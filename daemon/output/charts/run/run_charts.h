@@ -23,7 +23,7 @@ using output::Language;
 // A run with all results that the commands show for it.
 struct StatedResults {
   Run run;
-  RunUncertainty uncertainty;            // uncertainty of its points
+  RunUncertainty uncertainty;            // uncertainty of the points of the run
   StatedFigures figures;                 // budgets, or the reason why there are none
   std::vector<StraightnessLines> lines;  // reference lines of the straightness
 };

@@ -21,7 +21,7 @@ using output::Phrase;
 using output::phrase;
 
 constexpr double kPicturePx = 430, kPictureLegendPx = 62;
-constexpr double kErrorShare = 0.25;  // largest error in the chart / length of an axis
+constexpr double kErrorShare = 0.25;  // ratio of the largest drawn error to the length of an axis
 
 // One axis along the travel of its moving body: positions, errors (positive towards + of the other
 // axis), and the line through the errors, which begins at 0.

@@ -30,8 +30,8 @@ struct CecTable {
 };
 
 constexpr int kDecimalsOfAxis = 6;  // mm
-// Also decimals of a value in mm. There are more, because the control adds the values of about ten
-// tables.
+// Decimals of a value in mm in the tables of a volumetric table; more, because the control adds
+// about ten values.
 constexpr int kDecimalsOfVolume = 9;
 
 std::string cec_text(std::size_t t, const CecTable& table, const std::string& error,

@@ -9,8 +9,9 @@
 
 namespace mdof::controllers {
 
-constexpr std::size_t kSiemensPointLimit = 200;  // largest number of points in a table of an 808D
-                                                 // or 828D; MD38000 states it for other controls
+// Largest number of points in a table of an 808D or 828D; MD38000 states the limit of other
+// controls.
+constexpr std::size_t kSiemensPointLimit = 200;
 // Largest number of points in a series before resampling.
 constexpr std::size_t kResamplingPointLimit = 20'000;
 
@@ -28,8 +29,8 @@ struct EqualSteps {
 // as in the file. Adds a note with the change to `out`, and sets the number of points in the last
 // element of out.written. Error (bad_input): fewer than two points.
 Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Export& out);
-// Largest number of points in a table: ExportOptions::siemens_points, or kSiemensPointLimit if this
-// is 0.
+// Largest number of points in a table: ExportOptions::siemens_points, or kSiemensPointLimit if
+// siemens_points is 0.
 std::size_t most_points(const ExportOptions& options);
 
 // The largest absolute value of the errors in both approaches.

@@ -52,8 +52,8 @@ struct ServerOptions {
 
   // Limits of browsers. Connections of browsers do not count in max_connections. max_line_bytes
   // limits the body of a request. request_timeout limits the time for the head of a request, and
-  // the time for its body. If a further browser connects, the server closes the connection of a
-  // browser that has been idle longest.
+  // the time for its body. If a browser connects beyond max_http_connections, the server closes the
+  // connection of a browser that has been idle longest.
   std::size_t max_http_connections = 128;
   std::size_t max_http_streams = 64;  // maximum number of connections with GET /events
   std::size_t max_http_head_bytes = 8 * 1024;

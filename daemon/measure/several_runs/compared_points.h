@@ -36,11 +36,11 @@ struct TabledRun {
   const CompensationTable& table;
 };
 
-// Compares each target of one run with the target of the other run at the same position (within 0.1
-// mm). The coverage probability of U is 95 %. For imported readings, the coverage factor is from
-// Student's t distribution, with the repeats at the target. For measured runs, k = 1.96. U of the
-// reversal does not include the uncertainty that a run declares, because this uncertainty is common
-// to both approaches.
+// Compares the targets that have the same position in both runs (within 0.1 mm). The coverage
+// probability of U is 95 %. For imported readings, the coverage factor is from Student's t
+// distribution, with the repeats at the target. For measured runs, k = 1.96. U of the reversal does
+// not include the uncertainty that a run declares, because this uncertainty is common to both
+// approaches.
 ComparedPoints compared_points(const TabledRun& before, const TabledRun& after);
 
 // Writes a member of an open object. Unknown values are null.

@@ -50,8 +50,8 @@ struct Trend {
 
 // Calculates the trends. The reference point of all values is the fixture. A run is used if it is
 // complete, measured, valid and not simulated, if no other run supersedes it, and if it is the
-// newest run of its recording. The rig, model and options of a run must be the same as in the
-// newest run, unless `mixed` is set. `left_out` lists the other runs. Error: the figure is unknown.
+// newest run of its recording. Unless `mixed` is set, all runs have the rig of the newest run, and
+// the same model and options. `left_out` lists the other runs. Error: the figure is unknown.
 Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& request);
 
 }  // namespace mdof::daemon

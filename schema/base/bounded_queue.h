@@ -54,7 +54,7 @@ class BoundedQueue {
     return true;
   }
 
-  // Adds the item even if the queue is full; for the few commands that must not wait.
+  // Adds the item even if the queue is full. Use it only for commands that must not wait.
   void push_always(T value) {
     const std::lock_guard lock(mutex_);
     if (closed_) return;

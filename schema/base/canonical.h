@@ -2,7 +2,7 @@
 // not depend on how the values are displayed.
 //   i  8-byte little-endian integer
 //   d  8-byte little-endian IEEE 754, every NaN as 0x7ff8000000000000
-//   s  i length, then the bytes
+//   s  the length as i, then the bytes
 #pragma once
 
 #include <bit>
@@ -38,7 +38,7 @@ inline void put(std::string& to, std::string_view text) {
   to.append(text);
 }
 
-// i: number of values; then each value.
+// Appends the number of values as i, then each value as d.
 inline void put_counted(std::string& to, std::span<const double> values) {
   put(to, std::uint64_t{values.size()});
   put(to, values);

@@ -27,7 +27,8 @@
 
 namespace mdof {
 
-// Whether `most` and the processor allow the instructions of MDOF_AVX2 (MDOF_AVX512).
+// Whether the processor has the instructions of MDOF_AVX2 (MDOF_AVX512), and `most`, the largest
+// permitted set, includes these instructions.
 inline bool has_avx2([[maybe_unused]] InstructionSet most = best_instruction_set()) {
 #if defined(__x86_64__)
   __builtin_cpu_init();

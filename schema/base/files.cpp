@@ -55,7 +55,8 @@ Result<std::size_t> read_some(const Descriptor& in, const std::filesystem::path&
 
 Result<std::string> read_text_file(const std::filesystem::path& file, std::size_t limit_bytes) {
   MDOF_TRY(const auto in, opened(file));
-  // limit_bytes are not reserved: most files are much smaller, and the caller may keep the text.
+  // Memory for limit_bytes is not reserved, because most files are much smaller, and the caller may
+  // keep the text.
   std::string text;
   std::array<char, 16 * 1024> piece;
   while (text.size() <= limit_bytes) {

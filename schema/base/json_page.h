@@ -8,7 +8,7 @@
 
 namespace mdof {
 
-// A message may have 48 KiB; the difference is for the members around the list.
+// A message has at most 48 KiB. The other 4 KiB are for the members around the list.
 inline constexpr std::size_t kPageBytes = 44 * 1024;
 
 // Appends items to the open array in `json` until the text would be longer than `max_bytes`.

@@ -60,8 +60,8 @@ inline tl::unexpected<Error> in_context(const std::string& place, Error error) {
 
 // `lhs` may be a declaration, which must not be put in parentheses.
 // NOLINTBEGIN(bugprone-macro-parentheses)
-// Evaluate a Result expression. If it is an error, they return the error from the calling function.
-// MDOF_TRY assigns the value.
+// MDOF_TRY and MDOF_CHECK evaluate a Result expression. If the result is an error, the calling
+// function returns this error. MDOF_TRY also assigns the value to `lhs`.
 #define MDOF_CONCAT_INNER(a, b) a##b
 #define MDOF_CONCAT(a, b) MDOF_CONCAT_INNER(a, b)
 #define MDOF_TRY_IMPL(tmp, lhs, expr)                      \

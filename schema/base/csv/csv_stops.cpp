@@ -51,8 +51,8 @@ template <bool kHasInstruction>
   return ((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56;
 }
 
-// Writes the stops in groups of four. A loop of unknown length would be slower, because the
-// processor mispredicts its end.
+// Writes the stops in groups of four. A loop that writes one stop at a time would be slower,
+// because the processor mispredicts the end of the loop.
 template <bool kPopcount>
 [[gnu::always_inline]] inline Out append(const char* text, std::size_t begin, std::uint64_t bits,
                                          Out out) {

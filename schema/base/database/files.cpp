@@ -78,7 +78,8 @@ struct flock lock_on(const Range& range, short type) {
   return lock;
 }
 
-// Locks the range until the descriptor is closed. Returns true also on file systems without locks.
+// Locks the range until the descriptor is closed. On a file system without locks, it locks nothing
+// and returns true.
 bool share(const Descriptor& file, const Range& range) {
   struct flock lock = lock_on(range, F_RDLCK);
   return ::fcntl(file.fd(), F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
@@ -115,9 +116,9 @@ Status check_room(const fs::path& database, off_t bytes, const fs::path& folder)
 
 enum class Copied { yes, busy };
 
-// The locks prevent writing into the database, so that the copy is consistent: the commit of a
-// rollback transaction needs all shared bytes, and a checkpoint needs its own byte. The -wal may
-// become longer. If the -wal was restarted during the copy, the copy is rejected.
+// The locks prevent writing into the database, so that the copy is consistent: a commit in rollback
+// mode must lock all shared bytes for writing, and a checkpoint must lock kCheckpointByte. The -wal
+// may become longer. If the -wal was restarted during the copy, the copy is rejected.
 Result<Copied> copy_once(const fs::path& database, const fs::path& to) {
   const Descriptor file(open_foreign(database, 0));
   const Descriptor shm(open_beside(database, "-shm"));

@@ -37,7 +37,8 @@ bool is_shared(const std::filesystem::path& database);
 // the kernel removes the locks of SQLite on this file; this applies also to a descriptor from
 // open(2) or from a client. Another program may then delete a -wal file that is in use. Therefore
 // call this function before the file is opened. A descriptor from open(2) with O_PATH removes no
-// locks; with it the check is free of races.
+// locks. The check has no race if `file` comes from such a descriptor and the file is opened
+// through this descriptor.
 bool is_open_for_writing(const struct stat& file);
 bool is_open_for_writing(const std::filesystem::path& file);
 

@@ -181,8 +181,8 @@ const std::string& JournalWatch::fault() {
   return fault_;
 }
 
-// Another program may have moved all of the -wal into the database and emptied the -wal. The index
-// then shows this.
+// A -wal that is shorter than its index states was truncated, unless the index has changed
+// meanwhile: another program may have moved all of the -wal into the database and emptied the -wal.
 bool JournalWatch::is_cut(off_t bytes) {
   WalIndex before, after;
   while (read_index(database_, before) && bytes < bytes_of(before)) {

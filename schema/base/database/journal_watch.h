@@ -2,9 +2,9 @@
 // program may delete, replace or truncate these files. SQLite does not notice this: it continues to
 // write into files that other programs no longer find.
 //
-// -shm remains a file that all programs map into memory. With locking_mode = EXCLUSIVE, SQLite
-// would keep it in private memory, which cannot be truncated; but readers (mdof runs, show, verify)
-// could then not open the database while mdofd has it open.
+// mdof does not use locking_mode = EXCLUSIVE here. With this mode, SQLite would keep the contents
+// of -shm in private memory, which cannot be truncated. But readers (mdof runs, show, verify) could
+// then not open the database while mdofd has it open.
 #pragma once
 
 #include <sys/types.h>
@@ -23,14 +23,14 @@ void guard_files();
 
 // After this call, a truncated -shm file no longer ends this process by SIGBUS. The mapped regions
 // of the file are replaced by memory in which SQLite detects damage (SQLITE_CORRUPT) and finds no
-// outdated page. Each JournalWatch then reports a fault. For a daemon, before it starts its
-// threads.
+// outdated page. Each JournalWatch then reports a fault. A daemon calls this function before it
+// starts its threads.
 void survive_truncated_shm();
 
 // Thread-bound, as is the connection.
 class JournalWatch {
  public:
-  // The connection must be in WAL mode and must have read before.
+  // The connection must be in WAL mode and must have read from the database before.
   JournalWatch(sqlite3* database, const std::filesystem::path& file);
   // "FILE-wal was deleted ..."; empty: no change was detected. A fault is permanent. If the fault
   // is not a truncated -wal file, committed data are moved into the database immediately, if

@@ -1,5 +1,5 @@
-// Decimal text to double and back, exact in both directions and several times faster than the
-// standard library, for logs of 100 MB.
+// Converts decimal text to doubles and doubles to decimal text, exactly and several times faster
+// than the standard library, for logs of 100 MB.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@ namespace mdof {
 
 // Reads the longest number at `begin`: digits with an optional '-', '.' and exponent, or inf, nan;
 // no leading space or '+'. The result is the nearest double (ties to even), with the same bits as
-// std::from_chars. A number that is too large becomes ±inf, one too small ±0, so that the caller
-// needs only std::isfinite(). Returns the position after the number, or nullptr if there is no
-// number.
+// std::from_chars. A number that is too large becomes ±inf, and a number that is too small becomes
+// ±0. Therefore the caller needs only std::isfinite(). Returns the position after the number, or
+// nullptr if there is no number.
 const char* parse_double(const char* begin, const char* end, double& out);
 
 // Writes x with 17 significant digits, the same characters as printf("%.17g"); returns the end. The

@@ -25,8 +25,8 @@ namespace mdof::HWY_NAMESPACE {
 constexpr hn::ScalableTag<double> df;
 using Doubles = hn::Vec<decltype(df)>;
 
-// A number, as bits, for each place i of the point (place_of_point()): for 31 - i digits after a
-// point at i; entry 0: no point.
+// For each position i of the decimal point (place_of_point()), the bits of a number that depends on
+// the number of digits after the point, 31 - i. Entry 0 is for fields without a point.
 using PlaceTable = std::array<std::uint64_t, 32>;
 template <class Function>
 constexpr PlaceTable make_table(int most_digits, std::uint64_t beyond, Function of_digits) {
@@ -37,15 +37,15 @@ constexpr PlaceTable make_table(int most_digits, std::uint64_t beyond, Function 
   }
   return table;
 }
-// 0 / 0 is NaN and therefore counts as undecided
+// With too many digits, the power is 0. The quotient is then NaN, and divide() returns false.
 constexpr PlaceTable kPower = make_table(kLargestExactPower, 0, [](int digits) {
   return std::bit_cast<std::uint64_t>(kExactPowers[digits]);
 });
 constexpr PlaceTable kInversePower = make_table(kLargestExactPower, 0, [](int digits) {
   return std::bit_cast<std::uint64_t>(1 / kExactPowers[digits]);
 });
-// Nanoseconds of one unit of the last digit. With too many digits: a bit in the upper half, which
-// is detected.
+// Nanoseconds of one unit of the last digit. With too many digits, a bit in the upper half is set;
+// ToNanoseconds::wide() detects this bit.
 constexpr PlaceTable kNanoseconds =
     make_table(9, std::uint64_t{1} << 63, [](int digits) { return kPowersOfTen[9 - digits]; });
 
@@ -71,8 +71,9 @@ HWY_INLINE Doubles look_up_double(const PlaceTable& table, Longs place) {
   return hn::BitCast(df, look_up(table, place));
 }
 
-// Puts a number below 2^52 (2^32) into the lower mantissa bits of 2^exponent (52 or 84) and
-// subtracts that power. The result is the number, or 2^32 times the number.
+// `power_bits`: the bits of 2^52 for a number below 2^52, or of 2^84 for a number below 2^32. Puts
+// the number into the lower mantissa bits of this power and subtracts the power. The result is the
+// number, or with 2^84, 2^32 times the number.
 HWY_INLINE Doubles small_to_double(Longs small, std::uint64_t power_bits) {
   const Longs power = hn::Set(d64, power_bits);
   return hn::Sub(hn::BitCast(df, hn::Or(small, power)), hn::BitCast(df, power));
@@ -80,10 +81,11 @@ HWY_INLINE Doubles small_to_double(Longs small, std::uint64_t power_bits) {
 constexpr std::uint64_t kTwo52 = std::bit_cast<std::uint64_t>(0x1p52);
 constexpr std::uint64_t kTwo84 = std::bit_cast<std::uint64_t>(0x1p84);
 
-// m / 10^k to the nearest double; false: undecided. With m = high + low (both doubles, exact) and
-// the quotient q of high, the remainder r = high - q 10^k is exact. q + (r + low) / 10^k is then
-// known to 2^-50 of its small second part. The sum is correctly rounded unless the bounds of that
-// part are rounded differently.
+// Calculates m / 10^k, rounded to the nearest double; m: mantissa, k: number of digits after the
+// point. Returns false if a rounding is not certain. m = high + low is exact, with two doubles. q
+// is the rounded quotient high / 10^k, and the remainder r = high - q 10^k is exact. Then m / 10^k
+// = q + c with c = (r + low) / 10^k, and the relative error of c is below 2^-50. The result is
+// certain if q + c rounds to the same double with the upper and the lower limit of c.
 HWY_INLINE bool divide(const Plain& plain, Doubles& x) {
   const Longs place = place_of_point(plain.seen);
   const Doubles upper = small_to_double(hn::ShiftRight<32>(plain.mantissa), kTwo84);
@@ -132,7 +134,7 @@ struct ToNanoseconds {
     const Longs lower = hn::MulEven(hn::BitCast(d32, plain.mantissa), factor);
     const Longs upper = hn::MulEven(hn::BitCast(d32, hn::ShiftRight<32>(plain.mantissa)), factor);
     const auto ns = hn::BitCast(di64, hn::Add(lower, hn::ShiftLeft<32>(upper)));
-    // 2^(32 + 29) is more than 10^18
+    // if `upper` is 2^29 or more, the result is 2^(32 + 29) or more, which is above 10^18
     const Longs odd = hn::Or(hn::ShiftRight<29>(upper), hn::ShiftRight<32>(scale));
     const auto large = hn::Gt(ns, hn::Set(di64, 999'999'999'999'999'999));
     if (!hn::AllTrue(d64, hn::Eq(odd, hn::Zero(d64))) || !hn::AllFalse(di64, large)) return false;

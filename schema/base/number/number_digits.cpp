@@ -110,8 +110,8 @@ HWY_INLINE Rounded round_to_17(Longs m, Integers e) {
           hn::Lt(near_half, hn::Set(d64, 7))};
 }
 
-// Converts numbers below 10^8 to eight bytes 0 ... 9, the first digit lowest: halves, quarters,
-// eighths by multiplication with a reciprocal.
+// Converts numbers below 10^8 to eight bytes 0 ... 9, the first digit in the lowest byte. Splits
+// the eight digits into groups of four, two and one digits by multiplication with a reciprocal.
 HWY_INLINE Longs digits_of(Longs v) {
   const Longs upper4 = hn::ShiftRight<45>(times(v, 0xd1b71759));
   const Longs lower4 = hn::Sub(v, times(upper4, 10000));
@@ -137,7 +137,8 @@ HWY_INLINE void split(Longs digits, std::size_t at, EightDigits& out) {
   hn::StoreU(digits_of(hn::Sub(digits, times(nine, kTen8))), d64, out.lower + at);
 }
 
-// Digits of the numbers from x[at] on; returns the bits of the undecided numbers.
+// Finds the digits of the numbers from x[at] on. Bit i of the result is set if the digits of x[i]
+// are not certain.
 HWY_INLINE unsigned find_vector_digits(const double* x, std::size_t at, EightDigits& out) {
   const Longs bits = hn::BitCast(d64, hn::LoadU(hn::ScalableTag<double>(), x + at));
   const Longs biased = hn::And(hn::ShiftRight<52>(bits), hn::Set(d64, 0x7ff));

@@ -1,8 +1,8 @@
 // Finds 17 digits of a double: x = m·2^e becomes the integer D = round(x·10^q), 10^16 <= D < 10^17,
 // by one multiplication with a 128-bit power of ten. The error of the product is less than one unit
-// of its last bit. Therefore the rounding is certain, unless the fraction differs from 1/2 by less
-// than one unit; std::to_chars is then used. (The method is that of Grisu and Ryu printf, with the
-// table of fast_float, valid for 1e-292 ... 1e308.)
+// of its last bit. Therefore the rounding is certain, unless the fraction of x·10^q is within a few
+// such units of 1/2; std::to_chars is then used. (The method is that of Grisu and Ryu printf, with
+// the table of fast_float, valid for 1e-292 ... 1e308.)
 #pragma once
 
 #include <fast_float/fast_float.h>
@@ -20,7 +20,8 @@ inline constexpr int kMostPlainExponent = 6;  // largest exponent printed withou
 inline constexpr std::uint64_t kMost17Digits = 99'999'999'999'999'999;
 
 struct PowerOfTen {
-  std::uint64_t high, low;  // 10^q = (high·2^64 + low) · 2^(floor_log2(q) - 127), within 1 of low
+  // 10^q = (high·2^64 + low) · 2^(floor_log2(q) - 127); the error of `low` is below 1
+  std::uint64_t high, low;
 };
 inline PowerOfTen power_of_ten(int q) {
   const int i = 2 * (q - PowerTable::smallest_power_of_five);
@@ -55,7 +56,7 @@ inline Decimal17 round_to_17(std::uint64_t m, int e) {
   const int shift = 62 - e - floor_log2_of_power_of_ten(q);
   const std::uint64_t fraction =
       high << (64 - shift) | static_cast<std::uint64_t>(product) >> shift;
-  // Too near to one half, or exactly one half.
+  // The fraction is too near to one half, or is exactly one half.
   if (fraction - ((std::uint64_t{1} << 63) - 3) <= 6) return {};
   return {(high >> shift) + (fraction >> 63), k};
 }

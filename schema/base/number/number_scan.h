@@ -1,6 +1,6 @@
-// The innermost loop of every CSV reader. It reads a field whose ends are known as a plain decimal
-// number [-]ddd.ddd: sixteen digits at a time and without branches that depend on the data. Other
-// fields (with an exponent or more digits) must be read by parse_double().
+// The innermost loop of every CSV reader. It reads a plain decimal number [-]ddd.ddd from a field
+// whose ends are known, sixteen digits at a time and without branches that depend on the data.
+// Other fields (with an exponent or more digits) must be read by parse_double().
 #pragma once
 
 #include <fast_float/fast_float.h>
@@ -172,7 +172,7 @@ inline double to_double(const ScannedNumber& number) {
                              kExactPowers[number.fraction_digits];
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | sign);
   }
-  // for powers 10^-18 ... 10^0 the result is always decided: am.power2 >= 0
+  // for powers 10^-18 ... 10^0 compute_float() never fails, so that am.power2 >= 0
   const fast_float::adjusted_mantissa am =
       fast_float::compute_float<fast_float::binary_format<double>>(
           -static_cast<int>(number.fraction_digits), number.mantissa);

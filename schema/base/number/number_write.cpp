@@ -46,8 +46,8 @@ struct Sixteen {
 };
 
 #ifdef __SSE2__
-// Converts two numbers below 10^8 to digits. The numbers are divided into halves, quarters and
-// eighths by multiplication with a reciprocal, in all lanes at once.
+// Converts two numbers below 10^8 to digits. The eight digits of a number are split into groups of
+// four, two and one digits by multiplication with a reciprocal, in all lanes at once.
 Sixteen sixteen_digits(uint64_t first, uint64_t second) {
   const __m128i v = _mm_set_epi64x(static_cast<long long>(second), static_cast<long long>(first));
   const __m128i upper4 = _mm_srli_epi64(_mm_mul_epu32(v, _mm_set1_epi64x(0xd1b71759)), 45);
@@ -91,8 +91,8 @@ char* write_below_one(char* out, const Digits& digits, int exponent) {
   return first + digits.significant();
 }
 
-// "ddd.ddd" with `whole` digits before the point, 1 ... 7: the digits after it are shifted by one
-// byte.
+// "ddd.ddd" with `whole` digits before the point, 1 ... 7: the digits after the point are shifted
+// by one byte.
 char* write_up_to_7_whole(char* out, const Digits& digits, int whole) {
   const uint64_t head = digits.first | digits.upper << 8 | kZeros;
   const uint64_t before = (uint64_t{1} << 8 * whole) - 1;

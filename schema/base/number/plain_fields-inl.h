@@ -38,9 +38,9 @@ using Longs = hn::Vec<decltype(d64)>;
 constexpr std::size_t kFields = HWY_LANES(std::uint64_t);
 constexpr std::size_t kBlocksOfVector = kFields / 2;
 
-// `seen` encodes the position of the decimal point in a field, and its sign. If the point is
-// character i of the last 32 characters, the value is 2 (32 + i) + sign. If there is no point, the
-// value is the sign.
+// `seen` encodes the position of the decimal point in a field, and the sign of the number (1:
+// minus). If the point is character i of the last 32 characters, the value is 2 (32 + i) + sign. If
+// there is no point, the value is the sign.
 constexpr std::uint8_t kFirstPlace = 64;
 HWY_INLINE Longs place_of_point(Longs seen) {  // i; 0: no point
   return hn::And(hn::ShiftRight<1>(seen), hn::Set(d64, 31));
@@ -109,7 +109,7 @@ HWY_INLINE bool find_ends(const ColumnText& column, std::size_t first, Ends& end
   return sizes < 16 * kBlocks;
 }
 
-// 16 bytes from each of the places.
+// Loads 16 bytes from each pointer in `from`, plus `offset`.
 template <class D>
 HWY_INLINE hn::Vec<D> blocks(D d, const std::uint8_t* const* from, std::ptrdiff_t offset) {
   if constexpr (hn::MaxLanes(D()) == 16) {
@@ -145,7 +145,7 @@ HWY_INLINE void load_blocks(const std::uint8_t* const* from, std::ptrdiff_t offs
 #endif
 }
 
-// Block k of the fields with each byte moved up by one.
+// Block k of the fields, with each byte moved to the next higher position.
 template <int k, int kBlocks>
 HWY_INLINE Bytes moved_up(const Bytes (&x)[kBlocks]) {
   if constexpr (k + 1 < kBlocks) {
@@ -166,7 +166,7 @@ HWY_INLINE Halves pairs(Bytes digits) {
 #endif
 }
 
-// Neighbours joined: factor times the first plus the second.
+// Joins neighbouring numbers: factor times the first number plus the second number.
 HWY_INLINE Words join(Halves x, int factor) {
   auto unused = hn::Zero(di32);
   return hn::ReorderWidenMulAccumulate(di32, x, hn::BitCast(di16, hn::Set(di32, 1 << 16 | factor)),
@@ -208,8 +208,8 @@ HWY_INLINE void classify_block(const Bytes& all, const Bytes (&field)[kBlocks],
                               hn::IfThenElseZero(is_sign, hn::Set(d8, 1))));
 }
 
-// Makes the digits contiguous (digits before the point are taken one place earlier) and joins them
-// in groups of four.
+// Makes the digits contiguous (digits before the point move to the next higher position) and joins
+// them in groups of four.
 template <int k, int kBlocks>
 HWY_INLINE Words in_a_row(const Bytes (&digits)[kBlocks], Bytes point) {
   const auto behind =
@@ -235,7 +235,8 @@ HWY_INLINE bool look_at(const ColumnText& column, std::size_t first, Half<kBlock
   return true;
 }
 
-// Adds the digits before the last sixteen. Their number must be below 1024: 1024 · 10^16 < 2^64.
+// Adds the digits before the last sixteen digits. The number that they form must be below 1024:
+// 1024 · 10^16 < 2^64.
 HWY_INLINE void add_upper(Longs upper, Plain& plain) {
   constexpr std::uint64_t kTen16 = 10'000'000'000'000'000;
   const auto factor = hn::BitCast(d32, upper);
@@ -249,7 +250,7 @@ HWY_INLINE void add_upper(Longs upper, Plain& plain) {
 // is 1. False: a field is not plain.
 template <int kBlocks>
 HWY_INLINE bool read_fields(const ColumnText& column, Plain& plain) {
-  // one after the other, because the registers do not suffice for both
+  // one vector after the other, because the registers do not suffice for both
   Half<kBlocks> even, odd;
   if (!look_at(column, 0, even) || !look_at(column, 1, odd)) return false;
   plain.seen = hn::OddEven(odd.seen, even.seen);

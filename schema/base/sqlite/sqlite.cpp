@@ -87,8 +87,10 @@ tl::unexpected<Error> error_of(const Session& session, std::string_view doing) {
 // name is in the journal.
 enum class Reading { shared, unchanging, copied };
 
-// In WAL mode a reader needs the -shm file, and makes it if it does not exist. If the folder is
-// read-only and the -wal file is empty, the database cannot change during reading.
+// A shared reader in WAL mode makes the -shm file if this file does not exist. Therefore `shared`
+// is chosen only if the mode and the folder permit a new file, or if another process already shares
+// the database. If the -wal file contains no transactions, the database file alone is read
+// (`unchanging`).
 Reading read_open_mode(const fs::path& file, OpenMode mode) {
   // This process has the file open; the locks of the file must remain.
   if (is_open_for_writing(file)) return Reading::shared;
@@ -377,8 +379,8 @@ Status Transaction::commit() {
     return error;
   }
   Session& session = *std::exchange(session_, nullptr);
-  // The check is before the commit is acknowledged: if -wal was deleted, its data are lost when
-  // this process ends.
+  // If -wal was deleted, its data are lost when this process ends. Therefore this check is made
+  // before the commit is acknowledged.
   if (session.watch && !session.watch->is_kept()) return io_error(session.watch->fault());
   return {};
 }

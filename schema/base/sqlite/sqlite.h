@@ -89,7 +89,8 @@ class Connection {
   ~Connection();
 
   Status execute(const std::string& sql);  // one or more statements without results
-  // The statement is cached by its text; only one user at a time.
+  // The connection keeps the statement in the cache under its text. Only one Statement with the
+  // same text may be in use at a time.
   Result<Statement> prepare(std::string_view sql);
   // First column of the first row; 0 if there is no row.
   Result<std::int64_t> integer(std::string_view sql);
@@ -98,8 +99,8 @@ class Connection {
   // The last error that reports a damaged file; empty: no such error.
   const std::string& damage() const;
 
-  // After this call, -wal and -shm are watched (journal_watch.h). If another program would not find
-  // a transaction, the transaction is not begun or not acknowledged.
+  // After this call, -wal and -shm are watched (journal_watch.h). If other programs would not find
+  // the data of a transaction, begin() or commit() returns an error.
   void watch_journal();
   std::string journal_fault();  // reason why writing is impossible; empty: it is possible
 

@@ -8,8 +8,8 @@
 //   Y: EXY = -δy  EZY = δz   EAY = -εy  EBY = εx   ECY = εz
 //   Z: EXZ = δy   EYZ = δz   EAZ = εy   EBZ = εz   ECZ = εx
 // Error = actual - nominal. The local errors are errors of the target in the metrology frame. The
-// ISO names are errors of the moving body. If the target moves, both errors are equal; if the
-// fixture moves, the ISO error is the negative of the target's error (schema/rig/sides.h).
+// errors with ISO names are errors of the moving body. If the target moves, both errors are equal;
+// if the fixture moves, the ISO error is the negative of the target's error (schema/rig/sides.h).
 #pragma once
 
 #include <array>
@@ -27,7 +27,8 @@ enum class Axis { x, y, z };
 char letter(Axis axis);                                  // 'X'
 std::optional<Axis> axis_from(std::string_view letter);  // "X", "Y", "Z"
 
-// Indices of the local errors; units m, m, rad, rad, rad. The same indices are used everywhere.
+// Index of a local error in an Errors5 of local errors. The errors kDy and kDz are in m, the others
+// in rad.
 enum LocalError { kDy = 0, kDz = 1, kEx = 2, kEy = 3, kEz = 4 };
 inline constexpr int kErrorCount = 5;
 using Errors5 = std::array<double, 5>;
@@ -59,7 +60,7 @@ struct MovingAxis {
   Sides sides;
 };
 // Conversion to and from the errors with ISO names, for errors of the moving body. The covariance
-// has no third function, because it does not depend on the sign.
+// needs no such function, because the sign of the errors does not change it.
 Errors5 named_from_local(const MovingAxis& moving, const Errors5& local);
 Errors5 local_from_named(const MovingAxis& moving, const Errors5& named);
 

@@ -42,8 +42,8 @@ struct CompensationTable {
   std::array<std::vector<double>, 5> forward, reverse;
   // Standard uncertainty from noise and repeatability.
   std::array<std::vector<double>, 5> u_forward, u_reverse;
-  // Standard uncertainty from the declarations of the rigs. It is common to both approaches: the
-  // larger of the two values. Empty: the rigs declare nothing, or the table is older than this
+  // Standard uncertainty from the declarations of the rigs: one value for both approaches, the
+  // larger of their two values. Empty: the rigs declare nothing, or the table is older than this
   // member.
   std::array<std::vector<double>, 5> u_declared;
   // Curvature of the error in each interval, for u between targets

@@ -14,7 +14,7 @@ namespace mdof {
 struct EncoderDatum {
   enum class Kind {
     absolute,    // the device measures absolute positions
-    none,        // the device counts from an unknown position at which it was switched on
+    none,        // the device counts from the unknown position at which it was switched on
     configured,  // offset_mm of the channel in the configuration
     set,         // a user has set the position of the axis (encoder.set)
     // The axis has passed the reference mark of the encoder, whose position is index_mm of its

@@ -9,7 +9,7 @@ namespace mdof {
 namespace {
 
 constexpr double kMostTargets = 10'000;
-constexpr double kAlike = 0.01;  // relative to a period
+constexpr double kAlike = 0.01;  // largest distance from a whole number of periods
 
 bool whole_periods(double interval_mm, double period_mm) {
   const double periods = interval_mm / period_mm;

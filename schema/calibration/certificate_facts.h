@@ -13,7 +13,8 @@ namespace mdof {
 // An empty string: not stated. Dates are YYYY-MM-DD.
 struct CertificateFacts {
   std::string certificate, laboratory, serial_number, calibrated, due;
-  // U of a displacement that is corrected with the linearity table; 0: unknown.
+  // Standard uncertainty of the error that remains after the correction with the linearity table;
+  // 0: unknown.
   double u_linearity_m = 0;
 };
 

@@ -30,7 +30,7 @@ struct MountingCalibration {
   std::vector<std::string> not_seen;
   // u of the common shift of all probes of a plane; NaN: the rig does not declare it.
   Vec3 u_together_m{};
-  CalibrationCovariance covariance;  // covariance of the seen positions, directions and zeros
+  CalibrationCovariance covariance;  // covariance of the values that the logs determine
   std::size_t clampings = 0, readings = 0;
   double tilt_rad = 0;  // largest angle between the tilts of two clampings
   double chi_square = 0;

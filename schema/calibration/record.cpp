@@ -49,7 +49,8 @@ std::string table_of(const std::vector<std::array<double, 2>>& linearity) {
   return text + "]\n";
 }
 
-// Returns the keys of the strings of a certificate, for the writer and the reader.
+// Returns pairs of a key and the text of a certificate that belongs to the key. The writer and the
+// reader use these pairs.
 template <class Facts>
 auto certificate_keys(Facts& facts) {
   return std::array{std::pair{"certificate", &facts.certificate},

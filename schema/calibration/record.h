@@ -57,7 +57,7 @@ struct CalibrationRecord {
   double chi_square = 0;
   std::int64_t freedom = 0;
   std::vector<std::string> not_seen;
-  std::optional<Vec3> u_together_m;  // common shift of all probes along X, Y, Z
+  std::optional<Vec3> u_together_m;  // u of the common shift of all probes along X, Y, Z
   std::vector<CalibratedProbe> probes;
   // Covariance of positions, directions and zeros of the probes; empty in records of older
   // versions. The file has lengths in µm and directions in µrad.

@@ -74,8 +74,8 @@ Status read_head(const XmlElement& data, DccCertificate& certificate) {
   return statements ? read_due(*statements, certificate) : Status();
 }
 
-// Reads the quantities of dcc:data or of a dcc:list. A dcc:list inside becomes a separate list of
-// the result.
+// Reads the quantities of dcc:data or of a dcc:list. Each dcc:list inside this element becomes a
+// separate list of the result.
 Status read_data(const XmlElement& data, const std::string& source,
                  std::vector<DccQuantity>& quantities, DccResult& result) {
   for (const XmlElement& child : data.children) {

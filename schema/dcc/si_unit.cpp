@@ -44,8 +44,8 @@ std::optional<int> take_power(std::string_view& text) {
   return power;
 }
 
-// Removes one unit with its prefix and power from the text. Returns false if it is neither a length
-// nor a voltage.
+// Removes one unit with its prefix and power from the text. Returns false if the unit is neither a
+// length nor a voltage.
 bool take_unit(std::string_view& text, SiUnit& unit) {
   std::string_view word = take_word(text);
   const bool per = word == "per";

@@ -38,7 +38,7 @@ inline SurfaceMap empty_like(const SurfaceMap& map) {
   return empty;
 }
 
-// In one map, because all pixels are in memory.
+// Largest number of pixels of a map. All pixels are in memory at once.
 inline constexpr std::size_t kMostPixels = 50'000'000;
 
 }  // namespace mdof

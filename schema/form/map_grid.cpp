@@ -11,8 +11,8 @@ namespace mdof {
 namespace {
 
 constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // columns or rows
-constexpr double kGridTolerance = 0.05;                    // share of a pixel
-constexpr std::size_t kMaxPixelsPerPoint = 64;             // largest ratio of pixels to points
+constexpr double kGridTolerance = 0.05;         // largest deviation from the grid / pixel size
+constexpr std::size_t kMaxPixelsPerPoint = 64;  // largest ratio of pixels to points
 
 // Collects distinct values in a hash table of their bits with open addressing.
 class Distinct {

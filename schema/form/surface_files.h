@@ -9,9 +9,9 @@
 
 namespace mdof {
 
-// ISO 25178-71 .sdf as text (aISO-1.0, aISO-2.0, and the older aBCR-1.0). A height times Zscale is
-// in m. BAD is a missing height. The first point is at (0, 0), and y increases with the number of
-// the profile.
+// ISO 25178-71 .sdf as text (aISO-1.0, aISO-2.0, and the older aBCR-1.0). A height in the file
+// times Zscale is the height in m. BAD is a missing height. The first point is at (0, 0), and y
+// increases with the number of the profile.
 //
 // is_sdf() is true for the text format, and for the binary format, which parse_sdf() rejects.
 bool is_sdf(std::string_view bytes);

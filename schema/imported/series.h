@@ -41,7 +41,7 @@ struct ImportedReading {
   double deviation = 0;  // actual - nominal; m, rad
 };
 
-// Each reading becomes a point of a run.
+// Largest number of readings in a file, because each reading becomes a point of a run.
 inline constexpr std::size_t kMostImportedReadings = 50'000;
 
 struct ImportedSeries {
@@ -57,15 +57,15 @@ struct ImportedSeries {
 
 // The sign of a positioning deviation.
 // - command: actual minus commanded position in the coordinates of the controller
-// - body: the deviation is positive if the body is too far along + of the machine
+// - body: the deviation is positive if the body is too far in the + direction of the machine
 //
-// The two signs differ if the body moves along - of the machine when the command increases. In both
-// cases the positions are commands.
+// The two signs differ if the body moves in the - direction of the machine when the command
+// increases. With both signs, the positions are commands.
 enum class PositioningSense { command, body };
 struct ImportedSense {
   PositioningSense sense = PositioningSense::command;
-  // true: the body moves along - when the command increases (travel "-"); empty: not stated at the
-  // import.
+  // true: the body moves in the - direction when the command increases (travel "-"); empty: not
+  // stated at the import.
   std::optional<bool> against_command;
 };
 // All compensation tables have this sense, whatever the sense of their runs.

@@ -13,7 +13,8 @@
 namespace mdof {
 
 struct ParallelismLine {
-  // Over the travel of the moving body in the + direction of M.
+  // Slopes of the reference lines of motions A and B, over the travel of the moving body in the +
+  // direction of M.
   double slope_a_rad = 0, slope_b_rad = 0;
   // slope_b - slope_a. Positive: when the axis moves towards +, motion B deviates from motion A in
   // the + direction of the straightness error (EYX: +Y).
@@ -26,7 +27,7 @@ struct ParallelismOfPlane {
   Budget budget;  // budget of the least-squares angle
 };
 
-// The errors of both runs are stated at the fixture.
+// The reference point of the errors of both runs is the origin of the fixture.
 struct Parallelism {
   std::int64_t run_a = 0, run_b = 0;
   Axis axis = Axis::x;

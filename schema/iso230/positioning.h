@@ -30,7 +30,7 @@ struct PositioningTarget {
   double target_m = 0;
   TargetApproach forward, reverse;
   double mean = kNoFigure;  // mean of the means of both approaches
-  double B = kNoFigure;     // forward - reverse
+  double B = kNoFigure;     // mean of the forward readings - mean of the reverse readings
   // The largest of 2 s forward + 2 s reverse + |B|, R forward and R reverse.
   double R = kNoFigure;
 };
@@ -62,8 +62,8 @@ struct RunPositioningUncertainty {
   // U of B, E and M. U contains the scatter of the visits, so it applies to the axis.
   double B = kNoFigure, B_mean = kNoFigure;
   double E_forward = kNoFigure, E_reverse = kNoFigure, E = kNoFigure, M = kNoFigure;
-  // U of R. It applies to the visits of this run. It does not contain the uncertainty of the R of
-  // the axis because of the small number of visits.
+  // U of R. It applies to the visits of this run. It does not contain the uncertainty that R, as a
+  // property of the axis, has because the number of visits is small.
   double R_forward = kNoFigure, R_reverse = kNoFigure, R = kNoFigure;
   bool noise_only = false;
   std::string covers;  // sentence about the contributors of U

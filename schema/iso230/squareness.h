@@ -1,5 +1,5 @@
 // Squareness of two axes. It is calculated from one run of each axis with the same square target
-// (Fig. 6).
+// (Fig. 6 of the paper in algo/README.md).
 #pragma once
 
 #include <cstddef>
@@ -29,19 +29,19 @@ std::string squareness_sense(AxisPair axes, const std::string& degrees);
 // of the axis `along`. For X in the direction of Y it is the index of EYX.
 std::size_t straightness_along(Axis of, Axis along);
 
-// The square artefact. The angle of the material between the two measured faces is 90° +
+// The square artefact. The angle between its two measured faces, inside the material, is 90° +
 // angle_error_rad.
 struct SquareArtefact {
   double angle_error_rad = 0;
   std::optional<double> u_rad;  // standard uncertainty; absent: not declared
-  // Position of the corner of the two faces. +1: at +a +b or at -a -b; -1: at -a +b or at +a -b; 0:
-  // unknown.
+  // Position of the corner at which the two faces meet. +1: at +a +b or at -a -b; -1: at -a +b or
+  // at +a -b; 0: unknown.
   int corner = 0;
   bool operator==(const SquareArtefact&) const = default;
 };
 
 // Calculates the squareness from the slopes of the straightness of each axis in the direction of
-// the other axis, stated at the fixture:
+// the other axis; the reference point is the origin of the fixture:
 //   EC0Y = -slope(EXY over y) - slope(EYX over x) + corner * artefact angle error
 //   EA0Z = -slope(EYZ over z) - slope(EZY over y) + corner * artefact angle error
 //   EB0Z =  slope(EXZ over z) + slope(EZX over x) - corner * artefact angle error

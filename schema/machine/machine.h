@@ -92,7 +92,8 @@ struct MachineFrame {
   std::size_t direction = 0;
   bool carries_work = false;  // true: between bed and workpiece; false: between bed and tool
   bool against_command = false;
-  // Point for which EXk, EYk, EZk are stated, m. For a rotary axis it is a point on the axis.
+  // Reference point of the linear errors of the body (EXk, EYk, EZk), m. For a rotary axis it is a
+  // point on the axis.
   Vec3 at_m{};
   // true: the point moves with the body of the linear axis. false: the point is at rest, like a
   // fixture in the spindle above a moving table.
@@ -133,13 +134,13 @@ struct SourceEffect {
   std::size_t frame = 0, k = 0;  // index in Machine::frames; index of the error
   bool of_line = false;          // true: a location error; false: an error of the body
   double factor = 0;             // error / source: m or rad per unit of the source
-  // Factor per command (m or rad) of the axis `of`.
+  // Is added to `factor`, multiplied by the command (m or rad) of the axis `of`.
   double factor_per_position = 0;
   std::size_t of = 0;  // index in Machine::frames
 };
 
-// A quantity that varies, was not measured and causes errors: for example a screw, a clearance, an
-// assembly. It can affect several errors at the same time.
+// A quantity that varies, was not measured and causes errors: for example the error of a screw, a
+// clearance or an assembly. It can affect several errors at the same time.
 struct ErrorSource {
   std::string name, unit;  // the unit is only a text
   double u = 0;            // standard uncertainty of the source in this unit

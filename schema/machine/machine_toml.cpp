@@ -1,5 +1,4 @@
-// Reads MACHINE.toml: the chain, the errors of each axis, and the points for which the errors are
-// stated.
+// Reads MACHINE.toml: the chain, the errors of each axis, and the reference points of the errors.
 #include <algorithm>
 #include <cmath>
 
@@ -241,7 +240,8 @@ void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& fr
                  "(errors at a point that moves with the body)");
 }
 
-// Reads the bodies that are not axes. Their errors are errors of the assembly on the body before.
+// Reads the bodies that are not axes. Their errors are errors of their assembly on the previous
+// body of the chain.
 void read_fixed_frames(TomlTable& root, Machine& machine) {
   for (TomlTable& table : root.tables("frame")) {
     MachineFrame frame;

@@ -8,7 +8,8 @@
 
 namespace mdof {
 
-// One row of the matrix n_ij: for one target, the number of points with errors in each run.
+// One row of the matrix n_ij: for one target, the number of points in each run for which the five
+// errors were calculated.
 struct TargetVisits {
   double target_m = 0;
   std::vector<int> forward, reverse;  // one number for run 1, 2, ...

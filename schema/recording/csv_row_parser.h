@@ -21,12 +21,14 @@ namespace mdof {
 inline constexpr int kCsvMargin = 64;
 
 struct CsvLimits {
-  // Most lines that are skipped and reported; one more bad line is an error. 0: no line is skipped.
+  // Largest number of bad lines that are skipped and reported; one more bad line is an error. 0: no
+  // line is skipped.
   std::size_t bad_lines = 100;
-  // The columns of a block then have about 0.5 MB, which fits into the cache of a core.
+  // With this number, the columns of a block need about 0.5 MB, which fits into the cache of a
+  // core.
   std::size_t scans_per_block = 8192;
-  // Most bytes of successive empty lines; more bytes are an error. Without this limit, a gzip file
-  // of some MB could contain so many empty lines that reading takes hours.
+  // Largest number of bytes of successive empty lines; more bytes are an error. Without this limit,
+  // a gzip file of some MB could contain so many empty lines that reading takes hours.
   std::size_t blank_bytes = std::size_t{4} << 20;
 };
 

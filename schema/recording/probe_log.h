@@ -4,7 +4,7 @@
 //   time_s,encoder_mm,A_um,B_um,temperature_C       probe log: time_s and encoder_mm are required
 //   encoder_mm,A_um,B_um                            frames: encoder_mm is required
 //   A_um,B_um                                       stream: live rows, any channels, time_s or not
-//   position_mm,deviation_um                        table: measured series; the reader sets columns
+//   position_mm,deviation_um                        table: measured series, any columns
 //
 // Columns may have any order. Fields are separated by commas, the decimal sign is '.', lines end in
 // LF or CRLF, and a UTF-8 byte order mark is skipped. A column "A_um" is channel "A" in

@@ -14,7 +14,7 @@ namespace mdof {
 struct RunOptions {
   bool remove_drift = false;
   bool on_the_fly = false;
-  ImportedSense imported;  // sense of imported positioning; for runs of older versions, the command
+  ImportedSense imported;  // sense of imported positioning; for runs of older versions, `command`
   std::vector<std::string> about;                   // what an imported file states about itself
   std::optional<double> limit_um, limit_um_per_mm;  // limits that the user requested at the import
 };

@@ -9,8 +9,8 @@ int sign_of_error(const ChainAxis& measured) {
   return measured.carries_work ? -1 : 1;
 }
 
-// Returns the reason why straightness at this reference does not apply to the tool; empty: it
-// applies.
+// Returns the reason why straightness with this reference point does not apply to the tool; empty:
+// it applies.
 std::string reference_point_gap(const ChainAxis& measured, Axis axis, Sides sides,
                                 Reference reference) {
   const bool at_carriage = reference == Reference::carriage;
@@ -29,8 +29,8 @@ std::string reference_point_gap(const ChainAxis& measured, Axis axis, Sides side
          "correct the key moves of the rig; if not, build a table with the reference \"carriage\"";
 }
 
-// Returns the reason why a rotary axis between the two axes changes the direction of the
-// correction; empty: no axis changes it.
+// Returns the reason why there is no correction: a rotary axis between the two axes changes the
+// direction of the correction. Empty: no axis changes this direction.
 std::string rotary_axis_gap(const Chain& chain, const ChainAxis& measured,
                             const ChainAxis& correcting) {
   const auto [first, last] = std::minmax({&measured, &correcting});

@@ -1,5 +1,5 @@
-// The reference point P of straightness, in the metrology frame M. An error e(P) of the target is
-// the error of the target's material at P.
+// The reference point P of straightness, in the metrology frame M. The error e(P) of the target is
+// the error of that point of the target that is at P.
 #pragma once
 
 #include <string_view>
@@ -11,15 +11,15 @@ namespace mdof {
 
 enum class Reference {
   fixture,   // P = origin of M; P does not depend on the zero of the encoder. Default
-  carriage,  // P = origin of C, which moves with the target: parameters of the paper's transform
-             // (Eq. 2-12)
+  carriage,  // P = origin of C, which moves with the target. The errors are then the parameters of
+             // Eq. 2-12 of the paper (algo/README.md)
   tool,      // P = tool_point_mm of the rig
 };
 const char* to_string(Reference reference);
 // Returns false if the name is not "fixture", "carriage" or "tool".
 bool reference_from(std::string_view name, Reference& reference);
 
-// The reference point for which a result is stated.
+// The reference point of the straightness errors of a result.
 struct StatedAt {
   Reference reference = Reference::fixture;
   Vec3 point_m{};  // P in M, components along the machine's axes; undefined for the carriage

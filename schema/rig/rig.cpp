@@ -15,7 +15,7 @@
 namespace mdof {
 namespace {
 
-constexpr double kMostDelay_us = 10e6;  // with a longer delay, a reading is not from one position
+constexpr double kMostDelay_us = 10e6;  // 10 s
 
 Vec3 unit_vector(Vec3 v) {
   const double norm = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);

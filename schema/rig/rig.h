@@ -46,7 +46,8 @@ struct Calibration {
 
 struct Probe {
   std::string id;
-  // Point of M where the line of measurement meets the nominal target surface at d = 0.
+  // Point in M at which the line of measurement meets the nominal target surface when the travel d
+  // of the target is 0.
   Vec3 position_m{};
   // Unit vector in M, with components along the machine's axes. The probe reads the displacement in
   // this direction.
@@ -102,9 +103,9 @@ struct Rig {
   Chain machine;  // [machine]; may be unknown
   // Empty: the planes are perpendicular to the nominal directions of the probes.
   std::vector<TargetPlane> planes;
-  std::optional<Vec3> tool_point_m;  // P in M; it is the default reference of tables
-  // Square: the rigs of X and Y measure two of its faces. The angle of the material at the corner
-  // of these faces is 90° plus this value.
+  std::optional<Vec3> tool_point_m;  // tool point in M; default reference point of tables
+  // The rigs of X and Y measure two faces of a square. The angle between these faces, inside
+  // the material, is 90° plus this value.
   std::optional<double> artefact_angle_error_rad;
   std::optional<double> u_artefact_angle_rad;  // nullopt: not declared; 0: declared as negligible
   RigUncertainty uncertainty;
@@ -123,7 +124,7 @@ struct Rig {
   MovingAxis moving() const { return {axis, sides}; }
 
   std::optional<std::size_t> probe_index(std::string_view id) const;
-  // Keys of uncertainty.h that the rig does not declare, for parts that the rig has. A budget does
+  // Keys of uncertainty.h that apply to this rig and that the rig does not declare. A budget does
   // not include the contributions of these keys.
   std::vector<std::string> undeclared_uncertainties() const;
   bool declares_uncertainty() const;  // whether the rig declares any uncertainty

@@ -1,13 +1,13 @@
-// A probe that scans a part on a spindle. At the same time the axis of the rig moves along the
+// A probe F that scans a part on a spindle. At the same time the axis of the rig moves along the
 // radius of the part, and the probes of the fixture measure the straightness of this movement:
 //
 //   [scan]
-//   probe = "F"                # column F_um (or F_mm) of the log; no [[probe]] of the fixture
-//   position_mm = [0, 5, 30]   # in M, where its line meets the part
-//   measures = "+Z"            # positive heights, out of the part; perpendicular to the axis
-//   centre_mm = 12.5           # encoder position at which it measures on the spindle's axis
-//   angle = "angle_deg"        # column: rotation of the part about `measures`
-//   sense = "+"                # right-handed; "-": left-handed
+//   probe = "F"                # column F_um (or F_mm) of the log; F is not a [[probe]] of the rig
+//   position_mm = [0, 5, 30]   # point in M at which the line of measurement meets the part
+//   measures = "+Z"            # positive heights: out of the part; perpendicular to the axis
+//   centre_mm = 12.5           # encoder position at which F measures on the spindle's axis
+//   angle = "angle_deg"        # column with the rotation of the part about `measures`
+//   sense = "+"                # the rotation is right-handed; "-": left-handed
 #pragma once
 
 #include <optional>

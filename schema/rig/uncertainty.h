@@ -36,14 +36,14 @@ struct DeclaredUncertainty3 {
 
 struct ProbeUncertainty {
   DeclaredUncertainty calibration;  // zero of the readings, constant during a run; m
-  DeclaredUncertainty sensitivity;  // relative uncertainty of the scale of the readings; 1
+  DeclaredUncertainty sensitivity;  // relative uncertainty of the scale of the readings; no unit
   DeclaredUncertainty3 position;    // position of the probe; m
   // About each of two axes perpendicular to the probe's direction; rad.
   DeclaredUncertainty direction;
 };
 
 struct RigUncertainty {
-  DeclaredUncertainty encoder;  // between any two targets; m
+  DeclaredUncertainty encoder;  // position at each target, independent from target to target; m
   // Angles of the whole fixture about the machine's axes; rad.
   DeclaredUncertainty3 installation_angle;
   DeclaredUncertainty3 installation_offset;  // offset of the whole fixture; m

@@ -62,7 +62,8 @@ struct Separation {
   Notices notices;
 };
 
-// A run or file from which the separation was calculated, so that others can use it later.
+// A run or file from which the separation was calculated, with the orientation and the shift of the
+// target in this set-up.
 struct SeparationSource {
   std::string name;    // "run 3", "a.csv"
   std::string sha256;  // SHA-256 of the stored result of the run, or of the bytes of the file

@@ -5,7 +5,7 @@ namespace mdof {
 
 struct SquareReversal {
   double EC0Y_rad = 0;    // the angle from +X to +Y is 90° + EC0Y
-  double square_rad = 0;  // the angle of the material at the corner of the two faces is 90° + this
+  double square_rad = 0;  // the angle between the two faces, inside the material, is 90° + this
   // For both values: combined standard uncertainty, its part from noise and repeatability, and its
   // part from the declared uncertainties.
   double u_rad = 0, u_random_rad = 0, u_declared_rad = 0;

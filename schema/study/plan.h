@@ -33,7 +33,7 @@ struct Distribution {
   Kind kind = Kind::constant;
   double low = 0, high = 0;    // rectangular, triangular, trapezoidal, u_shaped
   double mode = 0;             // triangular
-  double beta = 0;             // trapezoidal: width of the top divided by that of the base, 0 ... 1
+  double beta = 0;             // trapezoidal: width of the top / width of the base, 0 ... 1
   double centre = 0;           // constant, normal, t
   double spread = 0;           // normal: standard deviation; t: scale
   double dof = 0;              // t
@@ -90,8 +90,8 @@ struct PlannedAllocation {
   std::string where;
 };
 
-// A whole run. Samples of the rig with its random deviations are simulated and evaluated as a real
-// run.
+// A whole run. The samples of a rig with random deviations are simulated and evaluated like those
+// of a real run.
 struct PlannedRun {
   std::vector<double> targets_mm;
   double dwell_s = 0.4;

@@ -1,5 +1,6 @@
-// Names of the quantities that may vary in a study: "probe.A.x_um", "installation.yaw_mrad",
-// "travel_mm". algo/sensitivity/PLAN.md lists all names and their meanings.
+// Names of the quantities that may vary in a study, for example "probe.A.x_um",
+// "installation.yaw_mrad", "travel_mm". algo/sensitivity/PLAN.md lists all names and their
+// meanings.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +20,8 @@ enum class Effect {
   probe_tilt_about,   // tilt of the direction of a probe about one machine axis; rad
   probe_sensitivity,  // relative error of the scale of the readings; 1
   probe_noise,        // added to each reading, with a new random value each time; m
-  probe_zero,         // added to every reading of a trial, with one value; m
-  probe_drift,        // drift between zero and reading; in a series it increases proportionally; m
+  probe_zero,         // added to every reading of a trial, with the same value; m
+  probe_drift,        // drift since the zero; in a series it increases from 0 to this value; m
   part_shift,         // installation of a part of the fixture: shift along one machine axis; m
   // Installation: turn about a local axis through the origin of M (roll, pitch, yaw); rad.
   part_turn,
@@ -37,7 +38,7 @@ enum class Effect {
   travel,         // position of the axis; m
 };
 
-// Top: the probes that measure along z, and their plane; side: along y.
+// top: the probes that measure along the local z, and their plane; side: the same for the local y.
 enum class Part { fixture = 0, top = 1, side = 2 };
 
 // One random number that applies to one rig.
@@ -46,7 +47,7 @@ struct QuantityTarget {
   Effect effect = Effect::travel;
   std::size_t probe = 0;      // index in the rig, for probe_...
   Part part = Part::fixture;  // for part_... and plane_... only
-  // Shift or tilt: 0 1 2 is the machine axis; turn: local axis; truth: LocalError.
+  // Index of an axis or an error. Shift, tilt: machine axis; turn: local axis; truth: LocalError.
   std::size_t axis = 0;
   double to_si = 1;  // factor from the unit of the name to SI; for a truth it includes the sign
 };

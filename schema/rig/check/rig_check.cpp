@@ -20,7 +20,7 @@ constexpr double kMost_m = 0.5;  // largest distance between a probe or plane an
 constexpr Bounds kExtent_mm = {0.1, 1, 500, 500};     // largest distance between two probes
 constexpr Bounds kRange_um = {1, 5, 20e3, 100e3};     // capacitance probes have 10 µm to 10 mm
 constexpr Bounds kFull_V = {1e-3, 0.05, 100, 1000};   // full range in volts, from um_per_V
-constexpr Bounds kShare = {0, 0, 0.1, 1};             // size of a correction, relative to the range
+constexpr Bounds kShare = {0, 0, 0.1, 1};             // linearity correction / range
 constexpr Bounds kFlatness_um = {0, 0, 100, 10e3};    // heights of a target plane
 constexpr Bounds kArtefact_urad = {0, 0, 10e3, 1e5};  // angle error of a square
 

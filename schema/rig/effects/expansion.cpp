@@ -20,8 +20,8 @@ ThermalExpansion expansion_of(TomlTable& table, const std::string& body) {
   return {ppm * 1e-6, u_ppm * 1e-6};
 }
 
-// The coefficient is required if a temperature has an effect. If the coefficient is given, it is
-// always read.
+// Whether the expansion coefficient must be read: it is given, or a temperature requires it
+// (`counts`).
 bool requires_expansion(TomlTable& table, const std::string& body, bool counts) {
   return counts || table.has(body + "_ppm_per_K") || table.has("u_" + body + "_ppm_per_K");
 }

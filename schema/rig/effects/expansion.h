@@ -1,17 +1,17 @@
-// Thermal expansion during a run, as a rig declares it; lengths are stated at 20 °C:
+// Thermal expansion during a run, as a rig declares it. The results refer to lengths at 20 °C.
 //
 //   [temperature]
-//   scale_C = 22                     of the encoder's scale in the run; without it 20
-//   u_scale_K = 0.5                  standard uncertainty of it
-//   scale_ppm_per_K = 10.6           expansion of the scale, with its standard uncertainty
-//   u_scale_ppm_per_K = 0.5
-//   fixture_C, u_fixture_K, fixture_ppm_per_K, u_fixture_ppm_per_K      of the body with the probes
-//   square_ppm_per_K, u_square_ppm_per_K                                of the target
-//   u_square_gradient_K_per_m = 0.5  of its temperature's slope along X, Y and Z
+//   scale_C = 22                     temperature of the encoder's scale during the run; default 20
+//   u_scale_K = 0.5                  standard uncertainty of scale_C
+//   scale_ppm_per_K = 10.6           expansion coefficient of the scale
+//   u_scale_ppm_per_K = 0.5          standard uncertainty of scale_ppm_per_K
+//   fixture_C, u_fixture_K, fixture_ppm_per_K, u_fixture_ppm_per_K      the same for the fixture
+//   square_ppm_per_K, u_square_ppm_per_K                                the same for the target
+//   u_square_gradient_K_per_m = 0.5  standard uncertainty of the target's temperature gradient
 //
 // Nothing is corrected. A target of uniform temperature keeps its angles and stays flat, and the
-// zero of the probes includes its size. Therefore only a temperature gradient of the target has an
-// effect.
+// zero of the probes includes the size of the target. Therefore only a temperature gradient of the
+// target has an effect.
 #pragma once
 
 #include <cmath>
@@ -30,9 +30,9 @@ struct BodyExpansion {
   ThermalExpansion expansion;
   double above_20_K = 0;
   DeclaredUncertainty u_temperature;  // K
-  // Root mean square, about 0, of the relative expansion; the coefficient and the temperature are
-  // independent. Because nothing is corrected, it includes both the known expansion and its
-  // uncertainty (GUM H.1.7 with its second-order term).
+  // Root mean square (about 0, not about the mean) of the relative expansion; the coefficient and
+  // the temperature are independent. Because nothing is corrected, it includes both the known
+  // expansion and its uncertainty (GUM H.1.7 with its second-order term).
   double relative() const {
     const double above = above_20_K, u = u_temperature.u;
     return std::sqrt(expansion.mean_square_per_K2() * (above * above + u * u));

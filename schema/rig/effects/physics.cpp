@@ -14,7 +14,7 @@ namespace {
 constexpr double kMostRadius_mm = 50, kMostStandoff_um = 1e5, kMostTiltFactor = 100;
 // Number of points of the range at which a correction is checked.
 constexpr int kCorrectionSamples = 200;
-// A reading beyond this part of the range is at the end of the range.
+// Part of the range that a correction must include; a reading beyond it is at an end of the range.
 constexpr double kRangeCovered = 0.999;
 
 double positive(TomlTable& table, const char* key, double most) {
@@ -88,8 +88,8 @@ bool rises(const Calibration& c, const std::array<double, 2>& range) {
   return true;
 }
 
-// A requested correction must exist, must be a function of the reading, and must include all
-// possible readings.
+// A requested linearity correction must be declared, must increase with the reading, and must
+// include all possible readings.
 void check_linearity(TomlTable& table, const Probe& probe) {
   const Calibration& c = probe.calibration;
   const char* key = c.polynomial_um.empty() ? "linearity" : "polynomial_um";

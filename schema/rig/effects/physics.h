@@ -1,9 +1,9 @@
 // Effects that change the gap that a capacitance probe reads, as a rig declares them:
 //
-//   [corrections]                    true or false; defaults as without [corrections]:
-//   linearity = true                 a table or polynomial is applied, tilt and air are not
-//   tilt = true
-//   dielectric = true
+//   [corrections]                    which effects are corrected
+//   linearity = true                 default: true if the probe has a table or a polynomial
+//   tilt = true                      default: false
+//   dielectric = true                permittivity of the air; default: false
 //   [[probe]] sensing_radius_mm, standoff_um, tilt_factor, u_tilt_factor, u_linearity_um
 //   [air]                            see DeclaredAir
 //
@@ -47,8 +47,8 @@ struct DeclaredAir {
   std::array<DeclaredUncertainty, kAirQuantities> u_run, u_calibration;
 };
 
-// Default of the tilt factor (algo/README.md states the reason). One limit is 1, the factor of an
-// ideal disc; the other limit is at the same distance above the default.
+// Default of the tilt factor (algo/README.md states the reason), and half of the range of its
+// possible values. The lower limit of this range is 1, the factor of an ideal disc.
 inline constexpr double kUsualTiltFactor = 5;
 inline constexpr double kTiltFactorHalfWidth = 4;
 
@@ -65,12 +65,13 @@ struct ProbePhysics {
 
 struct RigPhysics {
   bool asked = false;  // true: there is a table [corrections]
-  // Nullopt: linearity is corrected if the rig has a linearity table.
+  // Nullopt: linearity is corrected if the probe has a linearity table or a polynomial.
   std::optional<bool> linearity;
   bool tilt = false, dielectric = false;
   std::vector<ProbePhysics> probes;  // in the order of the rig
   std::optional<DeclaredAir> air;
-  // If linearity = false: the original calibrations of the probes, in the order of the rig.
+  // If linearity = false: the calibrations of the probes before their linearity corrections were
+  // removed, in the order of the rig.
   std::vector<std::shared_ptr<const Calibration>> left_out;
 
   bool corrects() const { return tilt || dielectric; }
@@ -85,8 +86,8 @@ struct RigPhysics {
 // the table.
 void read_physics(TomlTable& table, Rig& rig);
 
-// As Rig::undeclared_uncertainties() and Rig::declares_uncertainty(), but for the keys in this
-// file.
+// As Rig::undeclared_uncertainties() and Rig::declares_uncertainty(), but for the keys that are
+// listed above.
 std::vector<std::string> undeclared_physics(const Rig& rig);
 bool declares_physics(const Rig& rig);
 
@@ -94,7 +95,7 @@ bool declares_physics(const Rig& rig);
 std::vector<std::string> air_columns(const Rig& rig);
 
 // The value that the calibration adds to a reading (Calibration in rig.h), µm. Beyond the ends of a
-// table, the value at the end.
+// table, it is the value at the end.
 double linearity_um(const Calibration& calibration, double reading_um);
 
 // Readings t = raw - offset at the ends of the probe's range, µm.

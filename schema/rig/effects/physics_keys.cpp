@@ -18,7 +18,8 @@ bool has_removed_linearity(const RigPhysics& physics) {
   });
 }
 
-// Conditions that are only in the log of a run are not stored with the rig.
+// Without the dielectric correction, a condition of the air that is only in the log of a run is not
+// known, because it is not stored with the rig.
 void add_undeclared_air(const RigPhysics& physics, std::vector<std::string>& keys) {
   for (std::size_t q = 0; q < kAirQuantities; ++q) {
     const std::string key = air_quantities()[q].key;

@@ -107,7 +107,7 @@ Status reject_encoder(const SampleBlock& block, const Channel& encoder, const st
 
 }  // namespace
 
-// um_per_V of a record is not used if the driver has already converted the volts to a length.
+// um_per_V of a record is not used for a channel whose unit is a length.
 Notices unused_scales(const Rig& rig, const std::vector<Channel>& channels) {
   Notices found;
   for (const Channel& channel : channels)

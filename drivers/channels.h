@@ -24,7 +24,7 @@ struct ChannelInput {
   // Encoder only: position of the axis at the reference mark.
   std::optional<double> index_mm = std::nullopt;
   std::string index_where = {};
-  // empty: channel of the main axis; otherwise this further axis.
+  // empty: the channel belongs to the main axis; otherwise it belongs to this further axis.
   std::optional<Axis> further = std::nullopt;
 };
 

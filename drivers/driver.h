@@ -35,7 +35,7 @@ struct DeviceInfo {
   // As datum_lost, for the encoders of further axes (DriverContext::further), by the name of the
   // channel.
   std::map<std::string, std::string> further_datum_lost = {};
-  // What the user must do if an encoder of this device has lost its datum.
+  // Remedy for the user if an encoder of this device has lost its datum.
   Remedy datum_remedy = Remedy::set_encoder;
 };
 

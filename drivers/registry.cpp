@@ -175,7 +175,8 @@ const std::vector<DriverRow>& driver_rows() {
           .devices = "US Digital QSB-D, QSB-S: one encoder, streamed over a serial port",
           .configure = configure_qsb,
           .node = UsbDevice{.name = "US Digital QSB",
-                            .vendor = 0x0403,  // id of the FTDI chip, shared by many devices
+                            // id of the FTDI chip; many other devices contain this chip
+                            .vendor = 0x0403,
                             .product = 0x6001,
                             .node = UsbNode::tty,
                             .manufacturer = "US Digital",

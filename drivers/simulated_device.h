@@ -17,8 +17,8 @@ namespace usb {
 class SimulatedUsb;
 }
 
-// Signal at an input of a simulated device, for a time of the device's clock. The unit is V, µm or
-// counts; the header of the device states it. Pure.
+// Signal at an input of a simulated device at the time t_ns. The unit is V, µm or counts; the
+// header of the device states it. Pure.
 using Senses = std::function<double(std::size_t input, std::int64_t t_ns)>;
 
 // A simulated device has no clock: the caller passes the time, which never decreases. Thread-bound.

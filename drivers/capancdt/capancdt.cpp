@@ -13,13 +13,14 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-// Most scans in one read(); exceeded by at most one packet.
+// Largest number of scans in one read(); a read() may exceed it by one packet.
 constexpr std::size_t kBlockScans = 4096;
-constexpr std::size_t kReadBytes = 1 << 16;  // most bytes in one read() of the socket
-constexpr int kReads = 16;                   // most calls of read() before the data are processed
-// Most bytes without a valid packet. The largest packet has half this size.
+constexpr std::size_t kReadBytes = 1 << 16;  // largest number of bytes in one read() of the socket
+// largest number of calls of read() before the data are processed
+constexpr int kReads = 16;
+// Largest permitted number of bytes without a valid packet. The largest packet has half this size.
 constexpr std::uint64_t kMostGarbage = 1 << 18;
-// If frames of a longer time are missing, the counter was reset.
+// If the missing frames cover a longer time, the counter was reset.
 constexpr double kMostLost_ns = 10e9;
 
 std::int64_t to_ns(steady_clock::time_point time) {
@@ -98,7 +99,7 @@ Status Capancdt::receive(milliseconds timeout) {
   if (came) {
     const auto now = steady_clock::now();
     auto placed = place_packets(now);
-    // Also for frames that arrived before an error.
+    // The clock is also updated for frames that arrived before an error.
     MDOF_CHECK(update_clock(to_ns(now), all.value_or(true)));
     MDOF_CHECK(std::move(placed));
   }

@@ -8,7 +8,7 @@ namespace mdof::drivers::capancdt {
 namespace {
 
 constexpr int kVotes = 3;              // number of steps that must agree with the unit
-constexpr std::size_t kMostHeld = 32;  // most packets that are kept back
+constexpr std::size_t kMostHeld = 32;  // largest number of packets that are kept back
 // A packet is a duplicate if its counter is at most this number of packets before the last packet.
 // If more duplicates than this follow each other, the counter was reset.
 constexpr int kMostDuplicates = 64;
@@ -67,7 +67,7 @@ double FrameCounter::frames(std::uint64_t counted, const Packet& before) const {
 Status FrameCounter::hold(Packet packet, std::deque<PlacedPacket>& placed) {
   if (!held_.empty()) vote(held_.back(), packet);
   held_.push_back(std::move(packet));
-  // If several are equal, the first.
+  // If several units have the most votes, the first of these units is used.
   const auto best = std::max_element(votes_.begin(), votes_.end());
   if (*best < kVotes) {
     if (held_.size() < kMostHeld) return {};

@@ -36,13 +36,13 @@ struct PlacedPacket {
 // Thread-bound.
 class FrameCounter {
  public:
-  // `averaged`: number of samples in a frame (1: no averaging). `most_lost`: if more successive
-  // frames are missing, the counter was reset.
+  // `averaged`: number of samples in a frame (1: no averaging). `most_lost`: largest number of
+  // successive missing frames; if more frames are missing, the counter was reset.
   FrameCounter(int averaged, std::uint64_t most_lost);
 
   // Appends the packets that can be numbered now to `placed`: no packet, this packet, or all
-  // packets that were kept back. Discards packets that arrived twice. Error: the counter jumped, or
-  // its unit cannot be found. The object must not be used after an error.
+  // packets that were kept back. If a packet arrives twice, discards the second copy. Error: the
+  // counter jumped, or its unit cannot be found. The object must not be used after an error.
   Status add(Packet packet, std::deque<PlacedPacket>& placed);
 
   std::optional<CounterUnit> unit() const { return unit_; }
@@ -54,7 +54,7 @@ class FrameCounter {
     Packet packet;
     std::int64_t first_frame;
   };
-  // Counts from this packet to the next packet.
+  // Increase of the counter from this packet to the next packet, if the counter counts in `unit`.
   std::uint64_t step(const Packet& packet, CounterUnit unit) const;
   double frames(std::uint64_t counted, const Packet& before) const;
   Status hold(Packet packet, std::deque<PlacedPacket>& placed);

@@ -18,7 +18,7 @@ inline constexpr int kDataPort = 10001;  // data port that the controller uses b
 // Averaging types: parameter of $AVT in the manual.
 enum class Averaging { none = 0, moving = 1, arithmetic = 2, median = 3, dynamic = 4 };
 const char* to_string(Averaging averaging);  // name in the configuration
-// Error: the filter contains samples of more than `settle_s`, so that a reading at a target would
+// Error: the samples in the filter span more than `settle_s`, so that a reading at a target would
 // contain samples from before the axis stopped. `settle_s` 0: no check.
 Status check_filter(double sample_time_us, int averaged_values, double settle_s);
 

@@ -17,7 +17,7 @@
 namespace mdof::drivers::capancdt {
 
 inline constexpr int kMostChannels = 32;  // the header has 64 bits, two for each channel
-// Most frames in a packet; a packet with more frames is invalid.
+// Largest number of frames in a packet; a packet with more frames is invalid.
 inline constexpr int kMostFrames = 1024;
 inline constexpr std::size_t kHeaderBytes = 32;
 inline constexpr std::int32_t kFullScale = 0xFFFFFF;
@@ -39,7 +39,7 @@ struct Packet {
   }
 };
 
-std::uint64_t channel_bit(int number);  // bit of the available channel 1 ... 32
+std::uint64_t channel_bit(int number);  // bit that marks channel 1 ... 32 as available
 
 // Order of the two size words, which begin at byte 24.
 enum class SizeOrder { bytes_per_frame_first, frames_first };

@@ -14,9 +14,9 @@ class RateWatch {
   explicit RateWatch(double frame_ns) : frame_ns_(frame_ns) {}
 
   // `frames`: number of frames when the newest frame was received, including lost frames. Returns
-  // the measured duration of a frame if it deviates by more than 10 % in two successive stretches
-  // of time. A deviation in one stretch alone may come from a delay of the network or of this
-  // computer.
+  // the measured duration of a frame if this duration deviates by more than 10 %, with the same
+  // sign, in two successive stretches of time. A deviation in one stretch alone may come from a
+  // delay of the network or of this computer.
   std::optional<double> add(std::int64_t frames, std::int64_t received_ns) {
     if (!begun_) begin(frames, received_ns);
     const auto passed_ns = static_cast<double>(received_ns - begun_ns_);

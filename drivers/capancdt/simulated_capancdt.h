@@ -31,7 +31,8 @@ class SimulatedCapancdt final : public SimulatedDevice {
     none,
   };
 
-  // A fault exists as long as the device is used, unless the name of the fault states a time.
+  // A fault lasts as long as the device is used, unless its comment states the packets that have
+  // the fault.
   struct Faults {
     SizeOrder sizes = SizeOrder::bytes_per_frame_first;
     CounterUnit counter = CounterUnit::frame;
@@ -40,7 +41,8 @@ class SimulatedCapancdt final : public SimulatedDevice {
     int repeat_every = 0;               // each n-th packet is sent twice
     int garbage_every = 0;              // invalid bytes before each n-th packet
     bool has_invalid_preamble = false;  // all sent data are invalid, so that they contain no packet
-    std::size_t most_bytes = 0;         // most data bytes that exchange() returns; 0: no limit
+    // largest number of data bytes that exchange() returns; 0: no limit
+    std::size_t most_bytes = 0;
     // This channel is missing in `vanish_packets` packets, from packet `vanish_from` on.
     int missing_channel = 0;
     int vanish_from = 0, vanish_packets = 0;

@@ -12,13 +12,13 @@ namespace {
 constexpr double kStretch_ns = 0.25e9;
 constexpr std::size_t kStretches = 256;      // together 64 s
 constexpr std::size_t kStretchesToFit = 16;  // 4 s; before the first fit, the nominal rate is used
-// 1 s; delays that come from opening the device are over then.
+// 1 s; after this time, opening the device no longer delays packets.
 constexpr std::size_t kStretchesToBegin = 4;
 // The line is fitted again when 1/32 of the stretches are new.
 constexpr std::size_t kRefitDivisor = 32;
 constexpr double kMostDrift = 1e-3;  // 1000 ppm; no clock has a larger drift
-constexpr double kSlew = 2e-3;       // largest correction of the time: part of the elapsed time
-// The same before the first fit; it is large, so that the offset is corrected quickly.
+constexpr double kSlew = 2e-3;       // largest correction of the returned time / elapsed time
+// The same before the first fit; the value is large, so that the offset is corrected quickly.
 constexpr double kFirstSlew = 0.2;
 constexpr double kStep_ns = 0.1e9;  // larger than any jitter; a packet with a larger delay is late
 // If packets are late for a longer time, the clock has stepped.

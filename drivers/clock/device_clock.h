@@ -4,11 +4,11 @@
 // A packet is received some time after it was sent. This delay has a smallest value, and it is
 // often larger. The device time is divided into stretches, and only the packet with the smallest
 // delay of each stretch is used. A line is fitted to these packets; its slope is the median of the
-// slopes of all pairs (Theil 1950, Sen 1968). Therefore late packets change the line only a little,
-// and a stretch without a quick packet too. The slope of the line relative to the nominal rate is
-// the drift between the two clocks. The returned times follow the line without steps and never
-// decrease. The smallest delay itself cannot be observed; it shifts all times of a device by the
-// same amount.
+// slopes of all pairs (Theil 1950, Sen 1968). Therefore late packets, and a stretch in which all
+// packets are delayed, change the line only a little. The slope of the line relative to the nominal
+// rate is the drift between the two clocks. The returned times follow the line without steps and
+// never decrease. The smallest delay itself cannot be observed; it shifts all times of a device by
+// the same amount.
 //
 // As long as packets are late, this state cannot be distinguished from a device clock that has
 // stopped for a while. The line is then not changed, so that the times are correct if only the
@@ -47,8 +47,8 @@ class DeviceClock {
   // Host time of a sample. Call add() before. If `ticks` increases from call to call, the returned
   // times increase strictly.
   std::int64_t host_ns(std::int64_t ticks);
-  // Discards the fitted line, because the device was opened again. The returned times still never
-  // decrease, and the number of steps is kept.
+  // Call this after the device was opened again. Discards the fitted line. The returned times still
+  // never decrease, and the number of steps is kept.
   void reset();
 
   ClockState state() const;

@@ -22,7 +22,7 @@ class IndexMark {
     awaited,  // arm() was called; the axis has not reached the mark
     at_mark,  // the counter has loaded the preset; the count has not moved away yet
     passed,   // counts are relative to the mark, until arm() is called again
-    astray,   // neither a motion nor the mark explains this count; the object ignores it
+    astray,   // neither a motion nor the mark explains the count; the object ignores this count
   };
   // `bits`: width of the counter (8 ... 62). take() and arm() expect unwrapped counts.
   explicit IndexMark(int bits) : bits_(bits), quarter_(std::int64_t{1} << (bits - 2)) {}

@@ -26,9 +26,9 @@ struct CsvRowsOptions {
   int descriptor = -1;
 };
 
-// Thread-bound except bytes(). If it must also hash, unpack or wait for a pipe, it has one thread
-// for this, "csv read", from open() to the end of the file or to the destructor. It needs a few MB
-// of memory for a file of any size. The contents of the blocks do not depend on timing or on
+// Thread-bound except bytes(). If the object must also hash, unpack or wait for a pipe, it has a
+// thread for this, "csv read", from open() to the end of the file or to the destructor. It needs a
+// few MB of memory for a file of any size. The contents of the blocks do not depend on timing or on
 // chunk_bytes.
 class CsvRows {
  public:

@@ -20,7 +20,6 @@ struct PositioningCsv {
 // neither 1 nor -1; a run that is not an integer; two readings with the same target, direction and
 // run; more than `most` readings (each reading needs about 120 bytes of memory). `descriptor`: as
 // in read_csv_table().
-// read_csv_table().
 inline constexpr std::size_t kMostReadings = 1'000'000;
 Result<PositioningCsv> read_positioning_csv(const std::string& path,
                                             std::size_t most = kMostReadings, int descriptor = -1);

@@ -15,7 +15,8 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr milliseconds kConnect{2000};
-constexpr std::int64_t kBurstGap_ns = 50'000'000;  // after a longer pause, the rows are suspect
+// after a longer pause, the rows except the newest are suspect
+constexpr std::int64_t kBurstGap_ns = 50'000'000;
 constexpr std::int64_t kPaceWindow_ns = 2'000'000'000;  // period of the checks of time_s
 constexpr std::size_t kMostScans = 4096;                // limit of a block
 

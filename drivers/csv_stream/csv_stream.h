@@ -29,7 +29,7 @@ struct CsvStreamOptions {
   std::string folder;                     // working directory of the command
   std::chrono::milliseconds start{5000};  // longest wait for the header
   std::chrono::milliseconds silence{2000};
-  std::size_t bad_lines = 100;        // most bad lines of 10,000 lines
+  std::size_t bad_lines = 100;        // largest permitted number of bad lines in 10,000 lines
   std::vector<std::string> expected;  // channel ids; at least one column must have one of these ids
   // True: the zero of the positions does not change when the source is started again.
   bool absolute = false;
@@ -40,9 +40,10 @@ struct CsvStreamOptions {
 // Thread-bound. If the rows have a column time_s, its times are converted by DeviceClock. Otherwise
 // the times are the times of arrival. Rows that arrive together are then distributed evenly over
 // the time since the previous arrival, but over at most 50 ms. After a longer pause, all of these
-// rows except the newest are suspect, because their times are uncertain.
-// A script may count positions from the position at which the script was started. Therefore a datum
-// that the user has set is lost when the source is opened again or sends its header again.
+// rows except the newest are suspect, because their times are uncertain. A script may count
+// positions from the position at which the script was started. Therefore, unless `absolute` is
+// true, a datum that the user has set is lost when the source is opened again or sends its header
+// again.
 class CsvStream final : public Driver {
  public:
   CsvStream(std::string name, CsvStreamOptions options);

@@ -22,8 +22,8 @@ namespace mdof::drivers {
 // - a deviation or a number is given twice or is missing;
 // - a run has the wrong direction or contains zeros only;
 // - the file contains angles (according to its name, its type or its Owner);
-// - `error_is_stated` is false and the type of the file is straightness, flatness or squareness;
-// the user must then name the error.
+// - `error_is_stated` is false and the type of the file is straightness, flatness or squareness, so
+//   that the user must name the error.
 Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& source,
                                  bool error_is_stated = false);
 

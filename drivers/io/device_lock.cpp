@@ -20,7 +20,7 @@
 namespace mdof::drivers {
 namespace {
 
-// Most pending connections before answer_inquiries() is called.
+// Largest number of connections that wait for answer_inquiries().
 constexpr int kPendingInquiries = 64;
 constexpr int kKind = SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK;
 

@@ -54,7 +54,7 @@ class ScanSplitter {
   std::size_t words_;
   std::vector<std::uint16_t> begun_;  // samples of an incomplete scan
   std::vector<Scan> held_;            // scans that are kept until the position of the gap is known
-  std::optional<std::uint64_t> gap_;  // number of missing scans, while their position is not known
+  std::optional<std::uint64_t> gap_;  // number of missing scans if their position is not known yet
   std::size_t candidates_ = 0;        // number of scans that may still show the position of the gap
   std::uint64_t next_ = 0;            // index of the next scan
   std::uint64_t lost_ = 0;            // number of lost scans before the next scan

@@ -75,7 +75,7 @@ class LabjackT7 final : public Driver {
   Unwrap core_{32};                          // CORE_TIMER with its overflows, since open()
   std::int64_t enabled_ticks_ = 0;           // CORE_TIMER shortly before STREAM_ENABLE was written
   std::optional<std::int64_t> start_ticks_;  // CORE_TIMER at scan 0; empty before the first packet
-  // Host time when it arrived; before the first packet, the time of the start.
+  // Host time at which the last packet arrived; before the first packet, the time of the start.
   std::int64_t last_packet_ns_ = 0;
   std::vector<Scan> scans_;   // scans that were received
   Status broken_;             // the error that ended the stream

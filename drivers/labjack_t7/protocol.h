@@ -33,10 +33,11 @@ constexpr Register operator+(Register first, int by) {
 namespace reg {
 // Type f32, V. In a scan list the value is the 16-bit code of the converter.
 inline constexpr Register ain{0, "AIN"};
-// Count of a pair of lines; the address is that of the even line. In a scan list it returns the
-// lower 16 bits of the count.
+// Count of a pair of lines; the even line determines the address. In a scan list, this register
+// returns the lower 16 bits of the count.
 inline constexpr Register dio_ef_read_a{3000, "DIO_EF_READ_A"};
-// As the next entry in the scan list it returns the upper 16 bits of the same count.
+// If this register is the next entry of the scan list, it returns the upper 16 bits of the same
+// count.
 inline constexpr Register capture_16{4899, "STREAM_DATA_CAPTURE_16"};
 
 // f32; when read, it returns the actual rate.
@@ -60,8 +61,8 @@ inline constexpr Register stream_no_recovery{4028, "STREAM_AUTORECOVER_DISABLE"}
 inline constexpr Register stream_scan_list{4100, "STREAM_SCANLIST_ADDRESS"};
 inline constexpr Register stream_enable{4990, "STREAM_ENABLE"};
 
-// Registers for one input. The address is + 2n for registers of 32 bits and + n for registers of 16
-// bits.
+// Registers for one input. The register of input n has the address + 2n if it has 32 bits, and + n
+// if it has 16 bits.
 inline constexpr Register ain_range{40000, "AIN_RANGE"};                      // f32, V
 inline constexpr Register ain_negative_ch{41000, "AIN_NEGATIVE_CH"};          // u16
 inline constexpr Register ain_all_range{43900, "AIN_ALL_RANGE"};              // f32, V
@@ -123,7 +124,7 @@ inline constexpr int burst_complete = 2944;
 inline constexpr int buffer_full = 2945;
 }  // namespace status
 
-inline constexpr std::size_t kMostSamples = 512;  // most samples in a TCP packet
+inline constexpr std::size_t kMostSamples = 512;  // largest number of samples in a TCP packet
 
 struct StreamPacket {
   std::uint16_t transaction = 0;  // starts at 0 and increases by 1 with each packet

@@ -10,7 +10,7 @@ namespace mdof::drivers::labjack_t7 {
 namespace {
 
 constexpr float kProduct = 7;
-// The maximum; it has room for 0.5 s of 7 samples at 4 kHz.
+// The largest size; it has room for 0.5 s of scans of 7 samples at 4 kHz.
 constexpr std::uint32_t kBufferBytes = 32768;
 constexpr int kLines = 2;  // number of lines of a quadrature counter
 constexpr double kStampFirmware = 1.0214, kRecoveryFirmware = 1.026;

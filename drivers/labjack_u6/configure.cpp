@@ -29,7 +29,7 @@ void read_serial(TomlTable& table, Settings& settings) {
   if (serial > 0) settings.serial = std::to_string(serial);
 }
 
-// Returns the gain of the inputs that have no range of their own.
+// Returns the gain for inputs whose channel has no key range_v.
 int read_gain(TomlTable& table) {
   const int gain = labjack::range_of(table.number("range_v", 10));
   if (gain < 0) table.reject("range_v", labjack::kRangesText);

@@ -63,7 +63,7 @@ class LabjackU6 final : public Driver {
   std::array<AinCalibration, 4> calibrations_;  // for the gains 0 ... 3
 
   DeviceClock clock_;  // a tick is a scan
-  // Host time when it arrived; before the first transfer, the time of the start.
+  // Host time at which the last transfer arrived; before the first transfer, the time of the start.
   std::int64_t last_chunk_ns_ = 0;
   std::vector<Scan> scans_;   // scans that were received
   std::size_t returned_ = 0;  // number of scans in scans_ that were returned

@@ -96,7 +96,7 @@ Status read_config_io(std::string_view reply, int timers, int pin_offset);
 std::string start_quadrature();
 Status read_feedback(std::string_view reply);
 
-inline constexpr int kMostSamples = 25;  // most samples in a packet
+inline constexpr int kMostSamples = 25;  // largest number of samples in a packet
 // An entry of the scan list. Gain 0 ... 3: range 10 V / 10^gain. `differential`: the input is an
 // even AIN, and its voltage is measured relative to the next AIN.
 struct Entry {

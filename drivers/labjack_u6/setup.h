@@ -19,8 +19,7 @@ Result<Identity> identify(usb::Handle& handle);
 Status stop_stream(usb::Handle& handle);
 // Returns the calibration constants for the gains 0 ... 3.
 Result<std::array<AinCalibration, 4>> read_ain_calibrations(usb::Handle& handle);
-// Whether two timers still run on the line `fio` and the next line with the settings of
-// start_counter().
+// Whether the device still has two timers that begin at the line `fio`, as after start_counter().
 Result<bool> counter_runs(usb::Handle& handle, int fio);
 // Starts the counter from 0 on the line `fio` and the next line.
 Status start_counter(usb::Handle& handle, int fio);

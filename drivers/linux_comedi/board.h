@@ -53,7 +53,8 @@ struct BoardInput {
 };
 
 struct Event {
-  // Source: a bit mask; sources() returns all possible sources in it.
+  // `source`: bit mask of Source. In the result of Board::sources() it contains all sources that
+  // the board supports.
   unsigned source = 0, argument = 0;
 };
 // A comedi_cmd: the board scans the inputs repeatedly.

@@ -264,8 +264,8 @@ Result<Received> LibraryBoard::receive(std::span<char> into, milliseconds timeou
   pollfd ready{fd, POLLIN, 0};
   const auto longest = milliseconds(std::numeric_limits<int>::max());
   const int woken = ::poll(&ready, 1, static_cast<int>(std::min(timeout, longest).count()));
-  // No data arrived. A board may keep samples until its FIFO is half full, so this call asks for
-  // the samples. Not every board supports it.
+  // No data arrived. A board may keep samples until its FIFO is half full, so comedi_poll() asks
+  // for these samples. Not every board supports comedi_poll().
   if (woken == 0) (void)comedi_poll(device_.get(), subdevice_);
   const ssize_t bytes = ::read(fd, into.data(), into.size());
   if (bytes > 0) return Received{static_cast<std::size_t>(bytes), StreamState::runs};

@@ -16,7 +16,7 @@ using std::chrono::steady_clock;
 
 constexpr std::size_t kBuffer = 65536;
 constexpr double kSilence_s = 2;
-// Half the size of a large FIFO; a board may keep so many samples.
+// Number of samples that a board may keep: half the size of a large FIFO.
 constexpr double kHalfFifo_samples = 1024;
 
 milliseconds remaining_time(steady_clock::time_point until) {

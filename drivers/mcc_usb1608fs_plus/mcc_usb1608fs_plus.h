@@ -59,9 +59,10 @@ class MccUsb1608fsPlus final : public Driver {
   ScanSplitter line_;
   std::vector<std::uint16_t> words_;  // words of scans that were received and not returned yet
   std::uint64_t first_ = 0;           // number of the first scan in words_, counted from the start
-  std::size_t confirmed_ = 0;  // number of scans in words_ after which a status reported no overrun
+  // number of scans in words_ that arrived before a status without overrun
+  std::size_t confirmed_ = 0;
   Time next_status_;
-  // Host time when it arrived; before the first transfer, the time of the start.
+  // Host time at which the last transfer arrived; before the first transfer, the time of the start.
   std::int64_t last_chunk_ns_ = 0;
 
   std::int64_t last_time_ns_ = 0;  // time of the last returned scan

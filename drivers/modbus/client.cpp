@@ -145,7 +145,7 @@ Result<Answer> ModbusClient::Impl::exchange(const std::string& pdu) {
   return answer;
 }
 
-// No error if no bytes arrive during `wait`.
+// Waits for `wait`. Error: bytes arrive.
 Status ModbusClient::Impl::expect_silence(milliseconds wait) {
   std::array<char, MODBUS_MAX_ADU_LENGTH> waste;
   auto came = stream.read(waste, wait);
@@ -180,8 +180,8 @@ Status ModbusClient::Impl::prove(int address, modbus::Shape regular) {
   return {};
 }
 
-// An exception reply does not show to which request it belongs. Therefore it proves that the line
-// is free of older replies only if all older replies must already have arrived.
+// An exception reply does not show to which request it belongs. Therefore an exception reply proves
+// that the line is free of older replies only if all older replies must already have arrived.
 Result<Answer> ModbusClient::Impl::refused(int code) {
   if (heard_at - failed_at >= kLatest_timeouts * options.response_timeout) return Answer{};
   ++rejected;

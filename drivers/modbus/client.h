@@ -37,7 +37,7 @@ class ModbusClient {
   ModbusClient(ModbusClient&&) noexcept;
   ModbusClient& operator=(ModbusClient&&) noexcept;
 
-  // Reads or writes the registers from `address` on, at most 125 registers. Errors name the device,
+  // Reads at most 125 or writes at most 123 registers, from `address` on. Errors name the device,
   // the register and the cause: no reply, the name of a Modbus exception, or an invalid reply. A
   // call takes at most the response time-out, or 2.5 times the response time-out if trusted() is
   // false.

@@ -14,8 +14,8 @@
 namespace mdof::drivers {
 
 struct ModbusSettings {
-  modbus::Profile profile;  // the profile, with the values that the keys of the device replace
-  std::string address;      // of a TCP connection; empty: use `port`
+  modbus::Profile profile;  // the profile, after the keys of the device have replaced its values
+  std::string address;      // address of the TCP connection; empty: use `port`
   std::string port;         // device file of a serial line
   std::vector<Channel> channels;
   std::vector<modbus::Readings::Use> uses;  // for each channel, its value in the profile

@@ -64,7 +64,8 @@ struct Profile {
   int port = 502, unit = 1;
   SerialSettings serial;
   double poll_ms = 100, response_timeout_ms = 100;
-  int join_gap = 0;  // most unused registers that may be read between two used registers
+  // largest number of unused registers that may be read between two used registers
+  int join_gap = 0;
   std::vector<Value> values;
   std::vector<StatusBits> statuses;
   std::vector<Check> checks;

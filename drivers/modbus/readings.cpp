@@ -80,7 +80,7 @@ const std::vector<Reading>& Readings::read() {
   return readings_;
 }
 
-// If the value is missing, the count does not change.
+// If the reading is missing, the counter is not updated.
 Reading Readings::read(Counter& counter) {
   const Value& value = counter.value;
   Reading reading{kNaN, Quality::good};

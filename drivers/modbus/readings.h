@@ -44,7 +44,7 @@ class Readings {
   Readings(const Profile& profile, const std::vector<Use>& uses);
 
   const std::vector<Block>& blocks() const { return blocks_; }
-  // The caller must fill it with the registers of blocks()[i], i = `block`.
+  // Memory for the registers of blocks()[block]. The caller must fill it before read().
   std::span<std::uint16_t> registers(std::size_t block) { return registers_[block]; }
   // Converts the present registers to one reading for each Use. Call it once for each poll.
   const std::vector<Reading>& read();

@@ -17,7 +17,7 @@ using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kTickEvery{1000}, kQuiet{10};
-// Most reports for requests of another program that may still arrive.
+// Largest number of reports for requests of another program that may still arrive.
 constexpr int kMostStale = 200;
 // Tolerances for the difference between the device's tick and the host's clock.
 constexpr double kTickSlack_ms = 500, kTickDrift = 0.001;

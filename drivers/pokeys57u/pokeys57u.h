@@ -23,7 +23,7 @@ struct Input {
   double um_per_count = 0;
   // Bits of EncoderOption that the driver sets; nullopt: the driver changes no option.
   std::optional<std::uint8_t> options;
-  double most_counts_per_s = 0;  // if the count changes faster, the change is not a motion
+  double most_counts_per_s = 0;  // a faster change of the count is not a motion of the axis
   bool counts() const { return index < kCounters; }
 };
 

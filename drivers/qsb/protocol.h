@@ -30,7 +30,7 @@ inline constexpr std::uint32_t kIndexLoads = 0x10, kIndexSynchronous = 0x40;
 inline constexpr std::uint32_t kIndexInverted = 0x08;  // bit of kMdr1
 inline constexpr std::uint32_t kEorLf = 1, kEorCr = 2, kEorStamp = 4, kEorSpaces = 8;
 inline constexpr std::uint32_t kFullLines = kEorLf | kEorCr | kEorStamp | kEorSpaces;
-// nominal; the manual states other values too (tick_length.h).
+// Nominal length of a tick; the manual also states other values (tick_length.h).
 inline constexpr double kTick_ns = 1e9 / 512;
 }  // namespace qsb
 

@@ -202,7 +202,7 @@ Result<std::optional<QsbReply>> Qsb::one_reply(std::uint8_t reg, milliseconds ti
 std::optional<std::string> Qsb::next_line() {
   const std::size_t end = received_.find('\n');
   if (end == std::string::npos) {
-    // Too long, so the line is malformed.
+    // The line is too long, so it is malformed.
     if (received_.size() > kLongestLine) return std::exchange(received_, "");
     return std::nullopt;
   }

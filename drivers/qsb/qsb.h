@@ -44,7 +44,8 @@ struct QsbOptions {
 // later loss of counts must be visible and must not be corrected silently during a run.
 class Qsb final : public Driver {
  public:
-  static constexpr int kMalformedAllowed = 10;  // most malformed lines in succession
+  // largest permitted number of successive malformed lines
+  static constexpr int kMalformedAllowed = 10;
 
   Qsb(std::string name, QsbOptions options);
 
@@ -92,9 +93,10 @@ class Qsb final : public Driver {
   std::optional<ByteStream> stream_;
   QsbIdentity identity_;
   bool power_was_lost_ = false;
-  bool counted_ = false;     // true: this object has opened the device before
-  bool datum_lost_ = false;  // true: the count has restarted at 0 since then
-  std::string received_;     // bytes that are not yet divided into lines
+  bool counted_ = false;  // true: this object has opened the device before
+  // true: the zero of the count may have changed since the datum was set
+  bool datum_lost_ = false;
+  std::string received_;  // bytes that are not yet divided into lines
   TickLength tick_{qsb::kTick_ns};
   DeviceClock clock_{1.0};  // a tick is 1 ns of device time
   Unwrap count_{32, true}, stamp_{32};
@@ -106,7 +108,7 @@ class Qsb final : public Driver {
   IndexMark mark_{32};
   bool awaits_new_mark_ = true;  // the count has a new zero, so the mark must be awaited
   std::int64_t at_mark_since_ns_ = 0;
-  // Passed marks in the received samples; in the returned samples.
+  // Number of passed marks in the received samples, and in the returned samples.
   int marks_found_ = 0, marks_passed_ = 0;
   std::uint64_t malformed_ = 0;
   int malformed_in_a_row_ = 0;

@@ -29,7 +29,7 @@ class SimulatedQsb final : public SimulatedDevice {
     int unsupported = -1;  // register whose reply is x
     bool mute = false;     // the device never replies
     bool streams_at_start = false;
-    // Number of the first line whose count is far away, number of such lines.
+    // Number of the first line with a count that no motion explains, and number of such lines.
     int first_far_line = -1, far_line_count = 1;
   };
   // The reference mark. `at`: its position in counts of `senses`. `inverted`: the index signal is

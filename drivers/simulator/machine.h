@@ -33,8 +33,8 @@ class Machine {
   void append_scan(SampleBlock& block, std::uint64_t scan, std::int64_t t_ns);
   bool in_gap(std::int64_t t_ns) const;  // whether a scan at t_ns is never sent
 
-  // True errors of the target at the carriage, in the local frame. The options contain the errors
-  // of the moving body.
+  // True errors of the target, in the local frame; the reference point is the origin of the
+  // carriage. They are calculated from the errors of the moving body in the options.
   Errors5 truth_at(double travel_m, int direction) const;
   const Motion& motion() const { return motion_; }
 

@@ -28,7 +28,8 @@ Motion::Motion(const SimulatorOptions& options)
     move_to(direction > 0 ? high_m : low_m, direction);
     std::reverse(targets_mm.begin(), targets_mm.end());
   }
-  // With a single target, no rest and no overrun, the axis does not move; a cycle then takes 1 s.
+  // With a single target, no rest and no overrun, the axis does not move. The axis then rests for 1
+  // s, so that a cycle has a duration.
   if (cycle_ns() == 0) append(position_m_, 1, true, 1);
 }
 

@@ -24,8 +24,8 @@ struct NamedError {
   double reversal = 0;      // keys reversal_um, reversal_urad
 };
 
-// Time is divided into windows of length_s. With this probability, a window is faulty over its
-// whole length.
+// Time is divided into windows of length_s. `probability` is the probability that a window is
+// faulty; the fault lasts for the whole window.
 struct Bursts {
   double probability = 0;
   double length_s = 0.05;

@@ -12,7 +12,7 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr std::size_t kBlockScans = 1024;  // most scans in one read
+constexpr std::size_t kBlockScans = 1024;  // largest number of scans in one read()
 constexpr std::chrono::milliseconds kLongestWait{3'600'000};
 
 std::string describe(const Rig& rig, const SimulatorOptions& options) {

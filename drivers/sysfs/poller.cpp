@@ -109,11 +109,11 @@ Status SysfsPoller::count_failure(const Error& why) {
                   " readings in a row failed; the last error: " + why.message);
 }
 
-// Schedules the next poll at a multiple of the period. If the poll is late by less than one period,
-// it is still made; polls that are later are lost.
+// Schedules the next poll at a multiple of the period. A poll that is late by less than one period
+// is still made; a poll that is later than this is lost.
 void SysfsPoller::schedule_next(std::int64_t now_ns) {
   next_ns_ += period_ns_;
-  if (next_ns_ > now_ns - period_ns_) return;  // late, but less than one period
+  if (next_ns_ > now_ns - period_ns_) return;  // not late, or late by less than one period
   const std::int64_t missed = (now_ns - next_ns_) / period_ns_;
   lost_ += static_cast<std::uint64_t>(missed);
   next_ns_ += missed * period_ns_;

@@ -37,7 +37,7 @@ struct SysfsDevice {
 // after a failed poll is suspect. Five failed polls in succession are an error.
 class SysfsPoller final : public Driver {
  public:
-  static constexpr int kFailuresAllowed = 4;  // most failed polls in succession
+  static constexpr int kFailuresAllowed = 4;  // largest permitted number of successive failed polls
 
   // `open`: finds and checks the device; each open() calls it. `slow_ns`: a scan that needs more
   // time is suspect, because its time is uncertain; 0: no limit.

@@ -12,7 +12,8 @@ using std::chrono::microseconds;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kToCancel{1};
-constexpr microseconds kInstant{100};  // if a wait without a result is shorter, libusb did not wait
+// if a wait without a result is shorter than this, libusb did not wait
+constexpr microseconds kInstant{100};
 constexpr microseconds kRest{200};
 
 void LIBUSB_CALL on_end(libusb_transfer* raw) {

@@ -159,8 +159,8 @@ Status Calibrator::apply_probe(const Probe& probe, std::size_t channel, SampleBl
   }
   auto& column = block.value[channel];
   if (!displace(c, um_per_unit, valid_window(probe), column)) return {};
-  // This second loop runs only rarely. The raw values are already overwritten, so it compares the
-  // displacements with the limits.
+  // This second loop runs only rarely. It compares displacements with the limits, because the raw
+  // values are already overwritten.
   const Window window = valid_window(probe);
   const double low_m = displacement_m(c, window.low_um), high_m = displacement_m(c, window.high_um);
   for (std::size_t i = 0; i < column.size(); ++i) {

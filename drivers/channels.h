@@ -16,10 +16,12 @@
 namespace mdof::drivers {
 
 struct ChannelInput {
-  std::string id;           // id of a probe in the rig, or "encoder"
-  std::string input;        // name of the input at the device: "AIN0", "1", "encoder2"
-  double um_per_count = 0;  // for a counting encoder, with its sign; 0: not given
-  std::string where;        // "mdofd.toml:12: axis.device.channel.input", for messages
+  std::string id;     // id of a probe in the rig, or "encoder"
+  std::string input;  // name of the input at the device: "AIN0", "1", "encoder2"
+  // length of a count of a counting encoder; negative if the count decreases when the position
+  // increases; 0: not given
+  double um_per_count = 0;
+  std::string where;  // "mdofd.toml:12: axis.device.channel.input", for messages
   std::optional<double> offset_mm = std::nullopt;  // encoder only: added to the measured position
   // Encoder only: position of the axis at the reference mark.
   std::optional<double> index_mm = std::nullopt;

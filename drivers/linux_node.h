@@ -1,6 +1,6 @@
 // How Linux presents a connected device, and which users may open it. Each driver's row in
-// registry.cpp states it. The udev rules (udev_rules.h) and the checks of `mdof doctor` are made
-// from it.
+// registry.cpp contains such a description. The udev rules (udev_rules.h) and the checks of `mdof
+// doctor` use these descriptions.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ namespace mdof::drivers {
 struct SimulatedKind {
   std::size_t most_inputs;
   const char* inputs;   // for users: "up to 14 probes, in volts, and the encoder"
-  const char* reached;  // how a program connects to it: "TCP: command, stream"
+  const char* reached;  // how a program connects to the simulated device: "TCP: command, stream"
   MakeSimulated make;
 };
 

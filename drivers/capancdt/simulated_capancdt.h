@@ -17,9 +17,9 @@
 
 namespace mdof::drivers::capancdt {
 
-// Senses: µm, limited to the range. The sample times are 256 µs times 1, 2, 4, 8 and so on, and 960
-// µs; a requested sample time is changed to the next shorter one. Only one client receives data
-// from the data port.
+// The signals at the inputs (Senses) are in µm; they are limited to the range. The sample times are
+// 256 µs times 1, 2, 4, 8 and so on, and 960 µs; a requested sample time is changed to the next
+// shorter one. Only one client receives data from the data port.
 class SimulatedCapancdt final : public SimulatedDevice {
  public:
   // How commands are echoed. According to the manual, the controller echoes every character

@@ -1,17 +1,17 @@
 // Converts the time of a device to the host's monotonic clock by means of a line that is fitted
 // robustly.
 //
-// A packet is received some time after it was sent. This delay has a smallest value, and it is
-// often larger. The device time is divided into stretches, and only the packet with the smallest
-// delay of each stretch is used. A line is fitted to these packets; its slope is the median of the
-// slopes of all pairs (Theil 1950, Sen 1968). Therefore late packets, and a stretch in which all
-// packets are delayed, change the line only a little. The slope of the line relative to the nominal
-// rate is the drift between the two clocks. The returned times follow the line without steps and
-// never decrease. The smallest delay itself cannot be observed; it shifts all times of a device by
-// the same amount.
+// A packet is received some time after it was sent. This delay is never less than a smallest value,
+// but is often larger. The device time is divided into stretches, and only the packet with the
+// smallest delay of each stretch is used. A line is fitted to these packets; its slope is the
+// median of the slopes of all pairs (Theil 1950, Sen 1968). Therefore late packets, and a stretch
+// in which all packets are delayed, change the line only a little. The slope of the line relative
+// to the nominal rate is the drift between the two clocks. The returned times follow the line
+// without steps and never decrease. The smallest delay itself cannot be observed; it shifts all
+// times of a device by the same amount.
 //
-// As long as packets are late, this state cannot be distinguished from a device clock that has
-// stopped for a while. The line is then not changed, so that the times are correct if only the
+// While packets are late, the class cannot distinguish a slow connection from a device clock that
+// has stopped for a while. The line is then not changed, so that the times are correct if only the
 // connection is slow. The clock is flagged as uncertain until packets arrive in time again. If
 // packets are late for one minute, the class treats this as a step of the device clock. A step
 // shifts the times. The clock is then uncertain until a new line is fitted.

@@ -26,7 +26,7 @@ class CsvLog : public Driver {
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 
   std::vector<std::string> comments() const;  // comments of the header, without '#'; after open()
-  std::string sha256() const;         // SHA-256 of the file as stored, after its end; otherwise ""
+  std::string sha256() const;         // SHA-256 of the stored file; "" before its end was read
   Notices notices() const;            // complete after the end or an error; see CsvRows
   std::uint64_t bytes() const;        // number of bytes read from the file so far
   std::uint64_t bytes_total() const;  // size of the file; 0: not known

@@ -43,7 +43,7 @@ class CsvRows {
   Result<ReadState> next(SampleBlock& block, std::chrono::milliseconds timeout);
   Result<ReadState> next(SampleBlock& block);  // waits without limit
 
-  // SHA-256 of the stored file, after its end; "" before the end and without options.sha256.
+  // SHA-256 of the stored file. "" before the end of the file was read, and without options.sha256.
   std::string sha256() const;
   // After the end or an error: one notice for each skipped line and for each column with missing
   // values. Before that: empty.

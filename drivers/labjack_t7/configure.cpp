@@ -14,8 +14,8 @@ using namespace labjack_t7;
 
 constexpr int kCommandPort = 502, kStreamPort = 702;
 constexpr double kMostSamples_Hz = 100'000;  // samples of all inputs together
-// The firmware handles each edge. The limit for a T7 that streams was remembered from LabJack's
-// support; it was not verified.
+// The firmware handles each edge. The limit for a T7 that streams comes from LabJack's support and
+// is quoted from memory; the limit was not verified.
 constexpr double kMostCounts_per_s = 70'000;
 constexpr int kMostResolution = 8, kMostSettling_us = 4400;
 

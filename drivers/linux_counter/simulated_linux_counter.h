@@ -17,7 +17,7 @@ namespace mdof::drivers {
 Result<SimulatedTree> make_counter_tree(const std::filesystem::path& sysfs_root,
                                         std::uint64_t ceiling);
 
-// Senses: input 0, counts. turn() writes the count to its file.
+// Senses: input 0 is the count. turn() writes the count to its file.
 class SimulatedLinuxCounter final : public SimulatedDevice {
  public:
   struct Options {

@@ -53,8 +53,8 @@ struct ModbusClient::Impl {
   std::uint16_t transaction = 0;
   std::uint64_t rejected = 0;
   int exception = 0;
-  // Replies to the requests of an earlier program may still arrive on an RTU line, so it is not
-  // trusted at the start.
+  // Replies to the requests of an earlier program may still arrive on an RTU line, so the line is
+  // not trusted at the start.
   bool trusted = framing == Framing::tcp;
   steady_clock::time_point failed_at = steady_clock::now(), heard_at = failed_at;
 

@@ -46,7 +46,8 @@ class ModbusClient {
   Status write(int address, std::span<const std::uint16_t> values);  // function 16
 
   // False after an error, except a Modbus exception on TCP. A TCP client must then be created
-  // again. An RTU client tests its line in the next calls; it also starts with false.
+  // again. An RTU client tests its line in the next calls. Before the first test, trusted() of an
+  // RTU client is false.
   bool trusted() const;
   // Number of errors since the start. They include missing, late, truncated or unrelated replies,
   // and exceptions.

@@ -14,12 +14,12 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kConnect{2000}, kSilence{2000};
 constexpr int kFailures = 20;
-// Pause between two attempts. Without it, the loop would run very fast after a serial adapter was
-// removed.
+// Pause between two attempts. Without this pause, the loop would run very fast after a serial
+// adapter was removed.
 constexpr milliseconds kBetweenAttempts{10};
 constexpr const char* kDatumLost =
     "the device was disconnected, and may have stopped counting in the meantime";
-// Limit for the test of an RTU line when it is opened, in response time-outs.
+// Longest test of an RTU line when the driver opens the line, in response time-outs.
 constexpr int kLineTest_timeouts = 10;
 
 nanoseconds from_ms(double ms) {

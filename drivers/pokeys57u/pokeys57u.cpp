@@ -170,10 +170,10 @@ Status PoKeys57u::check_enabled(const Frame& options) const {
   return {};
 }
 
-// Compares the device's tick (milliseconds since it was switched on) with the host's clock. If they
-// do not agree, the power of the device has failed and its counts have started at 0 again. The
-// difference is calculated modulo 2^32. Therefore after more than 24.9 days a restart appears as a
-// tick that is too large; this is detected too.
+// Compares the device's tick (milliseconds since the device was switched on) with the host's clock.
+// If the tick and the clock do not agree, the power of the device has failed and its counts have
+// started at 0 again. The difference is calculated modulo 2^32. Therefore after more than 24.9 days
+// a restart appears as a tick that is too large; this is detected too.
 Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
   MDOF_TRY(const auto reply, exchange(request(kTick)));
   if (!reply) return std::nullopt;

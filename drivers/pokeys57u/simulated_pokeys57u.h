@@ -41,7 +41,7 @@ class SimulatedPokeys57u final : public usb::SimulatedUsb {
     std::string usb_serial = {};      // empty: the string is "2." and the serial number
     std::int64_t uptime_ms = 60'000;  // uptime at the first request
     std::int64_t count_offset = 0;    // added to all counts
-    bool old_board = false;  // the device states its number as boards before the PoKeys58 do
+    bool old_board = false;  // the device states its serial number like boards before the PoKeys58
     Faults faults = {};
   };
   SimulatedPokeys57u(Senses senses, Options options);

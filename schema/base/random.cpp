@@ -21,7 +21,8 @@ Number polynomial(const double (&c)[n], Number x) {
   return sum;
 }
 
-// Natural logarithm: 2 artanh(z) of the mantissa in [0.5, 1) by its series, |z| <= 1/3.
+// Natural logarithm. For the mantissa m in [0.5, 1), ln m = 2 artanh(z) with z = (m - 1) / (m + 1),
+// |z| <= 1/3; artanh is calculated by its series.
 double logarithm(double x) {
   constexpr double kLn2 = 0.693147180559945309417;
   int exponent = 0;

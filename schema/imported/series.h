@@ -1,10 +1,10 @@
 // Errors of an axis that were measured with another instrument: the series in a file, and the run
 // that is stored from this series.
 //
-// An imported run has the axis, the file with its hash, and a point for each reading. It has no rig
-// and no solved errors: `probe_m` of a point is the deviation (actual - nominal, m or rad), and
-// `probe_u_m` its declared standard uncertainty (empty: none declared). The `model` of the run is
-// the name of the error.
+// An imported run has the axis, the file with its hash, and a point for each reading. It has no
+// rig, and the `errors` of its points are not solved. `probe_m` of a point is the deviation (m or
+// rad, actual - nominal), and `probe_u_m` is the declared standard uncertainty of the deviation
+// (empty: not declared). The `model` of the run is the name of the error.
 #pragma once
 
 #include <cstddef>

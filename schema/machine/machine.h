@@ -50,9 +50,9 @@ struct SharedPart {
 using Covariance6 = std::array<std::array<double, kBodyErrors>, kBodyErrors>;
 
 // Covariance of the errors of a body that were measured with the same probes, as a function of the
-// command. It is the sum of `noise`, `declared` and the products of the parts of `shared`. The
-// three terms are stored separately, so that no term is calculated as the difference of two large
-// values.
+// command. It is the sum of `noise`, `declared` and, for each part of `shared`, the products of the
+// effects of this part on two errors. The three terms are stored separately, so that no term is
+// calculated as the difference of two large values.
 struct ErrorCovariance {
   std::vector<double> position;  // m or rad, strictly increasing; empty: no covariance
   // True: the covariance contains this error; false: the error has only its u.
@@ -205,8 +205,8 @@ const char* to_string(SourceShape shape);
 // mark values that the paper does not state.
 std::string_view co_planar_machine();
 
-// Reads MACHINE.toml (schema/machine/README.md). Other files are not read; `file` of a frame or of
-// an error has their names. Errors state file, line, key and what to change.
+// Reads MACHINE.toml (schema/machine/README.md). The files that MACHINE.toml names are not read;
+// `file` of a frame or of an error is such a name. Errors state file, line, key and what to change.
 Result<Machine> parse_machine(std::string_view text, const std::string& source_name);
 
 }  // namespace mdof

@@ -1,5 +1,5 @@
-// The options of the evaluation of a stored run that a reader of its results needs. All options are
-// in daemon/measure/replay/request_json.h.
+// Those options of the evaluation of a stored run that a reader of the results needs. All options
+// are in daemon/measure/replay/request_json.h.
 #pragma once
 
 #include <optional>

@@ -11,7 +11,7 @@
 
 namespace mdof {
 
-// Distribution of a value that is known only within its uncertainty, JCGM 101 6.4.
+// Distribution of the possible values of a quantity, JCGM 101 6.4.
 enum class UncertaintyShape { normal, rectangular, triangular, u_shaped };
 const char* to_string(UncertaintyShape shape);
 

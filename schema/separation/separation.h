@@ -30,7 +30,7 @@ struct UndeterminedShape {
 // true series minus the shapes that they cannot determine. These shapes were fitted to the series
 // by least squares.
 struct DeterminedSeries {
-  std::vector<double> place_m;  // ascending
+  std::vector<double> place_m;  // positions, ascending
   std::vector<double> seen_m;
   std::vector<double> u_m;      // standard uncertainty of seen_m; NaN: unknown
   std::vector<double> freedom;  // effective degrees of freedom of u; NaN: u is unknown

@@ -24,7 +24,7 @@ struct Histogram {
   std::uint64_t below = 0, above = 0;
 };
 
-// Statistics of one output over n trials.
+// Statistics of one output over n trials; mean_se, sd_se: standard errors of mean and sd.
 struct OutputSummary {
   std::string key;
   std::uint64_t n = 0;         // number of trials with a solution

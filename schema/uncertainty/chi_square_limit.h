@@ -1,4 +1,5 @@
-// Limit above which residuals are larger than their uncertainties explain.
+// Limit of χ² for residuals. If χ² is above this limit, the residuals are larger than the
+// uncertainties explain.
 #pragma once
 
 namespace mdof {

@@ -47,8 +47,9 @@ ColumnText after(const ColumnText& column, std::size_t rows) {
   return {column.text, column.stop + rows * column.stride, column.stride};
 }
 
-// Reads several fields at a time while all are plain. If one of eight fields is not plain, and for
-// the last fields, it reads them one after the other.
+// Reads several fields at a time as long as all of them are plain. If a field is not plain, the
+// next eight fields are read one after the other. The last fields are also read one after the
+// other.
 template <class T, class ReadPlain>
 std::size_t read_groups(ReadPlain* read_plain, const ColumnText& column, std::size_t n, T* out) {
   std::size_t j = 0;

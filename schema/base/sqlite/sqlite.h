@@ -36,8 +36,8 @@ enum class Durability {
 };
 const char* to_string(Durability durability);
 
-// The open database and its cache of statements; its address stays the same when its owner is
-// moved.
+// The open database and its cache of statements. The address of a Session stays the same when its
+// Connection is moved.
 struct Session;
 
 // A statement from the cache of its connection; the destructor resets it and returns it to the

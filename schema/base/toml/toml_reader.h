@@ -36,10 +36,11 @@ class TomlTable {
   std::vector<double> numbers(std::string_view key,
                               const std::optional<std::vector<double>>& fallback = std::nullopt);
   std::array<double, 3> vector3(std::string_view key);
-  std::vector<std::vector<double>> matrix(std::string_view key);  // absent: empty
-  std::vector<std::string> strings(std::string_view key);         // absent: empty
-  std::vector<TomlTable> tables(std::string_view key);            // [[key]]; absent: no tables
-  std::optional<TomlTable> table(std::string_view key);           // [key]
+  std::vector<std::vector<double>> matrix(std::string_view key);  // empty if the key is absent
+  std::vector<std::string> strings(std::string_view key);         // empty if the key is absent
+  // [[key]]; empty if the key is absent
+  std::vector<TomlTable> tables(std::string_view key);
+  std::optional<TomlTable> table(std::string_view key);  // [key]
 
   // Records an error that the caller has found at this key ("position_mm: outside the target").
   void reject(std::string_view key, const std::string& why, Remedy remedy = Remedy::none,

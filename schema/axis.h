@@ -35,7 +35,7 @@ using Errors5 = std::array<double, 5>;
 using Covariance5 = std::array<double, 25>;  // row-major, symmetric
 
 // An error of an axis with its ISO name. Results list the errors in this order: the two
-// straightness errors, then the rotations about A, B and C.
+// straightness errors, then the rotations A, B and C about X, Y and Z.
 struct ErrorName {
   const char* name;  // "EYX"
   const char* key;   // "EYX_um" or "EAX_urad": the name with its unit

@@ -20,7 +20,7 @@ class CsvLog : public Driver {
   // `path` "-" is the standard input, which can be opened only once.
   explicit CsvLog(std::string path, CsvRowsOptions options = {});
 
-  // Channels: after open(); simulated: if a comment in the file says so.
+  // `channels` is known after open(). `simulated` is true if a comment in the file states it.
   DeviceInfo info() const override;
   Status open() override;  // a second call starts again at the beginning of the file
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;

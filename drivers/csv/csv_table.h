@@ -14,8 +14,8 @@ namespace mdof::drivers {
 struct CsvTable {
   std::string source;             // file name, for messages
   std::uint64_t header_line = 0;  // line number of the column names
-  bool simulated = false;         // true: a comment in the file says so
-  bool noise_only = false;        // true: a comment in the file says that u contains noise only
+  bool simulated = false;         // true: a comment in the file states that the data are simulated
+  bool noise_only = false;        // true: a comment in the file states that u contains noise only
   // The required columns in the requested order, then the optional columns. An optional column that
   // is missing in the file is empty.
   std::vector<std::vector<double>> columns;

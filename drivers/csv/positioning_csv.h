@@ -12,7 +12,7 @@ namespace mdof::drivers {
 
 struct PositioningCsv {
   std::string source;      // file name, for messages
-  bool simulated = false;  // true: a comment in the file says so
+  bool simulated = false;  // true: a comment in the file states that the data are simulated
   std::vector<PositioningReading> readings;
 };
 

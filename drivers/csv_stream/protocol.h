@@ -38,8 +38,8 @@ class CsvStreamProtocol {
 
   const std::optional<CsvHeader>& header() const { return header_; }  // empty until it was received
   std::uint64_t bad_lines() const { return bad_; }
-  // Texts "source:line: reason" for the first bad lines, at most three, among the last 10,000 lines
-  // at most.
+  // Texts "source:line: reason" for the first bad lines in the present window of 10,000 lines; at
+  // most three texts.
   const std::vector<std::string>& bad_line_reasons() const { return reasons_; }
 
  private:

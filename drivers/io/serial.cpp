@@ -46,7 +46,7 @@ termios raw_mode(const SerialSettings& s, speed_t rate) {
   if (s.stop_bits == 2) t.c_cflag |= CSTOPB;
   if (s.parity != 'N') t.c_cflag |= PARENB;
   if (s.parity == 'O') t.c_cflag |= PARODD;
-  t.c_cc[VMIN] = 1;  // without bytes, read() then returns EAGAIN, and 0 bytes mean a hang-up
+  t.c_cc[VMIN] = 1;  // read() then returns EAGAIN if no bytes are pending, and 0 after a hang-up
   t.c_cc[VTIME] = 0;
   ::cfsetispeed(&t, rate);
   ::cfsetospeed(&t, rate);

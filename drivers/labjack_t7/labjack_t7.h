@@ -72,7 +72,7 @@ class LabjackT7 final : public Driver {
   double rate_hz_, ticks_per_scan_ = 0;
 
   DeviceClock clock_;
-  Unwrap core_{32};                          // CORE_TIMER with its overflows, since open()
+  Unwrap core_{32};                          // CORE_TIMER, extended over its overflows since open()
   std::int64_t enabled_ticks_ = 0;           // CORE_TIMER shortly before STREAM_ENABLE was written
   std::optional<std::int64_t> start_ticks_;  // CORE_TIMER at scan 0; empty before the first packet
   // Host time at which the last packet arrived; before the first packet, the time of the start.

@@ -1,4 +1,4 @@
-// Settings of a T7, checked, from the keys of its table.
+// Checked settings of a T7, from the keys of its table.
 #pragma once
 
 #include <cstdint>

@@ -129,7 +129,7 @@ Status read_stream_stop(std::string_view reply);  // no error if no stream was r
 struct StreamData {
   std::uint8_t counter = 0;
   std::uint8_t error = 0;
-  std::uint8_t backlog = 0;   // level of the device's buffer, in 1/256
+  std::uint8_t backlog = 0;   // filling of the device's buffer, in 1/256
   std::uint16_t dropped = 0;  // number of dropped scans, if error is kRecovered
   std::vector<std::uint16_t> samples;
 };

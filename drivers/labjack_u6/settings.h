@@ -1,4 +1,4 @@
-// Settings of a U6, checked, from the keys of its table.
+// Checked settings of a U6, from the keys of its table.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Settings of a Comedi board, checked, from the keys of its table.
+// Checked settings of a Comedi board, from the keys of its table.
 #pragma once
 
 #include <optional>

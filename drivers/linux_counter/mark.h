@@ -15,8 +15,9 @@ namespace mdof::drivers {
 inline constexpr const char* kQuad8 = "104-quad-8";  // contents of the device's file `name`
 inline constexpr int kQuad8Bits = 24;
 
-// Checks that the index signal can set the count at `folder`/`count` (for example count3) at
-// exactly one count of the period. Errors state which text must be in which file.
+// Checks that the index signal can set the count in `folder`/`count` (for example count3), and that
+// the signal is active at only one count of the encoder. Errors state which text must be in which
+// file.
 Status check_quad8(const std::string& folder, const std::string& count, std::uint64_t ceiling);
 
 // Waits for the mark. After the mark was passed, the object sets preset_enable to 0: a later loss

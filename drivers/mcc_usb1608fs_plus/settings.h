@@ -1,4 +1,4 @@
-// Settings of a USB-1608FS-Plus, checked, from the keys of its table.
+// Checked settings of a USB-1608FS-Plus, from the keys of its table.
 #pragma once
 
 #include <cstdint>

@@ -51,7 +51,7 @@ struct SimulatorOptions {
   bool loop = true;       // after the last repeat, true: begins again; false: ends
   std::int64_t seed = 1;
 
-  // ascending; default: calculated from from, to, interval and jitter.
+  // ascending; default: calculated from the keys from, to, interval and jitter.
   std::vector<double> targets_mm;
   // Travel beyond the first and the last target, so that every target is approached from both
   // directions.

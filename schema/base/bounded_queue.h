@@ -1,4 +1,4 @@
-// A queue between two threads with a limited number of items. try_push() rejects and counts items
+// A queue with a limited number of items, between two threads. try_push() rejects and counts items
 // if the queue is full; push() and push_for() wait until the queue has room.
 #pragma once
 

@@ -29,10 +29,10 @@ struct ErrorFunction {
   std::vector<double> reverse;   // values for decreasing command; empty: same as forward
   std::vector<double> u;         // standard uncertainty; empty: not declared
   std::string file;              // file name in MACHINE.toml; empty: the values are in MACHINE.toml
-  // The part of u that is independent at each position, such as noise; empty: unknown.
+  // The part of u that is independent from position to position, such as noise; empty: unknown.
   std::vector<double> u_independent{};
   // Curvature in each interval, 1/m or rad/m². Linear interpolation at x between x_i and x_{i+1}
-  // adds the u ½ (x - x_i) (x_{i+1} - x) curvature. Empty: adds no u.
+  // adds a standard uncertainty of ½ (x - x_i) (x_{i+1} - x) curvature. Empty: it adds none.
   std::vector<double> curvature{};
   bool noise_only = false;  // u contains only noise and repeatability
 
@@ -57,7 +57,7 @@ struct ErrorCovariance {
   std::vector<double> position;  // m or rad, strictly increasing; empty: no covariance
   // True: the covariance contains this error; false: the error has only its u.
   std::array<bool, kBodyErrors> has{};
-  std::vector<Covariance6> noise;     // independent at each position
+  std::vector<Covariance6> noise;     // independent from position to position
   std::vector<Covariance6> declared;  // without `shared`
   // Element p is the same quantity in all frames whose `shared` is not empty.
   std::vector<SharedPart> shared;

@@ -1,5 +1,5 @@
 // A notice for the reader of a result. It is stored as data: a code, a severity, a subject and
-// named numbers. The texts are in daemon/words. Therefore a client can decide by the code, and a
+// named values. The texts are in daemon/words. Therefore a client can decide by the code, and a
 // text may change without a change of stored data.
 #pragma once
 
@@ -63,7 +63,7 @@ Notice notice(NoticeCode code, const std::string& subject = "",
 // has.
 Notice inherited(const std::string& source, Notice notice);
 
-// nullptr: the notice has no value with this key.
+// Returns the value with this key; nullptr: the notice has no such value.
 const NoticeValue* value(const Notice& notice, std::string_view key);
 
 // Keys of a code, separated by one space.

@@ -15,8 +15,8 @@
 namespace mdof {
 
 // Returns the text of the rig followed by the texts of its calibration records. parse_rig() reads
-// this text, and a run stores it. A rig without records is returned unchanged, and also a rig whose
-// records are already appended. Errors:
+// this text, and a run stores it. The text of a rig without records, or with records that are
+// already appended, is returned unchanged. Errors:
 // - there are more than 16 records, or a record has more than 256 KiB;
 // - a file is not a regular file or is not a calibration record;
 // - a record was changed after it was made;

@@ -21,8 +21,8 @@
 
 namespace mdof {
 
-// Calculates the displacement of the target in the direction `measures` from the raw number of a
-// channel:
+// Constants from which the displacement of the target in the direction `measures` is calculated
+// from the raw number of a channel:
 //   raw_um = raw (or raw_V * um_per_V);   t = raw_um - offset_um;   t += linearity(t);
 //   displacement = reads_gap ? -t : t
 // If raw_um is outside `valid_um`, the reading is at an end of the probe's range.
@@ -57,8 +57,8 @@ struct Probe {
   // Full range; the ends are at ±range/2, or at 0 and range for a probe that reads the gap.
   double range_m = 0;
   Calibration calibration;
-  // Delay of the readings of the probe relative to those of the encoder, from the filter of its
-  // amplifier.
+  // Delay of the readings of the probe relative to the readings of the encoder. The filter of the
+  // probe's amplifier causes it.
   double delay_s = 0;
   ProbeUncertainty uncertainty = {};
   // The direction in the rig, if a calibration has found another direction. If there is no

@@ -75,7 +75,7 @@ struct PlannedAdaptive {
 };
 
 struct PlannedIndices {
-  // Base trials; each base trial needs two evaluations, and one more for each cause.
+  // Number of base trials. A base trial needs two evaluations, plus one evaluation for each cause.
   std::uint64_t trials = 65536;
   // True: a star means one cause for each probe; false: it means one cause for all probes.
   bool each_probe = false;

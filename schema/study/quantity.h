@@ -1,6 +1,6 @@
 // Names of the quantities that may vary in a study, for example "probe.A.x_um",
 // "installation.yaw_mrad", "travel_mm". algo/sensitivity/PLAN.md lists all names and their
-// meanings.
+// meanings. In the list below, the unit follows the semicolon; 1: no unit.
 #pragma once
 
 #include <cstddef>

@@ -12,8 +12,9 @@ const char* to_string(Conformity conformity);  // "conform", "not conform", "und
 
 struct Decision {
   Conformity conformity = Conformity::undecided;
-  double limit = 0;         // largest permitted magnitude of the figure; m, rad
-  double guard_band = 0;    // guard band g; to prove conformity, the figure must be below limit - g
+  double limit = 0;  // largest permitted magnitude of the figure; m, rad
+  // guard band g; conformity is proved if the magnitude of the figure is at most limit - g
+  double guard_band = 0;
   double guard_factor = 0;  // g / u
   std::string rule;         // standard and probability on which the decision is based
   std::string reason;       // reason if undecided: a sentence without a full stop; otherwise empty

@@ -15,7 +15,8 @@ enum class ContributorKind {
 #undef CONTRIBUTOR
 };
 
-// `x_kind`, or the kind of a later component in the order of contributor_names.inc.
+// The kind of component 0, 1 or 2: `x_kind`, or one of the two kinds that follow `x_kind` in
+// contributor_names.inc.
 constexpr ContributorKind of_component(ContributorKind x_kind, std::size_t component) {
   return static_cast<ContributorKind>(static_cast<std::size_t>(x_kind) + component);
 }

@@ -12,7 +12,7 @@ namespace mdof {
 // These functions read fields in groups and return the number of fields that they have read. They
 // stop before the first group that contains a field of another kind. A field must be [-]ddd.ddd
 // with at most 32 characters and 19 significant digits, and must end in a digit. They also stop if
-// the rounding of a number needs more than the fast calculation.
+// the fast calculation cannot round a number with certainty.
 struct PlainReaders {
   std::size_t (*doubles)(const ColumnText& column, std::size_t n, double* out);
   std::size_t (*times_ns)(const ColumnText& column, std::size_t n, std::int64_t* out);

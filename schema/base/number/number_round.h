@@ -29,10 +29,10 @@ inline PowerOfTen power_of_ten(int q) {
 }
 inline int floor_log2_of_power_of_ten(int q) {
   return (q * 1741647) >> 19;
-}  // |q| <= 1200
+}  // valid for |q| <= 1200
 inline int floor_log10_of_power_of_two(int e) {
   return (e * 315653) >> 20;
-}  // |e| <= 1650
+}  // valid for |e| <= 1650
 
 // x = digits · 10^(exponent - 16)
 struct Decimal17 {

@@ -6,7 +6,8 @@
 
 namespace mdof {
 
-// Whether no part of the text is a command for the terminal or a change of the writing direction.
+// Whether printable() would not change the text: the text contains neither commands for the
+// terminal nor changes of the writing direction.
 bool is_printable(std::string_view utf8);
 
 // Replaces each character that is not printable by "?": control characters except line end and tab,

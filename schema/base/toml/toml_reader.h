@@ -59,8 +59,8 @@ class TomlTable {
   std::shared_ptr<Node> node_;
 };
 
-// Number of letters to add, remove or change, plus number of neighbouring letters to exchange
-// ("slove").
+// Number of letters to add, remove or change, plus number of pairs of neighbouring letters to
+// exchange ("slove").
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 // The candidate with the smallest edit distance to `word`; empty if no candidate is similar.

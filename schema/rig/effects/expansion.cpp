@@ -5,7 +5,7 @@
 namespace mdof {
 namespace {
 
-constexpr double kReference_C = 20;    // ISO 1
+constexpr double kReference_C = 20;    // standard reference temperature (ISO 1)
 constexpr double kMostAbove_K = 100;   // higher temperatures are typing errors
 constexpr double kMostPpmPerK = 1000;  // ten times the expansion of plastics
 

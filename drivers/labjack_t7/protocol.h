@@ -141,7 +141,7 @@ class PacketReader {
   void append(std::string_view bytes);
   // Returns true if it has written the next packet to `packet`, whose memory is reused; false: the
   // next packet is not complete yet. Error: the bytes do not have the format of a stream; the
-  // reader must not be used after it.
+  // reader must not be used after this error.
   Result<bool> next(StreamPacket& packet);
 
  private:

@@ -23,8 +23,10 @@ enum Descriptor : std::uint8_t {
   kHid = 0x21,
   kHidReport = 0x22,
 };
-constexpr std::uint8_t kTypeMask = 0x60;           // standard, class or vendor
-constexpr std::uint8_t kToEndpoint = 0x02;         // bits of the request type: recipient
+// bits of the request type: standard, class or vendor
+constexpr std::uint8_t kTypeMask = 0x60;
+// bits of the request type: the recipient is an endpoint
+constexpr std::uint8_t kToEndpoint = 0x02;
 constexpr std::uint16_t kStringLanguage = 0x0409;  // English (US)
 
 std::string bytes_of(std::initializer_list<int> values) {

@@ -14,7 +14,8 @@ namespace mdof {
 // - "A.nx": component of the direction along X, rad
 struct CalibrationCovariance {
   std::vector<std::string> of;
-  std::vector<std::vector<double>> m2;  // symmetric; one row and one column for each name
+  // symmetric; one row and one column for each name, in the units above
+  std::vector<std::vector<double>> m2;
 
   void erase(const std::string& quantity) {
     const auto at = std::find(of.begin(), of.end(), quantity);

@@ -32,7 +32,7 @@ struct MountingCalibration {
   Vec3 u_together_m{};
   CalibrationCovariance covariance;  // covariance of the values that the logs determine
   std::size_t clampings = 0, readings = 0;
-  double tilt_rad = 0;  // largest angle between the tilts of two clampings
+  double tilt_rad = 0;  // largest angle between the target's orientations in two clampings
   double chi_square = 0;
   int freedom = 0;
   // true: the residuals agree with the uncertainties of the readings. false: the uncertainties

@@ -14,8 +14,8 @@
 
 namespace mdof {
 
-// A si:real or si:realListXMLList. From a si:hybrid, the first element whose unit has a length or a
-// voltage.
+// The contents of a si:real or si:realListXMLList. For a si:hybrid: the contents of the first
+// element in it whose unit has a length or a voltage.
 struct DccQuantity {
   std::string name;
   std::vector<std::string> ref_types;
@@ -51,10 +51,10 @@ struct DccCertificate {
 
 // Errors (which state file, line and element):
 // - the text is not XML
-// - the XML is no DCC, or no DCC 3.x
+// - the XML is not a DCC, or not a DCC 3.x
 // - a required element is missing
 // - a list has a number of uncertainties or units that differs from its number of values
-// - text instead of a number
+// - an element contains text instead of a number
 Result<DccCertificate> read_dcc(std::string_view text, const std::string& source);
 
 }  // namespace mdof

@@ -68,11 +68,11 @@ struct ErrorCovariance {
 struct LocationError {
   std::optional<double> value;  // m or rad; empty: not measured
   std::optional<double> u;      // empty: not declared
-  bool noise_only = false;      // see ErrorFunction
+  bool noise_only = false;      // u contains only noise and repeatability
 };
 
-// Database rows to which MACHINE.toml refers. daemon/measure/machine reads the rows; before this
-// their values are unknown.
+// Database rows to which MACHINE.toml refers. daemon/measure/machine reads the rows; until then,
+// the errors in these rows are unknown.
 struct StoredRows {
   std::vector<std::int64_t> ids;
   bool latest = false;  // true: the newest row; ids is then empty

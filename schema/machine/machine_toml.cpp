@@ -212,8 +212,8 @@ std::optional<std::size_t> place_after(const Machine& machine, const std::string
   return link == "b" ? std::optional(frames.size()) : std::nullopt;
 }
 
-// Reads the keys with, along and ratio: the body moves with the command of a linear axis along
-// another direction.
+// Reads the keys `with`, `along` and `ratio`: the body moves with the command of a linear axis, but
+// in another direction.
 void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& frame) {
   const std::string with = table.string("with"), along = table.string("along");
   const MachineFrame* axis = machine.find(with);

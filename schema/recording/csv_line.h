@@ -24,8 +24,8 @@ struct CsvLine {
   std::vector<double> values;  // [channel]; NaN: missing
 };
 
-// Whether a field without spaces means a missing value. It is empty, or a form of nan that some
-// program writes.
+// Whether a field means a missing value: the field is empty, or is nan in a form that some program
+// writes. The field must have no outer spaces.
 bool is_missing_value(std::string_view field);
 
 // `line`: without its line end. Spaces around a field, and one '+' before a number, are accepted.

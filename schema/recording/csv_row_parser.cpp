@@ -200,7 +200,7 @@ std::size_t CsvRowParser::read_times(std::size_t rows, std::size_t stride) {
   return rows;
 }
 
-// Parses the line at begin_; it may have any form.
+// Parses the line at begin_. The line may have any form.
 Status CsvRowParser::parse_one_line() {
   const std::size_t end = text_.find('\n', begin_);
   const CsvLine line = parse_csv_line(text_.substr(begin_, end - begin_), header_);

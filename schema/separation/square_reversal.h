@@ -12,7 +12,7 @@ struct SquareReversal {
   double freedom = 0, coverage_factor = 0, U_rad = 0;
   // Results for EC0Y from the first and the second set-up, if the square were perfect.
   double first_rad = 0, second_rad = 0;
-  bool noise_only = false;  // true: the rigs declare no uncertainties
+  bool noise_only = false;  // true: u contains only noise and repeatability
 };
 
 }  // namespace mdof

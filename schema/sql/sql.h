@@ -7,7 +7,7 @@ namespace mdof::sql {
 
 // One step of the database's schema: a file NNN_name.sql, applied in one transaction.
 struct Migration {
-  int version;       // NNN, which user_version has after this step
+  int version;       // NNN; the value of user_version after this step
   const char* name;  // "001_runs.sql"
   const char* text;
 };

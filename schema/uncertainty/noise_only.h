@@ -1,5 +1,5 @@
-// Whether u contains only noise and repeatability. It describes several values that are stated
-// together.
+// States for several values whether the u of all, some or none of them contains only noise and
+// repeatability.
 #pragma once
 
 #include <cstdint>

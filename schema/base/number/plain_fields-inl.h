@@ -90,7 +90,7 @@ constexpr std::array<std::uint8_t, 64> kLast = [] {
 // The ends of the fields in one vector. A vector contains every second field of a group.
 struct Ends {
   const std::uint8_t* text[kBlocksOfVector];  // end of each field
-  const std::uint8_t* last[kBlocksOfVector];  // kLast + size
+  const std::uint8_t* last[kBlocksOfVector];  // kLast + size of each field
 };
 
 // Finds the ends of the fields first, first + 2, ... Returns false if a field is empty or has more

@@ -100,9 +100,9 @@ Status write_all(int descriptor, std::string_view text, const fs::path& path) {
 
 Status flush_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool flushed = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL ||
-                                           // the file system cannot flush a folder
-                                           errno == ENOTSUP);
+  // EINVAL, ENOTSUP: the file system has nothing to flush for a folder.
+  const bool flushed =
+      descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP);
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (flushed) return {};

@@ -43,7 +43,7 @@ struct RigExpansion {
   bool any = false;  // true: there is a table [temperature]
   BodyExpansion scale, fixture;
   ThermalExpansion square;
-  DeclaredUncertainty3 square_gradient;  // K/m
+  DeclaredUncertainty3 square_gradient;  // temperature gradient of the target; K/m
 };
 
 RigExpansion read_expansion(TomlTable& table);

@@ -34,7 +34,7 @@ struct SourceInfo {
   Notices notices;
 };
 
-// A configured driver. make() creates the driver on the thread that will own it.
+// A configured driver. make() must be called on the thread that will own the driver.
 struct DriverSpec {
   std::string driver, name;
   // true: samples arrive in real time; false: they arrive as fast as they are read.

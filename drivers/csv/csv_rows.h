@@ -19,8 +19,9 @@ namespace mdof::drivers {
 
 struct CsvRowsOptions {
   CsvKind kind = CsvKind::probe_log;
-  CsvLimits limits;                                // bad_lines = 0: every line must be a valid row
-  bool sha256 = true;                              // needs as much time as parsing, on another core
+  CsvLimits limits;  // bad_lines = 0: every line must be a valid row
+  // hashing takes as much time as parsing, on another core
+  bool sha256 = true;
   std::size_t chunk_bytes = std::size_t{1} << 18;  // has no effect on the result
   // Open file, which is read from its beginning instead of `path`; the caller owns it.
   int descriptor = -1;

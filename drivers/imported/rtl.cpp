@@ -127,7 +127,7 @@ class Rtl {
 
   Status take_description(std::string_view line) {
     const auto [key, value] = key_and_value(line);
-    // The program writes one of these types: "Linear", "Angular", "Rotary", "Straightness".
+    // Known types are "Linear", "Angular", "Rotary" and "Straightness".
     if (key == "File type" || key == "Owner") MDOF_CHECK(check_linear(key, value));
     if (!value.empty())
       series_.about.push_back(utf8_from_latin1(key) + ": " + utf8_from_latin1(value));

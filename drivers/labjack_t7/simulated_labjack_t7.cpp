@@ -49,8 +49,8 @@ SimulatedLabjackT7::SimulatedLabjackT7(Senses senses, const Options& options)
   restart();
 }
 
-// The constants differ a little from the nominal constants and for each range, so that tests detect
-// a wrong block.
+// The constants differ a little from the nominal constants and from range to range, so that tests
+// detect a wrong block.
 AinCalibration SimulatedLabjackT7::calibration(std::size_t range) {
   AinCalibration c = labjack::nominal_calibration(range);
   const auto by = static_cast<double>(range);

@@ -78,8 +78,8 @@ std::string SimulatedLabjackU6::identity_body() const {
   return extended(kConfigU6, body);
 }
 
-// The constants differ a little from the nominal constants and for each gain, so that tests detect
-// a wrong block.
+// The constants differ a little from the nominal constants and from gain to gain, so that tests
+// detect a wrong block.
 AinCalibration SimulatedLabjackU6::calibration(std::size_t gain) {
   AinCalibration c = labjack::nominal_calibration(gain);
   c.positive_slope *= 1.001 + 0.0002 * static_cast<double>(gain);

@@ -74,7 +74,8 @@ struct Calibration {
 
 enum class StreamState : std::uint8_t {
   runs,
-  // The buffer of the kernel or of the board has overflowed; all data before that were returned.
+  // The buffer of the kernel or of the board has overflowed; all data before the overflow were
+  // returned.
   overran,
   ended,
 };

@@ -4,8 +4,9 @@
 // Comedi neither numbers the scans nor sends time stamps. The driver counts the scans from the
 // start of the command: scan k was taken at the time start + k / rate of the board's clock.
 // DeviceClock converts this time to the host's clock from the times at which data arrive. If a
-// buffer overflows, the kernel ends the command; all data before that are valid. read() then
-// returns an error, after which the caller calls open() again, and open() starts a new command.
+// buffer overflows, the kernel ends the command; all data before the overflow are valid. read()
+// then returns an error, after which the caller calls open() again, and open() starts a new
+// command.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,7 @@ struct Settings {
   std::string serial;  // "": exactly one device must be connected
   double rate_hz = 1000;
   Range range = kRanges.front();
-  // In the order of the configuration; the device sends them in the order of their numbers.
+  // In the order of the configuration; the device sends the inputs in the order of their numbers.
   std::vector<Input> inputs;
   EncoderOrigin encoder = {};  // valid if an input is the encoder, in volts
 };

@@ -10,8 +10,8 @@ namespace {
 
 using namespace pokeys57u;
 
-// 2.5 times the highest frequency in the manual for each kind of encoder, with four counts in a
-// period.
+// Largest counting rates, counts per second: 2.5 times the highest frequency in the manual for each
+// kind of encoder, with four counts in a period.
 constexpr double kSlow_Hz = 10e3, kFast_Hz = 1e6, kUltraFast_Hz = 50e6;
 
 std::vector<std::string> input_names() {

@@ -44,7 +44,7 @@ class SimulatedQsb final : public SimulatedDevice {
     Faults faults = {};
   };
   SimulatedQsb(Senses senses, const Options& options);
-  void set_mark(Mark mark) { mark_ = mark; }  // call it before the device is served
+  void set_mark(Mark mark) { mark_ = mark; }  // call it before the device is used
 
   std::vector<Port> ports() const override { return {{"serial", 0}}; }
   void opened(std::size_t port, int client, std::int64_t now_ns) override;

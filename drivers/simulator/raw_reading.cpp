@@ -8,7 +8,8 @@
 namespace mdof::drivers {
 namespace {
 
-// Solves t + linearity(t) = y for t. The inverse correction is linear between its nodes (x + c, c).
+// Solves t + linearity(t) = y for t. `nodes` are pairs of a reading x and its correction c. The
+// inverse correction is linear between the points (x + c, c).
 double without_linearity(const std::vector<std::array<double, 2>>& nodes, double y) {
   if (nodes.empty()) return y;
   const auto corrected = [](const std::array<double, 2>& node) { return node[0] + node[1]; };

@@ -62,7 +62,7 @@ class SimulatedUsb : public SimulatedDevice {
 };
 
 // Reply to a standard request (USB 2.0 specification 9.4, HID 1.11 section 7.1.1); nullopt: the
-// device itself must answer. Clears halts of `device` if the request says so.
+// device itself must answer. A request to clear a halt clears the halt of `device`.
 std::optional<Reply> standard_reply(SimulatedUsb& device, const Setup& setup);
 // The device descriptor, as bytes on the bus.
 std::string device_descriptor(const Identity& identity);

@@ -1,7 +1,7 @@
 // A stored calibration: a TOML file to which a rig refers.
 //
 //   [[calibration_record]]
-//   sha256 = "…"            of all bytes after this line, up to the next record or the end
+//   sha256 = "…"            hash of all bytes after this line, up to the next record or the end
 //   id = "mounting-2026-11-23-5c0e8b51"
 //   kind = "mounting"       or "sensitivity"
 //   …

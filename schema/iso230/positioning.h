@@ -35,8 +35,8 @@ struct PositioningTarget {
   double R = kNoFigure;
 };
 
-// If all targets were approached from one side only, the parameters of the other approach and of
-// both approaches are NaN.
+// If all targets were approached from one side only, the parameters of the other approach, and the
+// parameters that need both approaches, are NaN.
 struct Positioning {
   std::vector<PositioningTarget> targets;  // ascending
   double B = kNoFigure, B_mean = kNoFigure;

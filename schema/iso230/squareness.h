@@ -17,8 +17,8 @@ struct AxisPair {
   bool operator==(const AxisPair&) const = default;
 };
 
-// Returns "EC0Y", "EB0Z" or "EA0Z" (ISO 230-1). The squareness error is the rotation of b from the
-// perpendicular of a, with the sign of the right-hand rule.
+// Returns "EC0Y", "EB0Z" or "EA0Z" (ISO 230-1). The squareness error is the rotation of the axis b
+// from the perpendicular to the axis a, with the sign of the right-hand rule.
 const char* squareness_name(AxisPair axes);
 // Returns +1 if the angle from +a to +b is 90° + the error (EC0Y, EA0Z), and -1 if it is 90° - the
 // error (EB0Z).

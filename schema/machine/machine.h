@@ -134,7 +134,7 @@ struct SourceEffect {
   std::size_t frame = 0, k = 0;  // index in Machine::frames; index of the error
   bool of_line = false;          // true: a location error; false: an error of the body
   double factor = 0;             // error / source: m or rad per unit of the source
-  // Is added to `factor`, multiplied by the command (m or rad) of the axis `of`.
+  // Change of `factor` per unit (m or rad) of the command of the axis `of`.
   double factor_per_position = 0;
   std::size_t of = 0;  // index in Machine::frames
 };
@@ -195,8 +195,8 @@ double written_position(const MachineFrame& frame, double position);
 const char* position_unit(const MachineFrame& frame);  // "mm", "deg"
 
 // `where` is the start of the error message. Errors: different numbers of values and positions;
-// positions that do not increase; values that are not finite, or above 0.1 rad or 10 mm (µm and mm
-// were confused).
+// positions that do not increase; values that are not finite, or are above 0.1 rad or 10 mm and
+// thus probably in a wrong unit.
 Status check_function(const ErrorFunction& function, std::size_t k, const std::string& where);
 
 const char* to_string(SourceShape shape);

@@ -14,7 +14,7 @@ namespace mdof {
 
 struct PartLayer {
   std::string name;               // "axes", "budget", "form", "milling"
-  std::vector<std::string> from;  // files or "table:N"; empty: the description in the machine file
+  std::vector<std::string> from;  // files or "table:N"; empty: the data in the machine file
   bool on = true;
   bool compensated = false;   // the layer contains the errors that remain after compensation
   std::optional<double> u_m;  // form layer only: standard uncertainty of its height map

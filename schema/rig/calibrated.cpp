@@ -130,8 +130,8 @@ void apply(const std::string& record, const CalibratedProbe& found, Probe& probe
     calibration.calibrated_um = {found.linearity.front()[0], found.linearity.back()[0]};
 }
 
-// Removes covariances that are no longer valid: those of positions and directions in earlier
-// records that this record replaces, and those of zeros that the rig declares.
+// Removes covariances that are no longer valid: the covariances of positions and directions in
+// earlier records that this record replaces, and the covariances of zeros that the rig declares.
 void erase_invalid_covariances(CalibrationRecord& record, Rig& rig) {
   for (const CalibratedProbe& found : record.probes)
     for (const Probe& probe : rig.probes) {

@@ -10,8 +10,9 @@
 //   the tool                  +E                               +E + s_k c = 0, c = -E / s_k
 //
 // s_k is the movement (axes X Y Z) or the rotation (axes A B C) of the tool relative to the work
-// per unit of c. It is -travel if the axis k moves the work, and +travel if it moves the tool.
-// Because s_k is +1 or -1, 1 / s_k = s_k.
+// per unit of c. s_k = -travel if the axis k moves the work, and s_k = +travel if the axis k moves
+// the tool. travel is -1 if the body of the axis moves in the - direction when the command
+// increases, otherwise +1. Because s_k is +1 or -1, 1 / s_k = s_k.
 #pragma once
 
 #include <array>

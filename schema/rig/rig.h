@@ -52,7 +52,7 @@ struct Probe {
   // Unit vector in M, with components along the machine's axes. The probe reads the displacement in
   // this direction.
   Vec3 direction{};
-  // Id of the target plane that the probe measures; empty: found from its direction.
+  // Id of the target plane that the probe measures; empty: found from the direction of the probe.
   std::string plane;
   // Full range; the ends are at ±range/2, or at 0 and range for a probe that reads the gap.
   double range_m = 0;

@@ -38,7 +38,7 @@ struct ProbeUncertainty {
   DeclaredUncertainty calibration;  // zero of the readings, constant during a run; m
   DeclaredUncertainty sensitivity;  // relative uncertainty of the scale of the readings; no unit
   DeclaredUncertainty3 position;    // position of the probe; m
-  // About each of two axes perpendicular to the probe's direction; rad.
+  // Tilt of the probe's direction about each of two axes perpendicular to this direction; rad.
   DeclaredUncertainty direction;
 };
 

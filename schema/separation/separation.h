@@ -26,9 +26,9 @@ struct UndeterminedShape {
   std::size_t dimensions = 1;  // number of dimensions; a period has two: sine and cosine
 };
 
-// A series of heights or errors over positions. The readings determine it only in part: it is the
-// true series minus the shapes that they cannot determine. These shapes were fitted to the series
-// by least squares.
+// A series of heights or errors over positions. The readings determine the series only in part: it
+// is the true series minus the shapes that the readings cannot determine. These shapes are fitted
+// to the true series by least squares.
 struct DeterminedSeries {
   std::vector<double> place_m;  // positions, ascending
   std::vector<double> seen_m;

@@ -15,9 +15,9 @@
 
 namespace mdof {
 
-// Noise of the tables of one axis, at one node of this axis. There are two sets of numbers for each
-// component X, Y, Z of the correction, in m²: the variance at the node, and the covariance with the
-// next node of the axis. Each is a polynomial
+// Effect of the noise of the compensation tables of one axis on the correction, at one node of this
+// axis. There are two sets of numbers for each component X, Y, Z of the correction, in m²: the
+// variance at the node, and the covariance with the next node of the axis. Each is a polynomial
 //   c0 + c1 p + c2 q + c3 p² + c4 p q + c5 q²
 // of the commands p and q (m) of the other two axes, in the order X, Y, Z.
 struct AxisNoise {

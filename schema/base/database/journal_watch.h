@@ -32,9 +32,9 @@ class JournalWatch {
  public:
   // The connection must be in WAL mode and must have read from the database before.
   JournalWatch(sqlite3* database, const std::filesystem::path& file);
-  // "FILE-wal was deleted ..."; empty: no change was detected. A fault is permanent. If the fault
-  // is not a truncated -wal file, committed data are moved into the database immediately, if
-  // possible.
+  // Text of the fault, "FILE-wal was deleted ..."; empty: no change was detected. A fault is
+  // permanent. If the fault is not a truncated -wal file, committed data are moved into the
+  // database immediately, if possible.
   const std::string& fault();
   // Whether the next program finds all committed data: there is no fault, or all data were moved
   // into the database.

@@ -272,7 +272,7 @@ Result<Connection> Connection::open(const fs::path& file, OpenMode mode, int bus
     MDOF_TRY(PrivateCopy copy, PrivateCopy::make(file, busy_timeout_ms));
     session->copy.emplace(std::move(copy));
     name = session->copy->file().string();
-    // Needed to roll back a transaction, or to read the -wal file.
+    // Write access is needed to roll back a transaction in the copy, or to read its -wal file.
     flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX;
   }
   if (sqlite3_open_v2(name.c_str(), &session->database, flags, nullptr) != SQLITE_OK)

@@ -125,8 +125,8 @@ double median(std::vector<double> x) {
   return x[x.size() / 2];
 }
 
-// Measures both in alternating rounds, so that a slow time of the disk or the computer affects
-// both.
+// Measures both rates in alternating rounds, so that a slow phase of the disk or the computer
+// affects both.
 double compare(const fs::path& folder, int points_per_run, int runs_per_round, int rounds) {
   const Run run = make_run(points_per_run);
   const std::string size = std::to_string(points_per_run);

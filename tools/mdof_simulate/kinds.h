@@ -20,8 +20,9 @@ struct Wiring {
   std::filesystem::path folder;  // Folder of the plan.
 };
 
-// Creates a device of this kind from the keys of the kind in `table`. `inputs`: channels of the
-// rig, or "". Errors name file, line and key.
+// Creates a device of this kind from the keys of the kind in `table`. `inputs`: for each input of
+// the device, the channel of the rig that it measures, or "" for none. Errors name file, line and
+// key.
 Result<std::unique_ptr<drivers::SimulatedDevice>> make_device(
     const std::string& kind, const Wiring& wiring, const std::vector<std::string>& inputs,
     TomlTable& table);

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""The budget of bench_machine in vectorised NumPy on one thread: 84 even part errors, the full product of 14 frames.
-
-The nominal machine comes from `bench_machine --frames` on stdin, so that both programs use the same. Two ways: the
-product of 4x4 matrices, as in Eq. 8 and 10 of the paper, to which the limit of 20 applies; and the fastest known
-way, which moves the tool point through the frames by plane rotations, in place in buffers that are created once.
+"""Calculates the budget of bench_machine with vectorised NumPy on one thread: 84 uniformly distributed part errors, the
+complete product of 14 frames. stdin is the nominal machine from `bench_machine --frames`, so that both programs use the
+same machine. There are two ways:
+- the product of 4x4 matrices, as in Eq. 8 and 10 of the paper; the limit of 20 applies to this way
+- the fastest known way: plane rotations transform the tool point from frame to frame, in place in buffers that are
+  created once
 Prints ns per trial for the best array size, and the same figures as bench_machine, first with the matrices.
   bench_machine --frames | machine_numpy.py [TRIALS]
 """
@@ -24,7 +25,7 @@ class Machine:
         self.t = [np.empty(m) for _ in range(4)]
 
     def turn(self, angle, u, v, sense):
-        """Turns (u, v) by the angle, in place."""
+        """Rotates (u, v) by the angle, in place."""
         s, c, a, b = self.t
         np.sin(angle, out=s)
         np.cos(angle, out=c)
@@ -43,7 +44,7 @@ class Machine:
         u[:] = a
 
     def nominal(self, R, move):
-        """R p + move for all points; most frames only move."""
+        """R p + move for all points. Most frames have no rotation R."""
         if not np.array_equal(R, np.eye(3)):
             old = [x.copy() for x in self.p]
             for i in range(3):
@@ -91,7 +92,7 @@ class Matrices:
         self.m = m
 
     def errors(self):
-        """Rz(c) Ry(b) Rx(a) and the shifts."""
+        """Matrices of random errors: Rz(c) Ry(b) Rx(a) and a shift."""
         half = np.array([SHIFT] * 3 + [TURN] * 3)[:, None]
         e = (self.rng.random((6, self.m)) * 2 - 1) * half
         (sa, sb, sc), (ca, cb, cc) = np.sin(e[3:]), np.cos(e[3:])

@@ -14,7 +14,7 @@ struct ChannelFinding {
   std::string id, unit;
   double mean = 0, sd = 0, low = 0, high = 0;  // of the usable values, in `unit`
   std::uint64_t values = 0, unusable = 0;      // Unusable: over range, missing or suspect.
-  std::string worst;                           // The worst quality of a value.
+  std::string worst;                           // Name of the worst quality among all values.
 };
 
 struct DeviceFinding {

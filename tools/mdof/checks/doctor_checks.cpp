@@ -108,7 +108,7 @@ Diagnosis check_class_device(const Machine& machine, const std::string& device,
   return {Level::bad, what + "no permission for " + node, of.remedy};
 }
 
-// The files in the folder of a device that match the shell patterns in `of`.
+// The files that match the shell patterns in `of`, in the folder of a device.
 std::vector<fs::path> files_of(const drivers::SysfsFile& of, const fs::path& device) {
   std::vector<fs::path> files;
   std::istringstream patterns(of.files);
@@ -121,8 +121,8 @@ std::vector<fs::path> files_of(const drivers::SysfsFile& of, const fs::path& dev
   return files;
 }
 
-// Checks the files of one device. nullopt: `of` is for another device, or the device has no such
-// files.
+// Checks the files of one device. `of` describes the files of a kind of devices. nullopt: the
+// device is of another kind, or has no such files.
 std::optional<Diagnosis> check_sysfs_device(const fs::path& device, const drivers::SysfsFile& of,
                                             std::optional<gid_t> service) {
   const std::string name = first_line(device / "name"), names = std::string("|") + of.devices + "|";

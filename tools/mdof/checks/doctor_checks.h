@@ -15,7 +15,7 @@ namespace mdof::tools {
 
 struct Diagnosis {
   enum class Level { good, doubtful, bad } level = Level::good;
-  std::string what;    // One line.
+  std::string what;    // The finding, in one line.
   std::string remedy;  // Empty: nothing has to be done.
 };
 
@@ -25,8 +25,8 @@ struct Machine {
   std::filesystem::path at(const char* path) const { return root / path; }
 };
 
-// Checks the clock for the times of samples: its resolution must be fine, and reading it must be
-// fast.
+// Checks the clock that gives samples their times: its resolution must be fine, and reading it must
+// be fast.
 Diagnosis check_clock(const Machine& machine);
 // Checks the udev rules that permit the group mdof to use devices. `wanted`: the configuration
 // contains a device on USB.

@@ -99,7 +99,7 @@ void check_model(const Rig& rig, Model model, std::vector<SelfCheck>& checks) {
       {name + ", angles", w.angle_urad, simplified ? kAngle_urad : kExact, "urad", problem});
 }
 
-// ---- a synthetic log: out and back over five targets, twice ----
+// ---- a synthetic log: forward and back over five targets, twice ----
 
 constexpr double kTargets_mm[] = {0, 7.5, 15, 22.5, 30};
 constexpr int kTargets = 5, kRepeats = 2;
@@ -159,7 +159,8 @@ Result<Run> measure_synthetic_log(const Rig& rig) {
   return run;
 }
 
-// The errors at the fixture if the carriage has the errors kConstant, calculated to first order.
+// Converts the errors kConstant, whose reference point is the origin of the carriage, to the origin
+// of the fixture, to first order.
 Errors5 constant_at_fixture(double travel_m) {
   Errors5 e = kConstant;
   e[kDy] -= travel_m * e[kEz];

@@ -15,7 +15,7 @@ struct SelfCheck {
 };
 
 // Checks the models (errors to readings, and readings to errors), the detection of points in a
-// synthetic log, and a database in a temporary folder. Each call has the same figures.
+// synthetic log, and a database in a temporary folder. Each call returns the same figures.
 std::vector<SelfCheck> run_self_checks();
 
 }  // namespace mdof::tools

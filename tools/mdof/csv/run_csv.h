@@ -17,9 +17,9 @@ namespace mdof::tools {
 // - number of samples, flags, and the reason if the point is not solved
 // - the sources that the uncertainties include
 std::string points_csv(const Run& run, const RunUncertainty& uncertainty);
-// One row for each error and approach, and for the mean of both approaches. Straightness is empty
-// for angles; range is empty for straightness errors. Only the mean of both approaches has
-// uncertainties, from `figures`.
+// One row for each error and approach, and for the mean of both approaches. The columns of
+// straightness are empty for angles, and the column of the range is empty for straightness errors.
+// Only the mean of both approaches has uncertainties, from `figures`.
 std::string figures_csv(const Run& run, const StatedFigures& figures);
 
 }  // namespace mdof::tools

@@ -25,7 +25,7 @@ struct Columns {
   std::string prefix;
   const std::array<std::vector<double>, 5>& errors;
   const std::vector<double>& along;
-  bool combine = false;  // combine the values with the declared uncertainties
+  bool combine = false;  // the values are u from noise; combine them with the declared u
 };
 
 double cell_of(const CompensationTable& t, const Columns& columns, std::size_t k, std::size_t row) {

@@ -18,9 +18,9 @@
 
 namespace mdof::tools {
 
-// Each column has one value for each row. The errors are those of the target's motion, at the
-// carriage, in the local frame of the axis, in m and rad (Eq. 2-12). In an unsolved row all errors
-// are NaN.
+// Each column has one value for each row. The errors describe the motion of the target in the local
+// frame of the axis, in m and rad (Eq. 2-12); their reference point is the origin of the carriage.
+// In an unsolved row all errors are NaN.
 struct SolvedRows {
   std::vector<double> encoder_m;
   std::array<std::vector<double>, kErrorCount> local;

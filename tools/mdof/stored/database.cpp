@@ -11,8 +11,8 @@ Result<std::filesystem::path> database_path(const std::string& option) {
 
 namespace {
 
-// The path of the database. Error: it is a FIFO, for which mdof would wait, or a folder, for which
-// the message would describe a fault of the disk.
+// The path of the database. Error: the path is a FIFO, for which mdof would wait, or a folder. For
+// a folder, the message of SQLite would describe a fault of the disk.
 Result<std::filesystem::path> database_file(const std::string& option) {
   MDOF_TRY(auto file, database_path(option));
   std::error_code ec;

@@ -22,7 +22,7 @@ Result<std::optional<rpc::Client>> writing_daemon(const std::string& database,
                                                   const std::string& socket);
 
 // For a command that reads. nullopt: no mdofd that uses the database answers, and the command reads
-// it itself. Error: conflict, as above.
+// it itself. Error: conflict, as for writing_daemon().
 Result<std::optional<rpc::Client>> serving_daemon(const std::string& database,
                                                   const std::string& socket);
 

@@ -9,8 +9,8 @@
 
 namespace mdof::tools {
 
-// Largest number of trials for the comparison of two fixtures. With this number the standard
-// uncertainty of the ratio is at most 0.2 %.
+// Largest number of trials for the comparison of two fixtures. With this number the standard error
+// of the ratio of their standard deviations is at most 0.2 %.
 inline constexpr std::uint64_t kMostComparedTrials = std::uint64_t{1} << 18;
 
 // Calculates indices, allocations and comparison of `result`. Adds a warning if there are too few

@@ -130,8 +130,8 @@ void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig
     record.probes.push_back(as_record(found.probes[k], rig.probes[k]));
 }
 
-// Error: the rig already contains a mounting calibration. It would be used as the nominal mounting,
-// and with its small u the new calibration would have almost no effect.
+// Error: the rig already contains a mounting calibration. That calibration would be used as the
+// nominal mounting, and because of its small u the new calibration would have almost no effect.
 Status check_not_calibrated(const Rig& rig) {
   for (const CalibrationRecord& record : rig.records)
     if (record.kind == "mounting")

@@ -33,11 +33,12 @@ Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
 // Error: the file exists already. A record is never changed.
 Status write_record(const std::string& file, const std::string& text);
 
-// A warning: the sentence names the probes that the target may touch if it moves along this axis.
+// A sentence that warns of the probes that the target may touch if the target moves along this
+// axis.
 std::string clearance_warning(const Rig& rig, Axis axis);
 
-// The value of the key offset_um in the rig for a measured zero, µm. If the probe measures a gap,
-// the sign of the zero is reversed.
+// The new value of the key offset_um, µm: the present offset plus the measured zero of the probe.
+// If the probe reads a gap, the zero is subtracted.
 double offset_for_zero_um(const Probe& probe, double zero_m);
 
 }  // namespace mdof::tools

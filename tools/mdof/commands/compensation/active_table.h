@@ -19,8 +19,8 @@ Result<std::int64_t> generation_of(store::Store& store, const CompensationTable&
 Result<std::int64_t> generation_of(store::Store& store, const VolumetricTable& table);
 
 // Prints the result of an activation. `reply` is the JSON text from mdofd or
-// store::activation_json(). If `json` is true, the output is `reply`. Otherwise it is `done` and
-// the generation number, or `already` and the generation number if nothing changed.
+// store::activation_json(). If `json` is true, the output is `reply`. Otherwise the output is
+// `done` and the generation number, or `already` and the generation number if nothing changed.
 Status print_activation(const std::string& reply, const std::string& done,
                         const std::string& already, bool json);
 

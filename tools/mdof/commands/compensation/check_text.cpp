@@ -1,4 +1,4 @@
-// Writes the check of an export as JSON and as text.
+// Writes the result of the check of an export as JSON and as text.
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/run_json.h"

@@ -22,7 +22,8 @@ namespace mdof::tools {
 namespace {
 
 struct BuildCommand {
-  // An empty `reference` is the tool point of the rig, or the fixture if the rig has no tool point.
+  // `reference`: name of the reference point of the errors; empty: the tool point of the rig, or
+  // the fixture if the rig has no tool point.
   std::string database, socket, axis, reference;
   std::vector<std::string> words;  // the arguments RUN
   std::vector<std::int64_t> runs;
@@ -77,7 +78,7 @@ Status choose_runs(BuildCommand& command) {
   return {};
 }
 
-// Error: an option is only for the other kind of table (axis or volume).
+// Error: an option applies only to the other kind of table (axis or volume).
 Status check_kind(const BuildCommand& command) {
   if (!command.volume.asked()) {
     if (command.words.empty())

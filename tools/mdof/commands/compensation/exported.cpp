@@ -23,8 +23,8 @@ namespace mdof::tools {
 namespace {
 
 constexpr double kMostTolerance_um = 100;
-// Largest limits that the user may state. With larger limits, almost any file would pass the
-// self-test.
+// Largest limits that the user may state. With larger limits, almost any file would pass the check
+// of the export.
 constexpr double kMostResidual_um = 20, kMostResidual_percent = 50;
 
 Status check_request(const ExportRequest& request) {
@@ -44,8 +44,8 @@ Status check_request(const ExportRequest& request) {
   return {};
 }
 
-// If the user changed limits, adds a comment to the files, because a reader of the files must know
-// this.
+// If the user changed limits, adds a comment with these limits to the files, because a reader of
+// the files must know them.
 void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
                  std::vector<std::string>& marks) {
   std::string changed;
@@ -74,8 +74,8 @@ void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
   if (!changed.empty()) marks.push_back("LIMITS CHANGED: " + changed);
 }
 
-// Error: the data are simulated or have warnings, and the request does not accept this. If it
-// accepts them, adds a warning to the files.
+// Error: the data are simulated or have warnings, and the request does not accept such data. If the
+// request accepts the data, adds a warning to the files.
 Status judge(const daemon::Judged& judged, const ExportRequest& request, ExportedTables& out) {
   MDOF_CHECK(daemon::check_gate(judged, request.consent, "it is not exported"));
   auto& marks = out.options.marks;
@@ -123,7 +123,7 @@ Status judge_sign(const controllers::Format& format, const ExportRequest& reques
   return {};
 }
 
-// Reads "X=0,Y=1,Y=3".
+// Reads the joints of the axes: "X=0,Y=1,Y=3".
 Status read_joint_options(const ExportRequest& request, ExportedTables& out) {
   if ((!request.joints.empty() || request.units != "mm") && !out.format->takes_joints)
     return fail(
@@ -152,8 +152,8 @@ Status read_joint_options(const ExportRequest& request, ExportedTables& out) {
   return {};
 }
 
-// Reads MAX_ACCELERATION from the option or from the ini file. It is unknown if the user stated
-// neither.
+// Reads MAX_ACCELERATION from the option or from the ini file. If the user stated neither,
+// MAX_ACCELERATION remains unknown.
 Status read_ramp_options(const ExportRequest& request, ExportedTables& out) {
   const bool given = request.max_acceleration_mm_s2.has_value();
   if (!given && request.ini.empty()) return {};
@@ -182,8 +182,8 @@ Status take_siemens_limits(const ExportRequest& request, ExportedTables& out) {
                   "siemens-lec and siemens-cec have these options");
 }
 
-// If the user requested it, uses errors that were measured in only one approach for both
-// approaches.
+// With --one-approach, uses an error that was measured in only one approach for both approaches.
+// Error: such an error without --one-approach.
 Status apply_one_approach(CompensationTable& table, const ExportRequest& request,
                           ExportedTables& out) {
   const auto has = [](const std::vector<double>& x) {
@@ -326,8 +326,8 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
           " state that the fixture is on the side of the work; measure with the fixture in the "
           "spindle, or correct the key \"moves\" in the rig");
   }
-  // The squareness depends on the point at which it is stated. This is the point at which tables of
-  // these rigs are valid, too.
+  // The squareness depends on its reference point. Tables of these rigs have the same reference
+  // point by default.
   const StatedAt at = stated_at_by_default(x);
   if (at != stated_at_by_default(y))
     return bad_input(name + ": tool_point_mm differs between the rigs of the runs " +

@@ -24,10 +24,9 @@ namespace mdof::tools {
 struct ExportRequest {
   std::string database, format;
   std::vector<std::int64_t> tables;
-  std::string
-      squareness;  // A squareness (number or "latest"), which is exported instead of tables.
+  std::string squareness;  // Number of a squareness, or "latest"; it is exported instead of tables.
   double tolerance_um = 0;
-  std::string home_mm;  // "10" or "X=10,Y=20"; empty: the user did not state it.
+  std::string home_mm;  // Home positions of the axes: "10" or "X=10,Y=20"; empty: not stated.
   double residual_um = to_um(algo::ResidualLimits{}.most_m);
   double residual_percent = 100 * algo::ResidualLimits{}.share;
   std::string joints, units = "mm";              // LinuxCNC only: "Y=1,Y=3".
@@ -50,7 +49,7 @@ struct ExportedTables {
   std::vector<std::int64_t> tables;
   std::int64_t squareness = 0;  // 0: tables are exported.
   Budget angle;                 // Uncertainty budget of EC0Y, if a squareness is exported.
-  bool simulated = false, doubtful = false;  // True if at least one table is.
+  bool simulated = false, doubtful = false;  // True if at least one table has this property.
   controllers::ExportOptions options;
   controllers::Export files;
   controllers::Check check;

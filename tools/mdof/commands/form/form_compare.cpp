@@ -33,7 +33,7 @@ algo::Register register_from(const std::string& name) {
 struct Compared {
   algo::Comparison found;
   std::size_t measured = 0;  // pixels of A
-  double pixel_m = 0;        // of A: the smaller of its two steps
+  double pixel_m = 0;        // smaller pitch of A in x and y
 };
 
 // Limits for notices. Noise and small differences in form shift the best pose by less than a pixel;

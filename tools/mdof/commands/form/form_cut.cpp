@@ -1,5 +1,5 @@
-// mdof form cut WANTED CUT... --out NEXT: calculates the path of the next pass from the errors of
-// the passes.
+// mdof form cut WANTED CUT... --out NEXT: calculates the path of the next pass from the measured
+// surfaces of the passes so far.
 #include <CLI/CLI.hpp>
 #include <string>
 #include <vector>

@@ -161,7 +161,8 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   return found;
 }
 
-// The roughness by the feed; nullopt if the tool does not cut a ring between two turns.
+// The roughness that feed and tool radius cause; nullopt: the feed is so large that a ring between
+// two turns remains uncut.
 std::optional<algo::FeedRoughness> feed_roughness_if_closed(const FoundPath& found) {
   const algo::SpiralRequest& request = found.request;
   if (!(request.feed_m < 2 * request.tool_radius_m)) return {};
@@ -169,7 +170,7 @@ std::optional<algo::FeedRoughness> feed_roughness_if_closed(const FoundPath& fou
 }
 
 // Limits for notices. If a part is long and narrow, the spiral is beside the part for most of each
-// turn. There the path bridges the gap, and it may be a little higher than the part.
+// turn. There the path bridges a gap, and its stroke may be a little larger than on the part.
 constexpr double kMostlyBridged = 0.9, kHigherBridged = 1.1;
 
 Notices notices_of(const FoundPath& found, const FormPathCommand& o) {

@@ -22,8 +22,8 @@ struct BudgetRequest {
                                     // met with the probability kBudgetCoverage.
 };
 
-// One stage of the budget: now, or as designed. `outputs`: position errors x, y, z and the length
-// of this vector ("volume") by Monte Carlo; empty if the stage has no causes.
+// One stage of the budget (algo::BudgetStage): measured or designed. `outputs`: position errors x,
+// y, z and the length of this vector ("volume") by Monte Carlo; empty if the stage has no causes.
 struct FoundStage {
   algo::BudgetModel model;
   std::vector<OutputSummary> outputs;
@@ -39,7 +39,7 @@ struct FoundAllocation {
 };
 
 struct FoundMachineBudget {
-  FoundStage now;                      // With the errors as measured.
+  FoundStage now;  // Stage measured: a measured error replaces the sources that act on it.
   std::optional<FoundStage> designed;  // Present if errors are measured and sources are declared.
   std::vector<algo::MeasuredError> measured;
   std::optional<FoundAllocation> allocation;

@@ -44,7 +44,8 @@ void write_place(JsonWriter& json, const char* key, const Eigen::Vector3d& place
   json.end_object();
 }
 
-// Writes u, intervals and the volume of a stage, or null with the reason.
+// Writes u and intervals of x, y and z, and the median and 95 % quantile of the error vector's
+// length ("volume"). If a stage has no causes, writes null with the reason.
 void write_stage(JsonWriter& json, const FoundStage& stage) {
   if (stage.outputs.empty()) {
     for (const char* key : {"u_um", "interval_um", "volume_p95_um"}) json.key(key).null();

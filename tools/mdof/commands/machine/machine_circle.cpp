@@ -43,8 +43,8 @@ struct FoundCircle {
 };
 
 // The largest difference "measured - predicted" and its angle. U is the expanded uncertainty (95 %,
-// k = 1.96) of the prediction at this angle, from the u of the machine's errors. It does not
-// include the ball bar. NaN: no u is declared.
+// k = 1.96) of the prediction at this angle, from the u of the machine's errors. U_m does not
+// include the uncertainty of the ball bar. NaN: no u is declared.
 struct LargestDifference {
   double value_m = 0, angle_rad = 0, U_m = NAN;
   bool clockwise = false;

@@ -1,5 +1,5 @@
-// mdof machine kinematics --preset co-planar: calculates the effect of steps and errors of the
-// screws of a tilt drive, and converts motions between the platform and the screws.
+// mdof machine kinematics --preset co-planar: calculates the effect of the resolution and the
+// errors of the screws of a tilt drive, and converts motions between the platform and the screws.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>

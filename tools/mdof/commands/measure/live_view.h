@@ -9,7 +9,7 @@
 
 namespace mdof::tools {
 
-// The value of a "live.update" notification; NaN: unknown.
+// The value of a "live.update" notification. An unknown number is NaN.
 struct LiveUpdate {
   struct Probe {
     std::string id, quality;

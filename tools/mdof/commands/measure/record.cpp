@@ -69,8 +69,9 @@ void warn_wrapped(std::string_view words) {
   say(wrapped("warning: " + std::string(words), terminal_columns(), 2));
 }
 
-// "point 3 of 26, next 15.000 mm". If the run has no targets or no repeats, the text states less. A
-// requested point counts once, when it is solved. The text also states the number of other points.
+// "point 3 of 26, next 15.000 mm". If the run has no targets or no repeats, the text states less. k
+// counts each requested point once, as soon as the errors of this point are solved. The text also
+// states the number of other points.
 std::string progress_line(const auto& event) {
   const std::int64_t all = integer(event, "points").value_or(0);
   const std::int64_t points = integer(event, "done").value_or(all);
@@ -84,8 +85,8 @@ std::string progress_line(const auto& event) {
                                                 : line + ", next " + fixed(awaited_mm, 3) + " mm";
 }
 
-// Shows the event. If the run of the axis has ended, returns the number of the run that must be
-// shown.
+// Shows the event. If the run of the axis has ended, returns the number of the run that has the
+// result.
 std::optional<std::int64_t> handle_event(std::string_view notification, std::int64_t run,
                                          const std::string& axis) {
   simdjson::dom::parser parser;
@@ -106,7 +107,7 @@ Status ask_to_stop(rpc::Client& client, std::int64_t run) {
   return tl::unexpected(stopped.error());
 }
 
-// Waits until the run has ended. Returns the number of the run that must be shown.
+// Waits until the run has ended. Returns the number of the run that has the result.
 Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordCommand& command) {
   const auto begin = steady_clock::now();
   std::optional<steady_clock::time_point> stopped;

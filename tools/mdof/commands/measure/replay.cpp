@@ -95,7 +95,7 @@ Status replay(ReplayCommand command) {
   }
   MDOF_TRY(Run run, command.keep_out ? replay_locally(command.request) : replay_and_store(command));
   MDOF_TRY(const StatedAt at, requested_reference(command, run));
-  run = algo::restate(std::move(run), at);  // the errors in the database are stated at the fixture
+  run = algo::restate(std::move(run), at);  // errors in the database refer to the fixture
   show_notices(run.header.notices, command.all_warnings);
   if (command.json) return write_line(daemon::replay_document(run, daemon::stated_run(run)));
   run.header.notices.clear();  // they were shown already

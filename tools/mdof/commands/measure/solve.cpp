@@ -1,7 +1,7 @@
 // mdof solve FRAMES.csv: calculates five errors for each row of positions and readings.
 //
 //   thread "csv read" -> this thread: parse, calibrate and solve -> thread "write rows"
-//   The memory is limited.
+//   The use of memory does not depend on the size of the file.
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/replay/replay.h"

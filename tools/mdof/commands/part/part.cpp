@@ -44,8 +44,8 @@ std::vector<std::size_t> ranked(const std::vector<algo::PartShare>& shares) {
   return order;
 }
 
-// If a cause has no u, sets these figures to unknown (NaN): a U that would be 0, and a residual
-// that would contain nothing but u.
+// If a cause has no u, a U or a residual of exactly 0 would be wrong: it would count the missing u
+// as 0. Sets such figures to NaN (unknown).
 void clear_unknown_figures(FoundPart& found) {
   if (found.part.no_u.empty()) return;
   const auto forget = [](double& x) {

@@ -87,7 +87,7 @@ struct SquarenessDocument {
     return from_urad(number(document["lines"][line], key + "_urad"));
   }
   // The angle error of the artefact, with the sign convention of the squareness. The document
-  // contains the angle between the faces of the artefact, measured through its material.
+  // contains the angle of the material at the corner of the artefact, minus 90°.
   double artefact_rad() const {
     Squareness s;
     s.axes = axes;

@@ -107,8 +107,7 @@ std::string text_of(const daemon::Trend& trend) {
   return out + wrapped(sentence_of(trend), terminal_columns()) + "\n";
 }
 
-// What is true for all figures with values: u contains noise only in all of them, in some, or in
-// none.
+// Whether u contains noise only: in all figures that have values, in some of them, or in none.
 NoiseOnly noise_only_of(const std::vector<daemon::Trend>& trends) {
   std::optional<NoiseOnly> all;
   for (const daemon::Trend& trend : trends)

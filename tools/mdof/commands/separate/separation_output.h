@@ -1,5 +1,5 @@
-// Separates the errors of the machine from those of the target, with the set-ups that a command has
-// prepared, and prints the result.
+// Separates the errors of the machine from the errors of the target, with the set-ups that a
+// command has prepared, and prints the result.
 #pragma once
 
 #include "daemon/measure/gate/gate.h"

@@ -34,12 +34,12 @@ void add_source_options(CLI::App& command, SourceOptions& options);
 struct LoadedSources {
   algo::SeparationRequest request;
   SeparationRecord record;  // The record without the result.
-  Notices notices;          // Notices of the runs and of their contents.
+  Notices notices;          // Notices of the runs, and notices about the set-ups.
 };
 
 // Errors:
 // - the sources are files and runs
-// - the runs have several axes or sides
+// - the runs differ in the axis, the moving body or its direction
 // - a rig already subtracts a height map
 // - two sources have the same readings
 // - a source cannot be read

@@ -2,9 +2,10 @@
 // adaptive rule ends the study, or the user interrupts. The figures of a number of trials do not
 // depend on threads, processes and interruptions.
 //
-//   rank 0 chooses the batches of the next round ─▶ every process works off its share, with
+//   rank 0 chooses the batches of the next round ─▶ every process runs its share, with
 //   separate statistics for each thread ─▶ each process merges its statistics ─▶ at intervals,
-//   rank 0 merges all processes; it keeps the convergence, the checkpoints and the adaptive rule
+//   rank 0 merges the statistics of all processes. Rank 0 also records the convergence and the
+//   checkpoints, and applies the adaptive rule
 #pragma once
 
 #include <chrono>

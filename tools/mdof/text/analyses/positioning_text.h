@@ -13,12 +13,12 @@ struct PositioningColumn {
   std::string name;  // "EYX"; "deviation" for a file.
   bool angle = false;
   Positioning figures;
-  // Nullopt if the readings are not from a run.
+  // nullopt: the readings are not from a run, or U is unknown.
   std::optional<RunPositioningUncertainty> U = std::nullopt;
 };
 
-// A table with a row for each parameter and a column for each element of `columns`. If U is known,
-// it has a further column.
+// A table with a row for each parameter and a column for each element of `columns`. A column whose
+// U is known is followed by a column with U.
 std::string parameters_text(const std::vector<PositioningColumn>& columns, std::size_t width);
 // One row for each target.
 std::string targets_text(const PositioningColumn& column, std::size_t width);

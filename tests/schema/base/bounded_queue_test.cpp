@@ -22,7 +22,7 @@ TEST(BoundedQueue, CountsDroppedItemsAndReturnsTheOldestFirst) {
   EXPECT_EQ(queue.pop(1ms), std::nullopt);
 }
 
-TEST(BoundedQueue, PushAlwaysIgnoresTheLimit) {
+TEST(BoundedQueue, UnconditionalPushIgnoresTheLimit) {
   BoundedQueue<int> queue(1);
   queue.push_always(1);
   queue.push_always(2);
@@ -34,7 +34,7 @@ TEST(BoundedQueue, PushAlwaysIgnoresTheLimit) {
   EXPECT_TRUE(all.empty());
 }
 
-TEST(BoundedQueue, PushForKeepsTheItemAfterATimeout) {
+TEST(BoundedQueue, TimedOutPushLeavesTheItemToTheCaller) {
   BoundedQueue<std::unique_ptr<int>> queue(1);
   auto first = std::make_unique<int>(1), second = std::make_unique<int>(2);
   EXPECT_TRUE(queue.push_for(first, 0ms));
@@ -43,7 +43,7 @@ TEST(BoundedQueue, PushForKeepsTheItemAfterATimeout) {
   EXPECT_EQ(queue.dropped(), 0u);
 }
 
-TEST(BoundedQueue, ClosedQueueReturnsItsItemsAndAcceptsNone) {
+TEST(BoundedQueue, ClosedQueueReturnsItsItemsAndAcceptsNoMore) {
   BoundedQueue<int> queue(4);
   queue.push(1);
   queue.close();

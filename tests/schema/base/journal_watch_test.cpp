@@ -120,7 +120,7 @@ TEST_F(WatchedJournal, CheckpointOfAnotherProgramIsNoFault) {
   }
 }
 
-// The file is truncated to 0 bytes, or to 4096 bytes, after which the index is not used.
+// Truncates the -shm file, which contains the index of the WAL, to 0 bytes or to 4096 bytes.
 TEST_F(WatchedJournal, ProcessSurvivesATruncatedShm) {
   for (const std::uintmax_t bytes : {std::uintmax_t{0}, std::uintmax_t{4096}}) {
     const fs::path file = folder_ / std::to_string(bytes);
@@ -148,8 +148,8 @@ TEST_F(WatchedJournal, ProcessSurvivesATruncatedShm) {
   }
 }
 
-// The file is truncated during a read transaction. The index is then empty, and without the check
-// SQLite would return older pages.
+// Truncates the -shm file during a read transaction. The index of the WAL is then empty; without
+// the check, SQLite would return older pages.
 TEST_F(WatchedJournal, TruncatedShmGivesNoOlderPages) {
   const int status = in_child([&] {
     survive_truncated_shm();

@@ -18,7 +18,7 @@
 namespace mdof {
 namespace {
 
-// Rows with two columns, and other text before and after them. The tests read the first column.
+// Rows with two columns, and other text before and after the rows. The tests read the first column.
 class Rows {
  public:
   explicit Rows(const std::vector<std::string>& fields, const std::string& line_end = "\n")
@@ -259,8 +259,8 @@ TEST(NumberColumns, AcceptsAPointBeforeAllDigits) {
   }
 }
 
-// A field is not a number. It must be found at any place of a group, and the fields beside it must
-// be read correctly.
+// One field is not a number. The reader must stop before this field wherever it is in a group of
+// fields, and must read the fields before it correctly.
 TEST(NumberColumns, StopsBeforeAFieldThatIsNoNumber) {
   for (const char* odd :
        {"",      "-",        ".",     "-.",   "--1",
@@ -293,7 +293,7 @@ TEST(NumberColumns, ReadsTimesToTheNanosecond) {
                 4'000'000'000, 5'000'000'000, 6'000'000'000, 7'000'000'000, 8'000'000'000}));
 }
 
-TEST(NumberColumns, FindsAllStops) {
+TEST(NumberColumns, FindsEveryByteThatEndsAField) {
   RandomFields random;
   for (int length = 0; length < 400; ++length) {
     std::string text;

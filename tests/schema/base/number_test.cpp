@@ -45,7 +45,7 @@ void expect_as_from_chars(const std::string& text, bool must_scan = false) {
   const char* const end = begin + text.size();
   const auto [after, error] = std::from_chars(begin, end, expected);
   ASSERT_EQ(parse_double(begin, end, got), after) << text;
-  // Std::from_chars leaves the value unchanged; parse_double returns ±inf or ±0.
+  // For such a text std::from_chars leaves the value unchanged; parse_double returns ±inf or ±0.
   if (error == std::errc::result_out_of_range) {
     ASSERT_TRUE(std::isinf(got) || got == 0) << text;
     return;

@@ -21,7 +21,7 @@ TEST(FieldNames, EachHasOneRowAndAMeaning) {
   }
 }
 
-TEST(FieldNames, AreFoundByTheirGroups) {
+TEST(FieldNames, NameIsFoundByTheRowOfItsPattern) {
   EXPECT_EQ(find_field("EYX_um")->row->name, "E{linear}{axis}_um");
   EXPECT_EQ(find_field("EBC_urad")->row->name, "E{angular}{axis}_urad");
   EXPECT_EQ(find_field("EC0Y_urad")->row->name, "E{angular}0{axis}_urad");
@@ -47,7 +47,7 @@ TEST(FieldNames, RegularExpressionsMatchTheirFields) {
 }
 
 // The expected texts were written by hand from the rules of JSON Schema.
-TEST(Shape, HasASchemaOfItsMembers) {
+TEST(Shape, IsConvertedToAJsonSchema) {
   EXPECT_EQ(
       json_schema("{active, scans_lost?}"),
       R"({"type":"object","properties":{"active":{"type":"boolean","description":"the table is active"},)"
@@ -68,7 +68,7 @@ TEST(Shape, MemberThatIsNeverNullHasNoNull) {
       R"("required":["scans_lost"],"additionalProperties":false})");
 }
 
-TEST(Shape, FamilyIsAPatternThatNeedsOneMember) {
+TEST(Shape, FamilyOfNamesNeedsAtLeastOneMember) {
   const std::string schema = json_schema("{run_{small}, active}");
   EXPECT_NE(schema.find(R"("patternProperties":{"^run_(x|y|z)$":)"), std::string::npos) << schema;
   EXPECT_NE(schema.find(R"("minProperties":2)"), std::string::npos) << schema;

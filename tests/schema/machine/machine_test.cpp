@@ -120,7 +120,7 @@ TEST(MachineToml, ReadsAMovingBodyAndASource) {
   EXPECT_NEAR(screw.acts_on[2].factor_per_position, 3e-6 * 180 / 3.141592653589793, 1e-18);
 }
 
-// Table 1 of the source has 14 joints with six part errors each.
+// Table 1 of the paper on the co-planar machine has 14 joints with six part errors each.
 TEST(MachineToml, CoPlanarMachineHas84PartErrors) {
   const auto read = parse_machine(co_planar_machine(), "co-planar");
   ASSERT_TRUE(read) << read.error().message;
@@ -177,7 +177,7 @@ TEST(MachineToml, ErrorsNameTheInvalidKey) {
   }
 }
 
-TEST(MachineToml, ReadsNumbersOfStoredRows) {
+TEST(MachineToml, ReadsNumbersOfRunsTablesAndSquareness) {
   const auto named = [](const std::string& root, const std::string& of_axis) {
     return parse_machine(root +
                              "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n[[axis]]\nid = \"X\"\n"

@@ -174,8 +174,8 @@ TEST(CsvRowParser, SkipsALineWithoutPositionOrTime) {
   EXPECT_EQ(test::shown(p.missing), "") << "a line that is skipped has no missing values";
 }
 
-// The parser processes 256 rows at a time. In the first half of the text, probe A misses random
-// values; in the second half, it misses all values.
+// The parser processes 256 rows at a time. In the first half of the text, random values of probe A
+// are missing; in the second half, all its values are missing.
 TEST(CsvRowParser, FindsEachMissingValueInItsRow) {
   std::string text = kTwoProbes;
   std::mt19937_64 random(3);

@@ -59,7 +59,7 @@ Rig with_record(const std::string& of_B = "", const std::string& last = "") {
   return rig.value_or(Rig());
 }
 
-TEST(CalibratedRig, TakesTheRecordAndKeepsTheRest) {
+TEST(CalibratedRig, UsesTheRecordAndKeepsAllOtherValues) {
   const Rig plain = test::rig_x(), rig = with_record();
   EXPECT_EQ(rig.probes[0].position_m, plain.probes[0].position_m);
   EXPECT_NEAR(rig.probes[1].position_m[0], 1.0 / 3e4, 1e-19) << "to the last bits";
@@ -80,7 +80,7 @@ TEST(CalibratedRig, TakesTheRecordAndKeepsTheRest) {
 }
 
 // A record may give another direction of a probe. The rig must keep the nominal direction, because
-// the target is perpendicular to it.
+// the surface of the target is perpendicular to the nominal direction.
 TEST(CalibratedRig, KeepsTheNominalDirection) {
   CalibrationRecord record = mounting();
   record.probes[0].direction = Vec3{2e-4, -1e-4, 1};
@@ -100,8 +100,8 @@ TEST(CalibratedRig, KeepsCovariancesOfRecordedQuantities) {
     for (std::size_t j = 0; j < 3; ++j)
       EXPECT_NEAR(all.m2.at(i).at(j), mounting().covariance.m2[i][j], 1e-27) << i << j;
   EXPECT_EQ(with_record().probes[1].uncertainty.sensitivity.freedom, 7);
-  // If the rig declares u of a zero, this zero is independent of the record and not in its
-  // covariance.
+  // If the rig declares u of the zero of a probe, this zero is independent of the record and is not
+  // in the covariance of the record.
   const auto declared = covariance(with_record("u_calibration_um = 0.5\n"));
   EXPECT_EQ(declared.of, (std::vector<std::string>{"B.x", "B.y"}));
   ASSERT_EQ(declared.m2.size(), 2U);
@@ -138,8 +138,8 @@ TEST(CalibratedRig, KeepsWhatTheRigDeclaresAsZero) {
   EXPECT_TRUE(rig.uncertainty.installation_offset.known());
 }
 
-// A linearity correction is given at t = raw - offset and belongs to a raw reading. If a record
-// changes the offset, t of each correction changes too.
+// The correction table states corrections at t = raw - offset, but each correction belongs to a raw
+// reading. If a record changes the offset, t of each correction changes too.
 TEST(CalibratedRig, LinearityMovesWithTheOffset) {
   const Rig table = with_record("offset_um = 1\nlinearity = [[-50, 0.2], [50, -0.1]]\n");
   EXPECT_EQ(table.probes[1].calibration.linearity[0], (std::array<double, 2>{-51.5, 0.2}));
@@ -214,7 +214,7 @@ TEST(CalibratedRig, ReportsAMountingThatDoesNotFitItsReadings) {
 
 // A record from a laboratory's certificate. Its linearity table refers to the offset of the
 // record.
-TEST(CalibratedRig, TakesACertificate) {
+TEST(CalibratedRig, UsesARecordFromACertificate) {
   CalibrationRecord record;
   record.kind = "sensitivity";
   record.rig = "test";
@@ -306,7 +306,7 @@ TEST(CalibratedRig, LoadsTheNamedRecordFiles) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(CalibrationRecord, PartsEndWhereTheNextBegins) {
+TEST(CalibrationRecord, TextIsDividedIntoItsRecords) {
   const std::string one = record_part();
   const std::string both = "name = \"x\"\n" + one + one;
   const auto parts = record_parts(both);

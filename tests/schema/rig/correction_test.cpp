@@ -17,7 +17,7 @@ TEST(Correction, DependsOnRotaryAxesBetweenTheAxes) {
   // X and Y move the workpiece, Z moves the tool. The correction is -E in Y and +E in Z.
   EXPECT_EQ(of_X("w-X-Y-b-Z-t").factor[kEYX], -1);
   EXPECT_EQ(of_X("w-X-Y-b-Z-t").factor[kEZX], 1);
-  // C rotates the direction of Y relative to X. This is so on the workpiece side and beyond the
+  // C rotates the direction of Y relative to X, on the workpiece side and on the tool side of the
   // bed. C does not rotate the direction of Z.
   for (const char* chain : {"w-X-C-Y-b-Z-t", "w-X-C-b-Y-Z-t", "w-X-b-C-Y-Z-t"}) {
     EXPECT_EQ(of_X(chain).factor[kEYX], 0) << chain;

@@ -116,8 +116,8 @@ TEST(RigUncertainty, ErrorsStateThePlaceOfInvalidValues) {
             std::string::npos);
 }
 
-// has() does not count as reading. A key that is only checked with has() is rejected as unknown.
-// It is still suggested if a similar key is misspelt.
+// has() does not count as reading. A key that is only checked with has() is rejected as unknown,
+// but mdof still suggests this key for a similar misspelt key.
 TEST(TomlTable, KeyCheckedWithHasIsNotRead) {
   auto there = TomlTable::parse("drift = 1\n", "f.toml").value();
   EXPECT_TRUE(there.has("drift"));

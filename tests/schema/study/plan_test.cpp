@@ -69,7 +69,7 @@ TEST(StudyPlan, ReadsACompletePlan) {
   EXPECT_DOUBLE_EQ(plan.fixture_per_K, 23e-6);
 }
 
-TEST(StudyPlan, DefaultTruthIsThatOfThePaper) {
+TEST(StudyPlan, DefaultTrueErrorsAreThoseOfThePaper) {
   const auto plan = parse_study_plan(kHead, kFolder + "plan.toml").value();
   EXPECT_EQ(quantity_of(plan, "travel_mm").distribution.high, 60);
   EXPECT_EQ(quantity_of(plan, "truth.EYX_um").distribution.low, -50);
@@ -77,7 +77,7 @@ TEST(StudyPlan, DefaultTruthIsThatOfThePaper) {
   EXPECT_EQ(plan.outputs.size(), 5U);
 }
 
-TEST(StudyPlan, EveryNameResolvesForTheRig) {
+TEST(StudyPlan, EveryQuantityNameSelectsPartsOfTheRig) {
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
   for (const std::string& name : quantity_names(rig)) {
     const auto targets = resolve_quantity(name, rig);

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// If a text was destroyed before the statement ran, other bytes were stored in the chain of a
-// table. Therefore the connection copies bound texts.
+// A text may be destroyed after it is bound and before the statement runs. Then other bytes would
+// be stored and hashed. Therefore the connection copies bound texts.
 TEST(Sqlite, CopiesBoundTexts) {
   auto connection = Connection::open(":memory:", OpenMode::create);
   ASSERT_TRUE(connection) << connection.error().message;
@@ -148,7 +148,7 @@ TEST_F(ForeignDatabase, IsReadWithoutWriting) {
 }
 
 // Another process writes and makes checkpoints as fast as possible. Each copy must be the complete
-// state at one time.
+// state of the database at one time.
 TEST_F(ForeignDatabase, CopiesAreConsistentDuringWrites) {
   int ready[2];
   ASSERT_EQ(pipe(ready), 0);
@@ -235,7 +235,7 @@ TEST_F(ForeignDatabase, OtherNamesOfAFileKeepItsLocks) {
     EXPECT_EQ(errno, EBUSY) << name;
   }
   EXPECT_TRUE(is_locked(file_));
-  // This drops SQLite's lock; open_foreign() prevents this fault.
+  // Closing any descriptor of the file drops SQLite's lock; open_foreign() prevents this fault.
   ::close(::open(file_.c_str(), O_RDONLY));
   EXPECT_FALSE(is_locked(file_));
 }

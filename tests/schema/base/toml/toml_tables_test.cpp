@@ -17,7 +17,7 @@ std::string after(const std::vector<const char*>& keys_of_second) {
   return finished ? "" : finished.error().message;
 }
 
-TEST(TomlTables, KeysReadByAnyReaderAreKnown) {
+TEST(TomlTables, KeyReadByOneOfTheReadersIsKnown) {
   EXPECT_EQ(after({"id"}), "");
   EXPECT_NE(after({}).find("mdofd.toml:2: channel[1].id: unknown key"), std::string::npos)
       << after({});

@@ -43,7 +43,7 @@ TEST(Calibration, MissingValueStaysMissing) {
   }
 }
 
-// Calculated by hand. The limits are 0.05 % of the range of 200 um inside the range. With reads =
+// Calculated by hand. Each limit is inside the range by 0.05 % of the range (200 um). With reads =
 // "gap", a reading increases when the target recedes.
 TEST(Calibration, WindowLimitsAreDisplacementsInOrder) {
   const auto expect = [](const std::string& more, double low_um, double high_um) {
@@ -58,8 +58,8 @@ TEST(Calibration, WindowLimitsAreDisplacementsInOrder) {
 }
 
 // A laboratory's um_per_V applies to volts, and must not be used for a reading that the amplifier
-// has converted to a length. If um_per_V is only in the rig, it may be for logs in volts, so there
-// is no notice.
+// has converted to a length. If um_per_V is in the rig and not in a record, um_per_V may be for
+// logs in volts; then there is no notice.
 TEST(Calibration, LengthDoesNotUseTheScaleOfARecord) {
   Rig rig = rig_with("um_per_V = 20\n");
   EXPECT_TRUE(unused_scales(rig, {{"A", Unit::um}}).empty());

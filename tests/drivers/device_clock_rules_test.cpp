@@ -58,8 +58,8 @@ TEST(DeviceClockRules, UncertainForASecondAfterAnEarlyStep) {
   }
 }
 
-// Lateness is the time after the fitted line, with a limit of 0.1 s. The drift does not count: 500
-// ppm in five minutes are 150 ms, which is more than the limit.
+// The lateness of a packet is its delay after the fitted line; the limit is 0.1 s. The line
+// contains the drift: 500 ppm in five minutes are 150 ms, which would exceed the limit.
 TEST(DeviceClockRules, LatenessIsRelativeToTheLine) {
   for (const double ppm : {500.0, -500.0}) {
     DeviceClock clock(kRuleTick_ns);
@@ -107,7 +107,7 @@ TEST(DeviceClockRules, ForgetsPacketsOlderThanAMinute) {
 
 // The packets of three of five intervals have a jitter of 2 ms. The packets of the other intervals
 // have no jitter.
-TEST(DeviceClockRules, JitterIsTheMedianOfTheStretches) {
+TEST(DeviceClockRules, JitterIsTheMedianOverIntervals) {
   DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 10'000; ++tick) {
     const bool spread = tick / 250 % 5 < 3 && tick % 2;
@@ -124,10 +124,10 @@ TEST(DeviceClockRules, FirstTimeIsOnTheLine) {
   EXPECT_EQ(clock.host_ns(10), at_ns(10, 0));
 }
 
-// The fitted line may move. The returned times follow it without steps. In addition to the drift,
-// their rate differs by at most 20 % before the clock has settled, and by at most 0.2 %
-// afterwards.
-TEST(DeviceClockRules, TimesRunNoFasterThanTheSlew) {
+// The fitted line may move. The returned times follow the line without steps. To follow it, their
+// rate may differ from the rate of the device by at most 20 % before the clock has settled, and by
+// at most 0.2 % afterwards.
+TEST(DeviceClockRules, RateOfTheTimesIsLimited) {
   for (const double ppm : {800.0, -800.0}) {
     DeviceClock clock(kRuleTick_ns);
     double least = 2, most = 0, settled_rate_error = 0;

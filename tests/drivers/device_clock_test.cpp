@@ -119,7 +119,7 @@ TEST(DeviceClock, JumpOfTheDeviceIsAStepAndTimesGrow) {
 // times remain correct, and it reports no step.
 TEST(DeviceClock, ASlowLinkIsNoStep) {
   const struct {
-    std::int64_t late_ns, packets;  // each packet has 2 ms
+    std::int64_t late_ns, packets;  // a packet covers 2 ms
   } cases[] = {{300'000'000, 1'500}, {1'200'000'000, 5'000}, {500'000'000, 20'000}};
   for (const auto& c : cases) {
     // The link becomes slow before or after the clock has settled.
@@ -137,7 +137,7 @@ TEST(DeviceClock, ASlowLinkIsNoStep) {
         EXPECT_EQ(clock.state().doubtful, late) << p;
         doubtful += clock.state().doubtful;
       }
-      // For up to 40 s no new line is fitted, and the drift is 50 ppm.
+      // For up to 40 s no new line is fitted; the drift of 50 ppm then makes an error of 2 ms.
       EXPECT_LT(worst_us, 4'500) << c.late_ns;
       EXPECT_EQ(clock.state().steps, 0u);
       EXPECT_EQ(doubtful, c.packets);
@@ -146,7 +146,7 @@ TEST(DeviceClock, ASlowLinkIsNoStep) {
 }
 
 // The time of the device stops for 0.3 s. The clock is uncertain from the first later packet on,
-// until it has fitted a new line. This takes 64 s.
+// until it has fitted a new line. A new line takes 64 s.
 TEST(DeviceClock, UncertainAfterTimeStoodStillUntilSettled) {
   DeviceClock clock(kTick_ns);
   const Device device{0, 1e6};

@@ -44,7 +44,8 @@ TEST(Capancdt, TimesAreOneSampleTimeApart) {
   const Collected got = collect(driver, 100);
   ASSERT_GE(got.all.scans(), 100u) << got.error;
   if (clock_stepped(driver)) GTEST_SKIP() << "this computer is too busy";
-  // The clock has not settled yet. Until then, its times may differ by 20 % from the true rate.
+  // The clock has not settled yet. Until then, the rate of its times may differ by 20 % from the
+  // true rate.
   for (std::size_t k = 1; k < got.all.scans(); ++k)
     ASSERT_NEAR(static_cast<double>(got.all.time_ns[k] - got.all.time_ns[k - 1]), 960e3,
                 0.2 * 960e3 + 2)
@@ -107,7 +108,7 @@ TEST(Capancdt, AcceptsEveryCounterUnitAndEcho) {
   }
 }
 
-TEST(Capancdt, LostFramesBeginABlock) {
+TEST(Capancdt, NewBlockBeginsAfterLostFrames) {
   SimulatedCapancdt::Options device;
   device.faults.lose_every = 8;
   Rack rack(device);

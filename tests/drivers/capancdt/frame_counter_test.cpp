@@ -76,7 +76,7 @@ TEST(CapancdtFrameCounter, LearnsTheUnitDespiteLosses) {
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
   for (int i = 0; i < 12; ++i) {
-    // This loss of frames looks as if the counter counted values.
+    // With this loss of frames, the counter increases as if it counted values.
     if (i % 4 == 1) source.counter += 3;
     ASSERT_TRUE(counter.add(source.next(), placed));
   }
@@ -103,8 +103,8 @@ TEST(CapancdtFrameCounter, DropsDuplicates) {
   EXPECT_EQ(placed.size(), 6u);
 }
 
-// Each packet is sent twice all the time. The counter must not interpret this as a jump back.
-TEST(CapancdtFrameCounter, CountsDuplicatesOnlyInARow) {
+// Each packet is sent twice. FrameCounter must not interpret the repeated counts as a jump back.
+TEST(CapancdtFrameCounter, RepetitionOfEveryPacketIsNotAJump) {
   Source source{CounterUnit::frame, 2, 2, 1, 1000};
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
@@ -116,7 +116,8 @@ TEST(CapancdtFrameCounter, CountsDuplicatesOnlyInARow) {
   EXPECT_EQ(counter.duplicates(), 200u);
 }
 
-// A packet has 21 values. The counter of a packet that is repeated after two others is 42 lower.
+// A packet has 21 values. A packet is repeated after two further packets, so its counter is 42
+// below the newest counter.
 TEST(CapancdtFrameCounter, DropsDuplicatesOfLargePackets) {
   Source source{CounterUnit::value, 3, 7, 1, 1000};
   FrameCounter counter(1, kMostLost);
@@ -229,7 +230,7 @@ TEST(CapancdtRateWatch, ToleratesSlowControllers) {
 
 // The first frame arrives 64 s after the start of the host's clock. These 64 s do not count as a
 // slow interval.
-TEST(CapancdtRateWatch, SingleSlowStretchAtTheBeginningIsADelay) {
+TEST(CapancdtRateWatch, OneSlowIntervalAtTheBeginningIsADelay) {
   RateWatch watch(1e6);
   std::int64_t t_ns = 64'000'000'000;
   for (int i = 0; i < 10'000; ++i) {

@@ -93,7 +93,7 @@ inline Collected collect(Capancdt& driver, std::size_t scans) {
   return got;
 }
 
-// True if the device clock had a step. A stall of this computer of 0.1 s causes one.
+// True if the device clock had a step. If this computer stalls for 0.1 s, the clock has a step.
 inline bool clock_stepped(const Capancdt& driver) {
   return driver.health().clock.steps > 0;
 }

@@ -27,7 +27,7 @@ TEST(CapancdtSetup, RefusesAMissingChannel) {
   expect_has(error_of(Capancdt(rack.options).open()), "no input \"5\"");
 }
 
-TEST(CapancdtSetup, UsesTheControllersOrConfiguredRange) {
+TEST(CapancdtSetup, UsesTheReportedRangeOrElseTheConfiguredRange) {
   SimulatedCapancdt::Options device;
   device.inputs[0].range_um = 500;
   Rack reported(device);

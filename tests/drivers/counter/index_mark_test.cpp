@@ -12,7 +12,7 @@ using State = IndexMark::State;
 
 constexpr std::int64_t kQuarter = 1 << 22;  // a quarter of the range of 24 bits
 
-TEST(IndexMark, PassedAfterTheCountHasMovedOn) {
+TEST(IndexMark, PassedAfterThreeReadingsAwayFromTheMark) {
   IndexMark mark(24);
   EXPECT_EQ(mark.take(5), State::off);
   EXPECT_EQ(mark.arm(1000), static_cast<std::uint64_t>(kQuarter + 1000));
@@ -20,7 +20,8 @@ TEST(IndexMark, PassedAfterTheCountHasMovedOn) {
   EXPECT_EQ(mark.take(-70'000), State::awaited);
   EXPECT_EQ(mark.take(kQuarter + 1002), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 1016), State::at_mark);
-  // 17 counts from the mark: far enough, and this is the first of three readings.
+  // 17 counts from the mark are far enough. This is the first of the three readings that are
+  // needed.
   EXPECT_EQ(mark.take(kQuarter + 1017), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 1500), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 1510), State::passed);
@@ -46,7 +47,7 @@ TEST(IndexMark, NeverPassedWithTheWrongPolarity) {
   for (int i = 0; i < 10'000; ++i) EXPECT_EQ(mark.take(kQuarter + i % 4), State::at_mark);
 }
 
-TEST(IndexMark, FaultIsNotTheMark) {
+TEST(IndexMark, ImpossibleCountIsNotTheMark) {
   IndexMark mark(24);
   mark.arm(0);
   const std::int64_t near = kQuarter / 64;

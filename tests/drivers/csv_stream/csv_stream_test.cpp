@@ -56,8 +56,8 @@ TEST(CsvStream, ReadsRowsOfATcpServerWithItsTimes) {
   EXPECT_LT(std::abs(monotonic_ns() - all.time_ns.back()), 5'000'000'000);
 }
 
-// The acquisition marks samples as suspect while the clock is uncertain. It reads the state of the
-// clock at each block.
+// The acquisition marks samples as suspect while the clock is uncertain. The acquisition reads the
+// state of the clock at each block.
 TEST(CsvStream, LateRowsMakeTheClockUncertain) {
   CsvStream stream("probe", command("printf 'time_s,A_um\\n5.00,1\\n'; sleep 0.5; "
                                     "printf '5.01,2\\n'; sleep 60"));

@@ -32,8 +32,8 @@ TEST(LabjackCountGuard, ReportsTooHighRatesWithin20Milliseconds) {
   }
 }
 
-// The count jumps by 400 and then stays constant. Such a jump means lost counts, and the guard
-// must report the loss from then on.
+// The count jumps by 400 and then stays constant. Such a jump means lost counts. The guard must
+// report the loss from this reading on.
 TEST(LabjackCountGuard, JumpIsReportedImmediatelyAndPermanently) {
   CountGuard guard(kMost);
   EXPECT_TRUE(guard.take(0, 0));
@@ -76,8 +76,8 @@ TEST(LabjackCountGuard, AllowsOscillatingEdgesAndRestarts) {
   EXPECT_TRUE(guard.take(1000, 0.003));
 }
 
-// If the device has kept its power, a count continues over the middle of its 32 bits. After a
-// restart of the device, the same bits are a negative count.
+// If the device has kept its power, the count continues past 0x7FFFFFFF as a positive number. After
+// a restart of the device, the same 32 bits are a negative count.
 TEST(LabjackCounter, RestartedDeviceCountsFromItsOwnZero) {
   Counter counter;
   counter.resume_count(false);

@@ -67,7 +67,7 @@ TEST(LabjackScanSplitter, ScansExtendOverPackets) {
   EXPECT_EQ(scans[1].words, (Words{4, 5, 6}));
 }
 
-TEST(LabjackScanSplitter, MarkMayExtendOverPackets) {
+TEST(LabjackScanSplitter, MarkOfAGapMayExtendOverPackets) {
   ScanSplitter line(3);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(Words{1, 2}, std::nullopt, scans));
@@ -79,7 +79,7 @@ TEST(LabjackScanSplitter, MarkMayExtendOverPackets) {
   EXPECT_EQ(scans[0].lost, 0U);
 }
 
-TEST(LabjackScanSplitter, MissingMarkIsAnError) {
+TEST(LabjackScanSplitter, GapWithoutItsMarkIsAnError) {
   ScanSplitter line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(Words{1, 1, kOnes}, 50, scans));

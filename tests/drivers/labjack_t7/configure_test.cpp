@@ -103,7 +103,7 @@ TEST(LabjackT7Configure, CounterHasASpeedLimit) {
       has(with_channel("id = \"A\"\ninput = \"AIN0\"\nmost_counts_per_s = 5\n"), "not counts"));
 }
 
-TEST(LabjackT7Configure, AnEncoderCountsOrGivesVolts) {
+TEST(LabjackT7Configure, EncoderMayBeACounterOrAVoltage) {
   const auto counts = settings("address = \"t7\"\n" + std::string(kChannels));
   EXPECT_TRUE(counts->encoder.counts);
   const auto volts = settings(

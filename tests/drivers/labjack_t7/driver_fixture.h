@@ -89,7 +89,7 @@ class LabjackT7Driver : public testing::Test {
     return sum;
   }
 
-  // Sets CORE_TIMER such that its value now is about `ticks` (within some seconds).
+  // Sets CORE_TIMER so that it now reads about `ticks`, to within some seconds.
   void core_reads(std::uint32_t ticks) {
     // 40 MHz; the number may wrap.
     core_start = ticks - static_cast<std::uint32_t>(truth.zero_ns / 25);

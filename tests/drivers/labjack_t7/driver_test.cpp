@@ -138,7 +138,7 @@ TEST_F(LabjackT7Driver, InvalidStreamIsAnErrorAndIsRestarted) {
   }
 }
 
-// C is the difference of 0.9 V and 0.25 V. One code of its range is a tenth of one code of the
+// Channel C is the difference 0.9 V - 0.25 V. One code of its range is a tenth of one code of the
 // other ranges. The settings of the other inputs must be correct, even if another program has
 // changed them.
 TEST_F(LabjackT7Driver, DifferentialInputHasItsOwnRange) {

@@ -124,7 +124,7 @@ TEST(LabjackT7Protocol, ErrorCodesHaveTexts) {
   EXPECT_EQ(error_text(1234), "LabJack error 1234");
 }
 
-TEST(LabjackT7Scans, CutsAndCountsScans) {
+TEST(LabjackT7Scans, DividesPacketsIntoNumberedScans) {
   PacketLine line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(packet(0, {1, 2, 3, 4}), scans));

@@ -151,7 +151,7 @@ double at_a_boundary(std::size_t input, std::int64_t t_ns) {
 }
 
 TEST_F(LabjackT7Device, UpperAndLowerWordBelongToTheSameCount) {
-  // False: the words must not fit together, which shows that this test can fail.
+  // Control: without capture, the two words must not fit together.
   for (const bool captured : {true, false}) {
     device = SimulatedLabjackT7(at_a_boundary, {});
     SimulatedLabjackT7::Faults faults;

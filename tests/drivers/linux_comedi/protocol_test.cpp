@@ -15,7 +15,7 @@ std::string bytes_of(const std::vector<Sample>& samples) {
   return bytes;
 }
 
-TEST(ComediCodes, CutsScansAtAnyReadBoundary) {
+TEST(ComediCodes, ReturnsWholeScansForAnyReadSize) {
   std::vector<std::uint16_t> narrow;
   std::vector<std::uint32_t> wide, expected;
   for (std::uint32_t i = 0; i < 300; ++i) {

@@ -62,7 +62,7 @@ TEST(Usb1608Protocol, RangesHaveTheirCodes) {
   EXPECT_EQ(config(3), bytes("03 03 03 03 03 03 03 03"));
 }
 
-TEST(Usb1608Protocol, CutsScansAtAnyTransferBoundary) {
+TEST(Usb1608Protocol, ReturnsWholeScansForAnyTransferSize) {
   std::string sent;
   for (int i = 0; i < 1000; ++i) sent += {static_cast<char>(i & 0xFF), static_cast<char>(i >> 8)};
   for (const std::size_t size : {1U, 2U, 3U, 10U, 64U, 999U, 2000U}) {

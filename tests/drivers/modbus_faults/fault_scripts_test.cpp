@@ -205,7 +205,7 @@ TEST(ModbusFaults, GivesNoWrongValueAndRecoversWithinTwoPolls) {
 // A device with one register rejects every sentinel. An exception does not show to which request
 // it belongs. Therefore the client waits until all older replies must have arrived: six response
 // time-outs. Then it uses the line again.
-TEST(ModbusFaults, RefusedSentinelsAreProvedByTime) {
+TEST(ModbusFaults, LineIsUsedAgainAfterRefusedSentinels) {
   for (int i = 0; i < std::min(scripts(), 5000); ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
     Script script = script_of(seed);

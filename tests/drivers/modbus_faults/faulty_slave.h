@@ -36,7 +36,8 @@ enum class FaultKind {
 struct Fault {
   FaultKind kind = FaultKind::late;
   int first = 5, requests = 1;  // first affected request, number of affected requests
-  // RTU: ignores requests that arrive before the reply is sent; false, and with TCP: queues them.
+  // True: an RTU slave ignores requests that arrive before it has sent its reply. False, or TCP:
+  // the slave queues these requests.
   bool ignores_when_busy = true;
   int most = modbus::kMostRegisters;  // rejects requests for more registers
 };

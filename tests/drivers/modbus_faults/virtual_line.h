@@ -1,6 +1,6 @@
-// A line to a device and a clock that exist only in memory. For one marked descriptor, they answer
-// the system calls of libmodbus and ByteStream, and waiting takes no real time. Other descriptors
-// and threads use the real system (system_calls.h).
+// A line to a device and a clock that exist only in memory. Line and clock answer the system calls
+// of libmodbus and ByteStream for one marked descriptor; waiting takes no real time. Other
+// descriptors and threads use the real system (system_calls.h).
 #pragma once
 
 #include <fcntl.h>

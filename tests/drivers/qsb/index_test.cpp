@@ -209,7 +209,7 @@ std::string configured(const std::string& keys) {
   return spec->encoder.index_mm ? "index at " + std::to_string(*spec->encoder.index_mm) : "none";
 }
 
-TEST(QsbIndexConfiguration, KeysAndTheirErrors) {
+TEST(QsbIndexConfiguration, ReadsKeysAndReportsErrors) {
   EXPECT_EQ(configured(""), "none");
   EXPECT_EQ(configured("index_mm = 12.5\nindex_inverted = true"), "index at 12.500000");
   const std::pair<const char*, const char*> wrong[] = {

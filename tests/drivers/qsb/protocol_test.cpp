@@ -77,8 +77,7 @@ TEST(TickLength, KeepsTheLengthIfDelaysExplainTheDifference) {
     EXPECT_EQ(learned(1e6, 1e6 * (1 + ppm * 1e-6), 70), 1e6) << ppm;
 }
 
-// The lengths are the one that follows from the roll-over time in the manual, 1/256 s, and a value
-// near 1/512 s.
+// Three true tick lengths: from the roll-over time in the manual; 1/256 s; a length near 1/512 s.
 TEST(TickLength, LearnsAnotherLength) {
   for (const double true_ns : {94.5 * 86400e9 / 4294967296.0, 1e9 / 256, 1e9 / 512 * 1.004}) {
     EXPECT_NEAR(learned(qsb::kTick_ns, true_ns, 0.7) / true_ns, 1, 0.02) << true_ns;

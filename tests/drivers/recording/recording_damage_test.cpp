@@ -39,7 +39,7 @@ TEST_F(RecordingTest, SigkillLosesNoAcknowledgedSamples) {
   }
 }
 
-TEST_F(RecordingTest, FlippedBitErrorNamesChunkSpanAndUndamaged) {
+TEST_F(RecordingTest, ErrorNamesTheDamagedChunkAndTheSoundChunks) {
   write(file_, 5, true);
   {
     auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);

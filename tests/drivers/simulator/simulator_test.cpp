@@ -26,8 +26,7 @@ Rig five_probes() {
   return rig;
 }
 
-// A first-order model. A and B are on the top, C to E on the side. The errors can be distinguished
-// with it.
+// A first-order model of five probes: A and B read the top, C to E the side.
 void forward(double d_m, const Errors5& e, std::span<double> probe_m) {
   for (std::size_t k = 0; k < probe_m.size(); ++k) {
     const double lever_m = d_m + 0.01 * static_cast<double>(k);

@@ -241,8 +241,8 @@ void Bus::Node::serve(std::int64_t now_ns) {
   wake();
 }
 
-// Called for an endpoint that had pending transfers before it was served. `waiting`: it still has
-// pending transfers.
+// Called for an endpoint that had pending transfers before serve(). `waiting`: the endpoint still
+// has pending transfers.
 void Bus::Node::note(Asked& a, bool waiting, std::int64_t now_ns) {
   if (a.idle_since_ns) a.longest_ns = std::max(a.longest_ns, now_ns - *a.idle_since_ns);
   a.idle_since_ns.reset();

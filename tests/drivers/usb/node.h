@@ -1,4 +1,4 @@
-// The usbfs node of one device. It has the transfers of the device and the pseudo terminal that
+// The usbfs node of one device, with the transfers of the device and the pseudo terminal that
 // programs poll.
 #pragma once
 

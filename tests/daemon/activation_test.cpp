@@ -50,7 +50,7 @@ TEST_F(ActivationTest, ActivatesTheTableThatWasBuilt) {
 
 // The ledger contains the hash of the table that was built. Another table with the same id has
 // another hash.
-TEST_F(ActivationTest, RejectsAnotherTableWithItsId) {
+TEST_F(ActivationTest, RejectsAnotherTableWithTheSameId) {
   const auto id = store_->add_table(table_).value();
   store_.reset();
   {

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The database while mdofd uses it: links to it, other databases, its removal, and the lists that it contains.
+"""The database while mdofd uses it: links to the file, other databases, removal of the file, and lists in the
+database.
 
 usage: database_test.py MDOFD MDOF"""
 import contextlib
@@ -141,8 +142,8 @@ class Database(unittest.TestCase):
         run = self.client.call("run.list")["runs"][0]["run"]
         return self.client.points(run), self.client.call("compensation.status")
 
-    # If mdofd opened a file of its own a second time, closing this descriptor would release the locks of SQLite. The
-    # next program that closes the database would then delete the -wal.
+    # If mdofd opened a file of its own a second time, closing the second descriptor would release the locks of
+    # SQLite. The next program that closes the database would then delete the -wal.
     def test_the_own_files_are_never_opened_a_second_time(self):
         before = self.acknowledged()
         hard, soft = (os.path.join(self.folder.name, name) for name in ("hard", "soft"))

@@ -285,8 +285,8 @@ class Devices(unittest.TestCase):
         self.assertEqual(self.client.call("run.get", run=cut)["state"], "aborted")
         before = self.client.points(cut)
         self.wait_until_all_flow()
-        # It is unknown whether the device has kept its count. If it has not, two positions would have the same target
-        # number.
+        # It is unknown whether the device has kept its count. If the count was lost, two positions would have the same
+        # target number.
         with self.assertRaisesRegex(RpcError, "has lost its datum since the run.*mdof encoder set"):
             self.client.call("run.resume", run=cut)
         self.say_where_it_stands()

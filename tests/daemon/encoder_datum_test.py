@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""An incremental encoder starts at 0 at any position of the axis. Runs and tables state this until the position is
-known: a user sets it (encoder.set, mdof encoder set), or the configuration contains it (offset_mm). If the
-device loses power, runs and tables state it again.
+"""An incremental encoder starts at 0 at any position of the axis. Runs and tables state that the positions have no
+datum, until a user sets the position (encoder.set, mdof encoder set) or the configuration contains the offset
+(offset_mm). If the device loses power, runs and tables state again that there is no datum.
 
 usage: encoder_datum_test.py MDOFD MDOF MDOF_SIMULATE"""
 import json

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The history contains who acted, with the uid, gid and pid of the requesting process. This applies to requests
-over the socket and on the command line. Also checks who may act.
+"""For each action over the socket or on the command line, the history contains the user, and the uid, gid and pid of
+the requesting process. Also checks which users may act.
 
 usage: history_test.py MDOFD MDOF"""
 import grp

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Faults of a T7 on real sockets. While mdofd uses the T7, no other program can open it. If the T7 is silent, the
-first client that asks is told that its data are stale. If the T7 restarts, mdofd reports this at once with the
-cause.
+"""Faults of a T7 on real sockets. While mdofd uses the T7, no other program can open it. If the T7 is silent, mdofd
+marks the data as stale in its reply to the first client that asks. If the T7 restarts, mdofd reports the restart at
+once with the cause.
 
 usage: trouble_test.py MDOFD MDOF MDOF_SIMULATE"""
 import fcntl

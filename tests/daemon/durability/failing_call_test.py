@@ -3,9 +3,10 @@
 
 usage: failing_call_test.py MDOFD MDOF FAILING_CALLS.so [--lives N] [--seed S]
 
-In each life of the daemon another call fails (failing_calls.cpp), once or permanently, with ENOSPC or EIO. The
-daemon may refuse to start or end its run as failed, but it must not crash. Then it is killed and started without a
-fault: each acknowledged point and chunk is present, database and recording are sound, and it measures again."""
+The test starts the daemon many times ("lives"). In each life another call fails (failing_calls.cpp), once or
+permanently, with ENOSPC or EIO. The daemon may refuse to start, or may end its run as failed, but must not crash. Then
+the daemon is killed and started without a fault: each acknowledged point and chunk is present, database and recording
+are sound, and the daemon measures again."""
 import argparse
 import atexit
 import errno

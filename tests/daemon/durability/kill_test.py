@@ -4,11 +4,10 @@
 usage: kill_test.py MDOFD MDOF [--kills N] [--durability full|normal] [--seed S] [--naive]
 
 A client notes what the daemon acknowledges: points (run.event "points") and chunks of the recording (run.event
-"recorded"). After each kill: the database passes its integrity check, every acknowledged point is present to the
-bit, the recording is readable at least up to the last acknowledged chunk, and the daemon serves again within 2 s. At
-the same time other programs write and read (storekeeper/others.py): their acknowledged tables and replays are
-present as well.
-
+"recorded"). After each kill: the database passes its integrity check, every acknowledged point is present bit for bit,
+the recording is readable at least up to the last acknowledged chunk, and the daemon serves again within 2 s. At the
+same time other programs write and read (storekeeper/others.py): their acknowledged tables and replays are present as
+well.
 With --durability normal the test must still pass: SIGKILL ends a process but not the kernel, and written data
 survive in the page cache. Only a power cut shows the difference. --break-it deletes a row without the daemon's
 knowledge, to show that a loss is detected. With --naive a foreign file is opened for writing at the same time, and

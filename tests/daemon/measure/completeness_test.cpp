@@ -30,7 +30,7 @@ std::vector<MeasuredPoint> passes(int repeats) {
   return points;
 }
 
-TEST(Completeness, AllTargetsOfAllRepeatsFromBothSidesAreComplete) {
+TEST(Completeness, AllTargetsRepeatsAndApproachesAreComplete) {
   EXPECT_TRUE(all_measured(kTargets_m, 2, passes(2)));
   EXPECT_TRUE(missing_notices(kTargets_m, 2, passes(2)).empty());
   EXPECT_TRUE(missing_notices(kTargets_m, 2, passes(3)).empty());
@@ -64,7 +64,7 @@ TEST(Completeness, ReportsAnUnsolvedPointAsMissingWithItsReason) {
   EXPECT_TRUE(missing_notices(kTargets_m, 1, points).empty());
 }
 
-TEST(Completeness, MostPointsUnsolvedIsNotComplete) {
+TEST(Completeness, ARunWithMostPointsUnsolvedIsNotComplete) {
   std::vector<MeasuredPoint> points(269, point(1, 1, 1, "five probes are needed"));
   points.insert(points.end(), 6, point(1, 1));
   const auto missing = missing_notices({}, 0, points);

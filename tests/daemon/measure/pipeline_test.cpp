@@ -134,7 +134,7 @@ TEST(Pipeline, TheDivisionIntoBlocksChangesNoBit) {
   }
 }
 
-TEST(Pipeline, AProbeMissingAtOneStopCostsOnlyThatPoint) {
+TEST(Pipeline, AProbeMissingAtOneStopLosesOnlyThatPoint) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
     lose(block, kC, stop_begin_scan(2), stop_begin_scan(2) + kStand);
   });
@@ -169,7 +169,7 @@ TEST(Pipeline, AProbeAtTheEndOfItsRangeGivesNoReading) {
   EXPECT_SAYS(all_notices(*run), "probe_beyond_range C points=1 of=10 range_um=200\n");
 }
 
-TEST(Pipeline, AFewMissingReadingsOfAStopCostNoPoint) {
+TEST(Pipeline, AFewMissingReadingsOfAStopLoseNoPoint) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
     lose(block, kC, stop_begin_scan(2) + 200, stop_begin_scan(2) + 220);
   });
@@ -277,7 +277,7 @@ TEST(Pipeline, TheTemperatureIsTheMeanOfItsReadings) {
   EXPECT_EQ(run->header.temperature->max_C, 21);
 }
 
-TEST(Pipeline, LostScansAreCountedAndHideTheTravel) {
+TEST(Pipeline, LostScansAreCountedAndTheApproachIsAssumed) {
   const TestAxis axis = both_ways();
   Pipeline pipeline = pipeline_of();
   // Before the movement to stop 7; the lost scans include this movement and 50 scans of the stop.
@@ -294,7 +294,7 @@ TEST(Pipeline, LostScansAreCountedAndHideTheTravel) {
     EXPECT_EQ(algo::has_flag(run->points[i].point, Flag::approach_assumed), i == 7) << i;
 }
 
-TEST(Pipeline, TheLiveViewShowsTheNewestInstantAndKeepsNoPoints) {
+TEST(Pipeline, TheLiveViewShowsTheNewestScanAndKeepsNoPoints) {
   PipelineOptions options;
   options.keep_points = false;
   Pipeline view = pipeline_of(five_probe_rig(), options);

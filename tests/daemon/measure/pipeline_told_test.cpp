@@ -77,7 +77,7 @@ TEST(PipelineTold, ReportsPositionsWithoutADatum) {
 }
 
 // The quality of the encoder is suspect during one whole stop.
-TEST(PipelineTold, AStopWithoutAPositionIsOmittedWithItsTime) {
+TEST(PipelineTold, ReportsTheTimeOfAnOmittedStopWithoutPosition) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   SampleBlock block = axis.whole();
@@ -95,7 +95,7 @@ TEST(PipelineTold, AStopWithoutAPositionIsOmittedWithItsTime) {
                   "stops_not_placed daq points=1 from_s=3.8");  // 3.7 s plus the settling time
 }
 
-TEST(PipelineTold, ReportsAHoleInTheRecording) {
+TEST(PipelineTold, ReportsAGapInTheRecording) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   const std::size_t unseen = stop_first_scan(7) - kToStop;

@@ -34,7 +34,7 @@ std::string json_of(const StatedFigures& figures) {
   return json.take();
 }
 
-TEST(StatedFigures, AreTheSameTogetherAndAlone) {
+TEST(StatedFigures, EqualTheFiguresCalculatedAlone) {
   const auto run = run_with(declared_toml(), 20);
   const StatedRun stated = stated_run(run);
   EXPECT_EQ(stated.figures.why, "");
@@ -44,7 +44,7 @@ TEST(StatedFigures, AreTheSameTogetherAndAlone) {
   EXPECT_EQ(stated.points.points[3].U, uncertainty_of(run).points[3].U);
 }
 
-TEST(StatedFigures, StateWhyTheyAreOmitted) {
+TEST(StatedFigures, HaveAReasonIfTheyAreOmitted) {
   const auto why = [](const auto& run) {
     EXPECT_EQ(figure_budgets(run).why, stated_run(run).figures.why);
     EXPECT_TRUE(stated_run(run).figures.budgets.empty());

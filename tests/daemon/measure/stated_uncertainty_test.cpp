@@ -203,7 +203,7 @@ class MeasuredAxis {
   double at_mm_ = -1, step_m_ = 0;
 };
 
-// The run that an axis without faults of the fixture would give.
+// The run that a fixture without faults would measure on this axis.
 Run true_run(const Rig& rig) {
   std::vector<double> targets_m;
   for (const double mm : kTargets_mm) targets_m.push_back(1e-3 * mm);
@@ -212,7 +212,8 @@ Run true_run(const Rig& rig) {
   return exact.measure();
 }
 
-// Counts one point of the run. The seed selects the point.
+// Counts, for each error, whether the interval of one point contains the true value. The seed
+// selects the point.
 void count_points(Coverage& coverage, const Rig& rig, const Run& run, const Run& truth,
                   std::uint64_t seed) {
   const auto u = algo::run_uncertainty(rig, run);
@@ -348,7 +349,7 @@ TEST(StatedUncertainty, HoldsTheTruthWithARandomWalk) {
 
 // Without declared contributors, u of a point contains only noise and the repeatability of the
 // run. This must be sufficient.
-TEST(StatedUncertainty, HoldsThePointsOfARigThatDeclaresNothing) {
+TEST(StatedUncertainty, HoldsTheTruthOfPointsIfNothingIsDeclared) {
   const int pairs = coverage_runs(100);
   for (const Noise kind : {Noise::white, Noise::pink}) {
     SCOPED_TRACE(static_cast<int>(kind));

@@ -23,13 +23,13 @@ inline Rig five_probe_rig(char axis = 'X') {
 
 // The five errors of the target at travel d, in the frame of the axis.
 struct TrueErrors {
-  // dy, dz: displacement of the target's point at the origin of frame C.
+  // dy, dz: displacement of the point of the target at the origin of frame C (carriage).
   double dy_um, dz_um, ex_urad, ey_urad, ez_urad;
 
   static TrueErrors at(double d_mm) {
     return {1 + 0.2 * d_mm, 0.5 - 0.1 * d_mm, 3 + d_mm, 2 - 0.5 * d_mm, -4 + 0.7 * d_mm};
   }
-  // Errors of the target's point at the origin of the fixture; m, rad.
+  // Errors of the point of the target at the origin of the fixture; m, rad.
   std::array<double, 5> at_fixture(double d_mm) const {
     return {1e-6 * (dy_um - 1e-3 * d_mm * ez_urad), 1e-6 * (dz_um + 1e-3 * d_mm * ey_urad),
             1e-6 * ex_urad, 1e-6 * ey_urad, 1e-6 * ez_urad};

@@ -133,7 +133,7 @@ TEST_F(CompensationMethods, ValuesAreTheErrorsOfPositionAndApproach) {
     const Answer at = value_at(15, direction);
     EXPECT_NEAR(at.number("/result/error/EYX_um"), 1e6 * truth.at_fixture(15)[0], 1e-2)
         << at.text();
-    // Angles are relative to the angle at the start.
+    // Angles are relative to the angle at the first position.
     EXPECT_NEAR(at.number("/result/error/EAX_urad"), truth.ex_urad - first.ex_urad, 1e-2);
     EXPECT_NEAR(at.number("/result/error/EBX_urad"), truth.ey_urad - first.ey_urad, 1e-2);
     EXPECT_EQ(at.number("/result/direction"), direction);
@@ -154,7 +154,7 @@ TEST_F(CompensationMethods, WithoutAChainTheCorrectionIsNullWithAReason) {
   EXPECT_SAID(at.at("/result/correction_reason"), "chain");
 }
 
-TEST_F(CompensationMethods, RejectsOtherDirectionsThanTheThree) {
+TEST_F(CompensationMethods, RejectsInvalidDirectionsAndParameters) {
   activate();
   for (const int direction : {-2, 2}) {
     EXPECT_EQ(value_at(5, direction).code(), rpc::kInvalidParams);
@@ -172,7 +172,7 @@ TEST_F(CompensationMethods, RejectsOtherDirectionsThanTheThree) {
   EXPECT_EQ(call("compensation.at", R"({"axis":"Y","position_mm":1})").code(), rpc::kNotFound);
 }
 
-TEST_F(CompensationMethods, AGridIsReadByPageAndReportsAnotherGeneration) {
+TEST_F(CompensationMethods, AGridIsPagedAndRejectsAnotherGeneration) {
   const std::string generation = activate();
   const Answer page = call("compensation.grid", R"({"axis":"X","offset":3,"count":1})");
   ASSERT_EQ(page.size("/result/points"), 1u) << page.text();

@@ -107,7 +107,7 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndDeactivated) {
   EXPECT_EQ(call("history.list").at("/result/total"), "3");
 }
 
-TEST_F(VolumeMethods, TheGridIsPagedAndEqualsAt) {
+TEST_F(VolumeMethods, PagesOfTheGridEqualCompensationAt) {
   ASSERT_EQ(build(R"("axes": "XY", "step_mm": 0.5)").at("/result/nodes"), "1681");
   const std::string generation = activate(1).at("/result/generation");
   std::size_t nodes = 0;

@@ -83,7 +83,7 @@ TEST(FairOrder, NewMembersDoNotBlockTheOthers) {
   EXPECT_NEAR(served, 100, 10);
 }
 
-TEST(FairOrder, AnIdleMemberSavesNoTurns) {
+TEST(FairOrder, AnIdleMemberGetsNoExtraTurnsLater) {
   Busy busy({{'a', 1}});
   busy.turns(1000);
   busy.come('x', 100);

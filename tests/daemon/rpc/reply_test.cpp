@@ -101,7 +101,7 @@ class Replies : public ::testing::Test {
   TestServer server_;
 };
 
-TEST_F(Replies, MayOvertakeEachOther) {
+TEST_F(Replies, MayBeSentInAnotherOrderThanTheCalls) {
   RawClient client(server_.path);
   client.send(later(1) + "\n" + later(2) + "\n");
   worker_.wait_for(2);
@@ -125,7 +125,7 @@ TEST_F(Replies, ABatchWaitsForAllItsMembers) {
                                result(3) + "," + result(1) + "]");
 }
 
-TEST_F(Replies, NotificationsGetNoneEvenLater) {
+TEST_F(Replies, NotificationsGetNoReplyEvenLater) {
   RawClient client(server_.path);
   client.send(R"([{"jsonrpc":"2.0","method":"later","params":[1]}])"
               "\n"

@@ -102,8 +102,8 @@ TEST(Datum, StopsAfterItsLossAreOmittedAndCounted) {
   }
 }
 
-TEST(Datum, AWrongPositionIsNotAGivenTarget) {
-  const LostCountAxis axis(kRestart);  // encoder shows 7 mm less: 8 at 15 mm
+TEST(Datum, AWrongPositionIsNotAssignedToATarget) {
+  const LostCountAxis axis(kRestart);  // the encoder shows 7 mm less: 8 mm at 15 mm
   const auto run = measured(axis, axis.scans(), 100, {0, 0.005, 0.008, 0.010, 0.015, 0.020});
   ASSERT_TRUE(run) << run.error().message;
   for (const auto& p : run->points) EXPECT_NE(p.target, 3) << "a stop at 15 mm counted as 8 mm";
@@ -117,7 +117,7 @@ TEST(Datum, LossFromTheStartIsTheReasonOfTheFailure) {
       << run.error().message;
 }
 
-TEST(Datum, SingleSuspectReadingsCostNoStop) {
+TEST(Datum, SingleSuspectReadingsOmitNoStop) {
   const LostCountAxis axis(99);
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
   Pipeline pipeline = Pipeline::create(rig, {}).value();

@@ -1,5 +1,5 @@
-// The position of an axis that a user sets: it is found and then applied. If the position is lost
-// later, a notice reports this.
+// A user sets the position of an axis: find() calculates the offset of the encoder, put() applies
+// it. If the position is lost later, a notice reports the loss.
 #include "daemon/station/encoder_zero.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ DatumSetting said(double position_m) {
   return {1, mdof::Axis::y, "t7", 0, position_m, position_m, "2026-11-01T06:00:00Z"};
 }
 
-TEST(EncoderZero, AFoundOffsetIsAppliedOnlyOnceItIsPut) {
+TEST(EncoderZero, AFoundOffsetIsAppliedOnlyAfterPut) {
   EncoderZero zero({counting()});
   SampleBlock block = resting_at(3);
   zero.apply(block);

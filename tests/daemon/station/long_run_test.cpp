@@ -13,7 +13,7 @@
 namespace mdof::daemon {
 namespace {
 
-// KStopScans, kMoveScans: numbers of scans, at 100 Hz.
+// kStopScans, kMoveScans: numbers of scans, at 100 Hz.
 constexpr int kTargets = 6, kPoints = 10'000, kStopScans = 40, kMoveScans = 8;
 
 // An axis that moves over the six targets and back, and reverses 1 mm beyond both ends. Each call
@@ -63,7 +63,7 @@ double cpu_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-TEST(LongRun, APointCostsTheSameAtTheEndAsAtTheStart) {
+TEST(LongRun, APointNeedsEqualCpuTimeAtTheStartAndTheEnd) {
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
   Pipeline asked = Pipeline::create(rig, {}).value(), silent = Pipeline::create(rig, {}).value();
   double early_s = 0, late_s = 0;
@@ -88,7 +88,7 @@ TEST(LongRun, APointCostsTheSameAtTheEndAsAtTheStart) {
   EXPECT_LT(late_s / 5, 2.5 * early_s);
   const double measured_s = cpu_s();
   const auto a = asked.finish();
-  // 10,000 points at six targets are 833 runs and an incomplete run.
+  // 10,000 points at six targets are 833 passes forward and back, and an incomplete pass.
   EXPECT_LT(cpu_s() - measured_s, 0.5 * (measured_s - begin_s));
   const auto b = silent.finish();
   ASSERT_TRUE(a && b);

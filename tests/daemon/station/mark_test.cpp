@@ -77,7 +77,7 @@ TEST_F(StationMark, OnlyARunAfterTheMarkHasMachinePositions) {
 }
 
 // The axis has not passed the mark since the new process started.
-TEST_F(StationMark, AfterARestartItMustBePassedAgain) {
+TEST_F(StationMark, AfterARestartTheMarkMustBePassedAgain) {
   pass_mark();
   make_station(true, kMark_mm);
   EXPECT_EQ(kind(), EncoderDatum::Kind::none);

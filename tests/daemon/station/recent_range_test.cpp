@@ -44,7 +44,7 @@ TEST(RecentRange, AMissingReadingDoesNotCount) {
   EXPECT_TRUE(std::isnan(recent.of(0).high_m));
 }
 
-TEST(RecentRange, OfALongBlockOnlyTheLastSecondCounts) {
+TEST(RecentRange, OnlyTheLastSecondOfALongBlockCounts) {
   RecentRange recent;
   std::vector<double> readings(3000, 1.0);
   readings[5] = 50;
@@ -80,7 +80,7 @@ double number_of(const std::string& json, const std::string& member) {
 
 // Only one scan of a probe is an outlier. An update shows the newest scan, but its range must
 // contain the outlier.
-TEST_F(FedStation, ASpikeBetweenTwoUpdatesIsInTheNextOne) {
+TEST_F(FedStation, ASpikeBetweenTwoUpdatesIsInTheNextUpdate) {
   station_->watch(std::chrono::milliseconds(20));
   TestAxis axis(0);
   axis.stand(0.4);

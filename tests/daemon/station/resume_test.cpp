@@ -22,7 +22,7 @@ TEST(Continuation, AClockThatRestartedContinuesAfterTheRecording) {
   SampleBlock first = block("t7", 1'000'000), late = block("capa", 1'000'000 - 2'000'000'000),
               next = block("t7", 1'500'000);
   for (SampleBlock* b : {&first, &late, &next}) continuation.shift(*b);
-  // Also for the device whose time stamps are 2 s earlier.
+  // The same shift applies to the device whose time stamps are 2 s earlier.
   EXPECT_GT(late.time_ns.front(), kEnd_ns);
   EXPECT_EQ(first.time_ns.front() - late.time_ns.front(), 2'000'000'000);
   EXPECT_EQ(next.time_ns.front() - first.time_ns.front(), 500'000);

@@ -67,7 +67,7 @@ TEST_F(StationTest, ARunAndAReplayOfItsRecordingHaveTheSameBits) {
   EXPECT_EQ(log->sha256(), run.header.provenance.recording_sha256);
 }
 
-TEST_F(StationTest, ARunEndsByItselfWhenItIsFull) {
+TEST_F(StationTest, ARunEndsByItselfAtItsLimitOfStops) {
   options_.max_stops = 3;
   make_station();
   const auto id = start();

@@ -16,7 +16,7 @@ class StationTrouble : public FedStation {
   TestAxis axis_;
 };
 
-TEST_F(StationTrouble, ADeviceLossCostsOnlyTheUnseenPoints) {
+TEST_F(StationTrouble, ADeviceLossLosesOnlyThePointsOfThatTime) {
   const auto id = start();
   give(axis_, 0, kAtThird);
   feed_->go();

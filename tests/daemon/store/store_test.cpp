@@ -250,7 +250,7 @@ TEST_F(StoreTest, ListsRunsNewestFirstByPageAndAxis) {
   EXPECT_EQ(store->count_runs(Axis::z).value(), 0);
 }
 
-TEST_F(StoreTest, PagesPoints) {
+TEST_F(StoreTest, ReadsPointsByPage) {
   const mdof::Run run = make_run(25);
   auto store = writer();
   ASSERT_TRUE(store->add_run(run));
@@ -261,7 +261,7 @@ TEST_F(StoreTest, PagesPoints) {
   EXPECT_TRUE(store->points(1, 25, 10)->empty());
 }
 
-TEST_F(StoreTest, SharesRigsAndRecordings) {
+TEST_F(StoreTest, StoresEqualRigsAndRecordingsOnce) {
   auto store = writer();
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(store->add_run(make_run(1)));
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_only);

@@ -188,7 +188,7 @@ class Snapshot {
   Told told_;
 };
 
-TEST_F(EveryWrite, ACrashBetweenAnyTwoLosesNothingAcknowledged) {
+TEST_F(EveryWrite, ACrashBetweenTwoWritesLosesNothingAcknowledged) {
   for (const bool otherwise : {false, true}) {
     std::vector<Snapshot> crashes;
     {

@@ -1,11 +1,15 @@
 """Programs that run beside a measuring mdofd in the tests that end it: a second writer (mdof compensation build,
 mdof squareness), run.replay and mdof verify of foreign files, and a program that opens and closes the database.
 
-The foreign files are a log; a database whose rollback journal names the -wal of mdofd's database, or the current
-recording, as its super-journal, which SQLite deletes for any program that opens such a file for writing; and mdofd's
-own database, -wal, -shm and recording, whose locks are released when mdofd closes a second descriptor of them. With
-`naive` the foreign database is opened for writing, as by any program with SQLite: acknowledged data must then be
-lost."""
+The foreign files are:
+- a log
+- a database whose rollback journal names a file of mdofd as its super-journal: the -wal of mdofd's database, or the
+  current recording. When any program opens the foreign database for writing, SQLite deletes this file of mdofd.
+- mdofd's own database, -wal, -shm and recording. If mdofd closed a second descriptor of such a file, the locks on the
+  file would be released.
+
+With `naive`, a program opens the foreign database for writing, as any program with SQLite does: acknowledged data must
+then be lost."""
 import json
 import os
 import sqlite3

@@ -42,7 +42,8 @@ TEST(Qsb, StreamsWithTheDevicesTimes) {
   for (std::size_t i = 2; i < all.scans.size(); ++i) {
     // 1.953125 counts per line at 0.5 µm per count; the count is rounded.
     EXPECT_NEAR(all.scans[i][0] - all.scans[i - 1][0], 0.9765625, 0.51) << i;
-    // The clock has not settled yet. Until then, its times may differ by 20 % from the true rate.
+    // The clock has not settled yet. Until then, the rate of its times may differ by 20 % from the
+    // true rate.
     EXPECT_NEAR(static_cast<double>(all.time_ns[i] - all.time_ns[i - 1]), qsb::kTick_ns,
                 0.2 * qsb::kTick_ns + 2);
   }

@@ -140,7 +140,7 @@ TEST_F(ConfigFile, ChannelsOfAnyDriverMayHaveADelay) {
 
 // An AD7746 samples its probes slowly, and a second device counts the encoder. The default
 // max_gap_s is accepted. A max_gap_s shorter than the sampling interval of the probes is rejected.
-TEST_F(ConfigFile, RejectsAGapShorterThanAProbesInterval) {
+TEST_F(ConfigFile, RejectsAMaxGapBelowTheSamplingInterval) {
   std::string axis = "[[axis]]\nrig = \"rig_X.toml\"\n";
   const auto iio = [&](const std::string& name, const std::string& first, const char* second) {
     axis += "[[axis.device]]\ndriver = \"linux_iio\"\nname = \"" + name + "\"\ndevice = \"" + name +

@@ -55,7 +55,7 @@ class SameDevice : public testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(SameDevice, EachAxisHasItsEncoderAndBothTheProbes) {
+TEST_F(SameDevice, EachAxisHasItsOwnEncoderAndTheSharedProbes) {
   const auto config = load(kX + axis_y(kSame + kEncoderY));
   ASSERT_TRUE(config) << config.error().message;
   const auto& x = config->axes[0].devices.at(0);

@@ -1,5 +1,5 @@
-// Devices whose sampling interval is longer than max_gap_s. The gap is increased to suit the rate
-// of the device, or the configuration is rejected.
+// Devices whose sampling interval is longer than max_gap_s. max_gap_s of these channels is
+// increased to suit the rate of the device, or the configuration is rejected.
 #include "daemon/measure/configuration/slow_channels.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ drivers::DeviceInfo device(const std::string& name, double rate_hz,
   return info;
 }
 
-TEST(SlowChannels, OnlySlowChannelsHaveTheirOwnGap) {
+TEST(SlowChannels, OnlySlowChannelsGetALargerMaxGap) {
   const auto align = with_intervals({}, {device("adam", 10, {"A", "B"}), device("t7", 1000, {"C"}),
                                          device("script", 0, {"D"}), device("ad7746", 45, {"E"})});
   EXPECT_DOUBLE_EQ(align.gap_s("A"), 0.25);

@@ -11,7 +11,7 @@
 namespace mdof::daemon {
 namespace {
 
-TEST(TableFunctions, AnUnknownUIsTheLargestOfTheOthers) {
+TEST(TableFunctions, AnUnknownUIsReplacedByTheLargestKnownU) {
   const ErrorFunction f =
       function_of({0, 1, 2}, {5, 6, 7}, {5, kNaN, 7}, {0.1, kNaN, 0.3}, {0.01, kNaN, 0.02});
   EXPECT_EQ(f.reverse, (std::vector<double>{5, 6, 7}));
@@ -21,8 +21,9 @@ TEST(TableFunctions, AnUnknownUIsTheLargestOfTheOthers) {
   EXPECT_TRUE(none.u_independent.empty());
 }
 
-// The mean of both approaches is 0, 4, 6 at the positions -2, 0, 4. At position 1 it is 4.5.
-TEST(TableFunctions, AnAngleIsReferredToTheGivenPosition) {
+// The mean of both approaches is 0, 4, 6 at the positions -2, 0, 4. At position 1 the interpolated
+// mean is 4.5.
+TEST(TableFunctions, AnAngleIsSetToZeroAtTheGivenPosition) {
   const ErrorFunction table =
       function_of({-2, 0, 4}, {-1, 3, 5}, {1, 5, 7}, {0.3, 0.4, 0.8}, {0.1, 0.1, 0.1});
   ErrorFunction f = table;

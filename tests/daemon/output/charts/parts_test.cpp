@@ -55,7 +55,7 @@ TEST(PlotText, FindsDecimalExponents) {
   EXPECT_EQ(power_of_ten(22), 1e22);
 }
 
-TEST(PlotText, SetsTheUnitApartFromTheName) {
+TEST(PlotText, SeparatesTheUnitFromTheName) {
   EXPECT_EQ(key_label("EAX_urad"), "EAX / µrad");
   EXPECT_EQ(key_label("EYX_um", -3), "EYX / (10⁻³ µm)");
   EXPECT_EQ(key_label("encoder.scale_ppm"), "encoder.scale / ppm");
@@ -90,7 +90,7 @@ TEST(PlotAxis, HasTicksAtRoundNumbers) {
   EXPECT_EQ(tenths.ticks[3].at, 0.3);
 }
 
-TEST(PlotAxis, TakesAPowerOfTenOutOfSmallAndLargeLabels) {
+TEST(PlotAxis, SmallAndLargeLabelsShareAPowerOfTen) {
   const Axis small = vertical_axis({0, 4e-8, false}, 150);
   EXPECT_EQ(small.exponent, -9);
   EXPECT_EQ(labels(small), (Labels{"0", "10", "20", "30", "40"}));
@@ -99,7 +99,7 @@ TEST(PlotAxis, TakesAPowerOfTenOutOfSmallAndLargeLabels) {
   EXPECT_EQ(labels(large), (Labels{"0.0", "0.5", "1.0", "1.5", "2.0"}));
 }
 
-TEST(PlotAxis, IsSensibleForAnyRange) {
+TEST(PlotAxis, HasFiniteLimitsAndTicksForAnyRange) {
   for (const auto& [low, high] : {std::pair{-kInf, kInf},
                                   {kNaN, kNaN},
                                   {5.0, 5.0},

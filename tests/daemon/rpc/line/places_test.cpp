@@ -97,7 +97,7 @@ TEST(Places, OthersAreAcceptedBesideAUserAtHisLimit) {
   EXPECT_EQ(unprivileged_exit_code(server), 0);
 }
 
-TEST(Places, OneIsReservedForTheControlGroup) {
+TEST(Places, OneConnectionIsReservedForTheControlGroup) {
   ServerOptions options = limits(64);
   options.kept_for_group = ::getgid();
   TestServer server(options);

@@ -54,14 +54,14 @@ class Turns : public ::testing::Test {
   TestServer server_;
 };
 
-TEST_F(Turns, ConsecutiveRequestsLetOthersIn) {
+TEST_F(Turns, OthersAreServedBetweenConsecutiveRequests) {
   server_.start();
   std::string many;
   for (int i = 0; i < kMany; ++i) many += kSpin + "\n";
   EXPECT_LT(calls_run_before_another(many), kMany / 2);
 }
 
-TEST_F(Turns, ABatchLetsOthersInBetweenItsMembers) {
+TEST_F(Turns, OthersAreServedBetweenMembersOfABatch) {
   server_.start();
   std::string many = "[" + kSpin;
   for (int i = 1; i < kMany; ++i) many += "," + kSpin;

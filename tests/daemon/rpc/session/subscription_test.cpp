@@ -154,7 +154,7 @@ TEST_F(Subscriptions, ValuesAreNotSentFasterThanRequested) {
 // If there is one subscriber, a value is made when the next value of this subscriber is due. If
 // several subscribers have different intervals, values are made at the minimum interval of the
 // topic, so that each subscriber gets a recent value.
-TEST_F(Subscriptions, ValuesAreRequestedAtTheIntervalOfAll) {
+TEST_F(Subscriptions, RequestIntervalSuitsAllSubscribers) {
   const auto every = [&] {
     return server_.on_loop([&] { return server_.service->wanted_interval("live.frame"); });
   };

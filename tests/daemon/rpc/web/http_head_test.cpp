@@ -109,8 +109,7 @@ TEST(HttpHead, HasLimits) {
   EXPECT_NE(head_status(with_fields("Content-Length: 18446744073709551621\r\n")), 200);
 }
 
-// The bytes may arrive in any parts.
-TEST(HttpHead, EndsAtTheSamePlace) {
+TEST(HttpHead, EndIsFoundForAnyDivisionOfTheBytes) {
   const std::string text = with_fields("Content-Length: 2\r\n") + "{}";
   std::size_t scanned = 0;
   for (std::size_t n = 1; n < text.size() - 2; ++n)

@@ -208,7 +208,7 @@ bool is_healthy_throughout(Script::Act act) {
   return healthy;
 }
 
-TEST(Acquisition, AnAnnouncedLongStepIsNotAHangUp) {
+TEST(Acquisition, AnAnnouncedLongReadIsNotAHang) {
   EXPECT_TRUE(is_healthy_throughout(slow_read));
   EXPECT_FALSE(is_healthy_throughout(hang));
 }

@@ -25,7 +25,7 @@ TEST(SpareBlocks, TheLastBlockOfADeviceIsReusedWithItsMemory) {
   EXPECT_EQ(spare.take("t7").scans(), 300u);
 }
 
-TEST(SpareBlocks, OnlyAFewOfManyAreKept) {
+TEST(SpareBlocks, KeepsOnlyAFewBlocks) {
   SpareBlocks spare;
   for (std::size_t i = 1; i <= 100; ++i) spare.put(used("capa", i));
   std::size_t kept = 0;

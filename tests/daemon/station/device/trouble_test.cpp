@@ -23,7 +23,7 @@ TEST(TroubleLog, ARecoveredDeviceIsOneLineWithItsCause) {
             "2 s end=the device sends samples again after a break of 3.2 s\n");
 }
 
-TEST(TroubleLog, ManyAreSummarised) {
+TEST(TroubleLog, ManyTroublesAreSummarised) {
   TroubleLog log;
   for (int i = 0; i < 150; ++i) {
     log.add(at("14:02:11", Kind::lost, "no route"));
@@ -77,7 +77,7 @@ TEST(TroubleLog, NoTroubleGivesNoLine) {
   EXPECT_TRUE(TroubleLog().summary().empty());
 }
 
-TEST(JournalLimit, TheFirstIsReportedAtOnceAndAFloodIsCounted) {
+TEST(JournalLimit, TheFirstMessageIsWrittenAtOnceAndAFloodIsCounted) {
   JournalLimit journal;
   JournalLimit::Time now{};
   EXPECT_EQ(journal.admit("a", "a: lost", now), "a: lost");

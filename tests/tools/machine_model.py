@@ -51,9 +51,9 @@ def dot(a, b):
 
 
 def reading(in_C, point, direction):
-    """Distance from `point` along the probe's direction to the plane of the target. The plane is fixed in C. Its
-    place is where the probe meets it if C = M, and it is perpendicular to the probe's direction. in_C
-    transforms from M into C."""
+    """Distance from `point` along the probe's direction to the plane of the target. The plane is fixed in the frame
+    C of the carriage and perpendicular to the probe's direction. If C = M, the plane contains `point`. in_C: pose
+    that transforms from M into C."""
     offset = dot(direction, point)
     p = applied(in_C, point)
     u = [sum(in_C[i][k] * direction[k] for k in range(3)) for i in range(3)]

@@ -61,8 +61,8 @@ class Mill:
         return model.readings(axis, pose if axis == "X" else model.inverse(pose))
 
     def deviation(self, axis, at):
-        """The reading of a laser in m, in the scale of the controller. The laser measures at the point of the body
-        for which the errors are stated."""
+        """The reading of a laser in m, in the scale of the controller. The laser measures at the reference
+        point of the errors on the moving body."""
         way = self.way[axis]
         if axis == "X":
             return way * model.error_at("X", way * at, self.pose("X", at), (0, 0, 0))[0]

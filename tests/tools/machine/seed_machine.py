@@ -33,8 +33,8 @@ def rigid_inverse(m):
 
 
 class Machine:
-    """The errors in mm and rad for commands in mm. If `size` is 1, the errors are about as large as in the paper
-    before compensation."""
+    """The errors in mm and rad for commands in mm. The errors are about as large as in the paper before compensation.
+    `angles`: factor of the angular errors."""
 
     def __init__(self, angles=1.0, square=25e-6):
         self.angles, self.square = angles, square
@@ -48,7 +48,7 @@ class Machine:
     def tool_in_work(self, x, y):
         """X moves the tool. Y moves the workpiece; its table moves to - as the command increases."""
         ex, ey = self.of_axis(x, 0.0, 4.5, 0.8), self.of_axis(y, 0.37, -3.5, 0.7)
-        c = (CENTRE, CENTRE, 0.0)  # the errors are stated for this point, the middle of the table
+        c = (CENTRE, CENTRE, 0.0)  # reference point of the errors: the middle of the table
         carriage = product(shift(c[0] + x + ex["along"], c[1] + ex["across"], ex["up"]), turn(*ex["turns"]),
                            shift(-c[0] , -c[1], 0))
         went = -y

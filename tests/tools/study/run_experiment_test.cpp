@@ -35,7 +35,7 @@ std::vector<std::vector<double>> run(const std::string& text, std::size_t n,
   return values;
 }
 
-TEST(StudyRun, ARunWithoutPerturbationFindsTheTruth) {
+TEST(StudyRun, ARunWithoutPerturbationMeasuresTheTrueErrors) {
   const auto x = run(plan_text("", "EYX_um = [2]\nEBX_urad = [50]\n"), 3);
   for (const auto& output : x)
     for (const double v : output) EXPECT_NEAR(v, 0, 1e-4);
@@ -85,7 +85,7 @@ TEST(StudyRun, ATargetOutOfRangeIsNotSolved) {
   EXPECT_TRUE(std::isnan(x[2][0]));
 }
 
-TEST(StudyRun, RefusesABlindRigAndCorrelatedNoise) {
+TEST(StudyRun, RefusesAnUndeterminedRigAndCorrelatedNoise) {
   auto plan = parse_study_plan("name = \"t\"\nrig = \"rig_blind.toml\"\noutput_of = \"run\"\n",
                                kFolder + "plan.toml");
   ASSERT_TRUE(plan);

@@ -140,7 +140,7 @@ TEST(StudyRunner, AContinuedStudyGivesTheSameBytes) {
 TEST(StudyRunner, AContinuedAdaptiveStudyGivesTheSameBytes) {
   Noise noise(60000);
   const std::string whole = run_through(noise, adaptive(1));
-  // Blocks that are calculated too much have no effect.
+  // Blocks that other threads calculate beyond the end of the study have no effect.
   EXPECT_EQ(whole, run_through(noise, adaptive(4)));
   EXPECT_EQ(whole, run_interrupted(noise, adaptive(2)));
 }
@@ -200,7 +200,7 @@ TEST(StudyRunner, ADamagedCheckpointIsAnError) {
   EXPECT_TRUE(parse_checkpoint(bytes, Noise(7)));  // this experiment has the same outputs and bins
 }
 
-TEST(StudyWorkers, DoExactlyTheFirstPieces) {
+TEST(StudyWorkers, FinishExactlyTheFirstPieces) {
   std::atomic<bool> go_on = true;
   std::atomic<int> done = 0;
   const std::size_t reported = in_parallel(
@@ -216,7 +216,7 @@ TEST(StudyWorkers, DoExactlyTheFirstPieces) {
             0u);
 }
 
-TEST(StudyWorkers, PassOnAnException) {
+TEST(StudyWorkers, RethrowAnExceptionOfTheWork) {
   const auto work = [](unsigned, std::size_t i) {
     if (i == 5) throw std::runtime_error("out of memory");
   };

@@ -5,7 +5,7 @@
 namespace mdof::tools {
 namespace {
 
-// A run of 3 min with two drifts: δy changes by +0.25 µm as a drift, δz by +0.5 µm, which may be
+// A run of 3 min with two changes: δy drifts by +0.25 µm; δz changes by +0.5 µm, which may be
 // steps.
 algo::RunDrift drift_and_steps() {
   algo::RunDrift drift;
@@ -22,7 +22,7 @@ algo::RunDrift drift_and_steps() {
   return drift;
 }
 
-TEST(DriftText, SaysWhatToDo) {
+TEST(DriftText, StatesTheRemedyForADrift) {
   mdof::Run run;
   run.header.axis = Axis::x;
   EXPECT_EQ(

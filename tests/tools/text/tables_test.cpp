@@ -27,7 +27,7 @@ std::size_t widest(const std::string& text) {
   return widest;
 }
 
-TEST(TextTable, SplitsIntoBlocksThatBeginWithTheKeys) {
+TEST(TextTable, SplitsIntoTablesThatBeginWithTheKeyColumns) {
   TextTable table({"run", "dir", "a/µm", "b/µm", "flags"}, 2);
   table.add({"1", "+", "1.0000", "2.0000", ""});
   table.add({"2", "-", "3.0000", "4.0000", ""});
@@ -77,7 +77,7 @@ TEST(TextTable, BreaksLongWordsButNoPaths) {
 }
 
 // The example of GUM 7.2.6: 10.057 62 Ω with u = 27 mΩ is written as 10.058 Ω.
-TEST(Rounded, UHasTwoDigitsAndTheValueTheSamePlace) {
+TEST(Rounded, UHasTwoDigitsAndTheValueEqualDecimals) {
   EXPECT_EQ(with_u(10.05762, 0.027, 4), "10.058 ± 0.027");
   EXPECT_EQ(with_u(12.3456, 1.149, 4), "12.3 ± 1.1");
   EXPECT_EQ(with_u(-0.123456, 0.00996, 4), "-0.123 ± 0.010");  // 0.00996 is rounded to 0.010
@@ -90,7 +90,7 @@ TEST(Rounded, UHasTwoDigitsAndTheValueTheSamePlace) {
   EXPECT_EQ(urad_to_place(3.3e-5, 3.3e-5), "33");
 }
 
-TEST(Rounded, AColumnWithSimilarUHasOnePlace) {
+TEST(Rounded, AColumnWithSimilarUHasEqualDecimals) {
   EXPECT_EQ(column_u({0.9, 1.1, 0.5}), 1.1);
   EXPECT_EQ(column_u({0.2, 1.0}), 1.0);
   EXPECT_EQ(column_u({0.19, 1.0}), 0);  // with the place of 1.0, 0.19 would have only one digit

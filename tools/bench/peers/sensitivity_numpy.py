@@ -20,7 +20,7 @@ QUANTILES = (0.025, 0.25, 0.5, 0.75, 0.975)
 
 
 class Simulation:
-    """`bins` rows with m trials; one row for each bin of travel."""
+    """Simulates m trials in each bin of travel. The arrays have one row for each bin."""
 
     def __init__(self, m, seed=1):
         self.rng = np.random.Generator(np.random.Philox(seed))

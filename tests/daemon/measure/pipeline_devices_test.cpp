@@ -41,7 +41,7 @@ class TwoDevices {
   std::size_t silent_, at_ = 0;
 };
 
-TEST(PipelineOfTwoDevices, MeasuresAsOneDeviceDoes) {
+TEST(PipelineOfTwoDevices, TwoDevicesGiveTheSamePointsAsOneDevice) {
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   TwoDevices devices;
   while (devices.feed(pipeline)) continue;

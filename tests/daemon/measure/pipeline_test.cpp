@@ -102,7 +102,7 @@ TEST(Pipeline, AnAxisThatNeverStopsIsNotComplete) {
 // First case: the table moves, and it moves in the - direction of M as the encoder increases.
 // Second case: the fixture moves in the + direction. In both cases the travel of the target is
 // minus the position of the encoder.
-TEST(Pipeline, TheMovingBodyAndItsDirectionGiveTheTravel) {
+TEST(Pipeline, TravelFollowsFromMovingBodyAndDirection) {
   for (const Sides sides : {Sides{false, true}, Sides{true, false}}) {
     Rig rig = five_probe_rig();
     rig.sides = sides;

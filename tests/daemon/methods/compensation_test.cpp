@@ -89,7 +89,7 @@ TEST_F(CompensationMethods, AnActiveTableIsServedWithItsGeneration) {
   EXPECT_EQ(at.at("/result/table"), "1");
 }
 
-TEST_F(CompensationMethods, StoredTablesAreListedAndReadActiveOrNot) {
+TEST_F(CompensationMethods, StoredTablesAreListedAndReadEvenIfNotActive) {
   const std::string generation = activate();
   ASSERT_EQ(call("compensation.build", R"({"runs":[1]})").at("/result/table"), "2");
   const Answer list = call("compensation.list", R"({"axis":"X"})");
@@ -115,7 +115,7 @@ TEST_F(CompensationMethods, StoredTablesAreListedAndReadActiveOrNot) {
   EXPECT_EQ(call("compensation.table", R"({"table":9})").code(), rpc::kNotFound);
 }
 
-TEST_F(CompensationMethods, TheReasonIsInTheHistory) {
+TEST_F(CompensationMethods, HistoryContainsTheReasonOfAnActivation) {
   add_run();
   ASSERT_EQ(call("compensation.build", R"({"runs":[1]})").code(), 0);
   call("compensation.activate", R"({"table":1,"despite_warnings":true,"reason":"new guide"})");
@@ -126,7 +126,7 @@ TEST_F(CompensationMethods, TheReasonIsInTheHistory) {
   EXPECT_EQ(history.at("/result/history/2/detail"), "");
 }
 
-TEST_F(CompensationMethods, ValuesAreTheErrorsOfPositionAndApproach) {
+TEST_F(CompensationMethods, ReturnsTheErrorsForPositionAndApproach) {
   activate();
   const TrueErrors first = TrueErrors::at(0), truth = TrueErrors::at(15);
   for (const int direction : {-1, 0, 1}) {

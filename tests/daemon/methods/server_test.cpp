@@ -121,7 +121,7 @@ TEST_F(ServerMethods, ReportsALostDatabaseAndStoresNothing) {
   }
 }
 
-TEST_F(ServerMethods, SubscribesToTheLiveViewAndEventsAndEndsBoth) {
+TEST_F(ServerMethods, SubscribesToLiveViewAndEventsAndUnsubscribes) {
   const Answer both = call("live.subscribe", R"({"interval_ms":200})");
   EXPECT_EQ(both.at("/result/interval_ms"), "200");
   using Subscribed = std::vector<std::pair<std::string, std::chrono::milliseconds>>;
@@ -135,7 +135,7 @@ TEST_F(ServerMethods, SubscribesToTheLiveViewAndEventsAndEndsBoth) {
   EXPECT_EQ(call("live.subscribe", R"({"interval_ms":20})").code(), 0);
 }
 
-TEST_F(ServerMethods, SetsTheEncoderOnlyWhileThePositionIsKnown) {
+TEST_F(ServerMethods, SetsTheEncoderOnlyIfItHasSentSamples) {
   EXPECT_EQ(call("encoder.set", R"({"axis":"X","position_mm":1})").code(), rpc::kNotFound);
   add_axis();
   const Answer nothing = call("encoder.set", R"({"axis":"X","position_mm":1})");

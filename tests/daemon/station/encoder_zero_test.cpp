@@ -55,7 +55,7 @@ TEST(EncoderZero, AFoundOffsetIsAppliedOnlyAfterPut) {
   EXPECT_EQ(zero.state().note, "set to 12.5 mm on 2026-11-23T07:00:00Z by uid 1000");
 }
 
-TEST(EncoderZero, VoltsAreOffsetByTheirScale) {
+TEST(EncoderZero, OffsetOfAPositionInVoltsUsesItsScale) {
   EncoderZero zero({counting()}, std::nullopt, -500);
   SampleBlock block = resting_at(2);
   block.channels[0].unit = Unit::volt;  // 2 V at -500 um/V are -1 mm
@@ -141,7 +141,7 @@ TEST(EncoderZero, ReportsThePositionLostByARestart) {
   EXPECT_EQ(EncoderZero({absolute}).state().note, "");
 }
 
-TEST(EncoderZero, ReportsAPositionLostWithPowerDifferently) {
+TEST(EncoderZero, NoticeStatesThatThePositionWasLostWithPower) {
   EncoderZero zero({counting()}, said(0.5));
   SampleBlock block = resting_at(3);
   zero.apply(block);
@@ -157,7 +157,7 @@ drivers::DriverSpec with_mark() {
   return device;
 }
 
-TEST(EncoderZero, AfterTheMarkPositionsAreThoseOfTheMachine) {
+TEST(EncoderZero, AfterTheMarkPositionsAreMachinePositions) {
   EncoderZero zero({with_mark()});
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
   EXPECT_EQ(zero.state().notice, notice(NoticeCode::reference_mark_not_passed, "t7"));

@@ -54,7 +54,7 @@ TEST(RecentRange, OnlyTheLastSecondOfALongBlockCounts) {
   EXPECT_EQ(recent.of(0).low_m, 1.0);
 }
 
-TEST(RecentRange, AnotherPassOfAFileStartsAgain) {
+TEST(RecentRange, RereadingAFileStartsANewRange) {
   RecentRange recent;
   recent.add(frames(5000, {8.0}));
   recent.add(frames(0, {1.0}));

@@ -79,7 +79,7 @@ TEST_F(StationTest, ARunEndsByItselfAtItsLimitOfStops) {
   EXPECT_SAYS(notices(run), "stops_over_limit stops=3 ");
 }
 
-TEST_F(StationTest, PointsAreReportedOnceStoredAndTheEndLast) {
+TEST_F(StationTest, PointsAreReportedAfterStorageAndTheEndIsLast) {
   const auto id = start(both_ways_once());
   give(axis_, 0, 1400);  // three stops; the third is still in progress
   EXPECT_SAYS(events_.wait_for({"\"points\":["}), "\"offset\":0");
@@ -124,7 +124,7 @@ TEST_F(StationTest, ARunEndsByItselfWhenAllTargetsAreMeasured) {
   EXPECT_EQ(late.error().code, ErrorCode::not_found);
 }
 
-TEST_F(StationTest, OneRunAtATime) {
+TEST_F(StationTest, RejectsASecondRunAtTheSameTime) {
   const auto id = start();
   const auto second = start();
   ASSERT_FALSE(second);

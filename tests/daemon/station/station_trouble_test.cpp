@@ -89,7 +89,7 @@ TEST_F(StationTrouble, TheProgramEndsInEveryStateWithoutALongWait) {
   for (const auto& header : headers) EXPECT_NE(header.state, RunState::open) << header.id;
 }
 
-TEST_F(StationTrouble, AnEndWhileResumingLeavesTheRunAborted) {
+TEST_F(StationTrouble, ProgramEndDuringResumeLeavesTheRunAborted) {
   const auto id = start();
   for (int pass = 0; pass < 5; ++pass) axis_.pass_both_ways({0, 5, 10});
   give(axis_, 0, axis_.scans());

@@ -294,7 +294,7 @@ TEST_F(HeldDatabase, DoesNotDelayOtherWork) {
   keeper_.reset();
 }
 
-TEST_F(HeldDatabase, ReportsThatTheDaemonEndsMeanwhile) {
+TEST_F(HeldDatabase, EndOfARunFailsWithARemedyIfTheDaemonEnds) {
   const std::int64_t id = begin();
   ForeignLock foreign(folder_ / "mdof.db");
   std::promise<Result<std::int64_t>> ended;

@@ -77,7 +77,7 @@ TEST_F(Notify, DoesNothingWithoutAServiceManager) {
   EXPECT_EQ(received(), "nothing");
 }
 
-TEST_F(Notify, TheWatchdogIsFedTwicePerTimeout) {
+TEST_F(Notify, WatchdogIntervalIsHalfTheTimeout) {
   EXPECT_FALSE(watchdog_interval());
   ::setenv("WATCHDOG_USEC", "10000000", 1);
   ::setenv("WATCHDOG_PID", std::to_string(::getpid()).c_str(), 1);

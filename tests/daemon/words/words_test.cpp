@@ -65,7 +65,7 @@ TEST(Catalogue, GermanHasTheSameContentInOtherWords) {
   }
 }
 
-TEST(Catalogue, CoveredContributionsHaveBothLanguages) {
+TEST(Catalogue, CoveredContributionsHaveTextsInBothLanguages) {
   const Covers all = {
 #define COVERED(code, english, german) Covered::code,
 #include "schema/uncertainty/covers.inc"
@@ -80,7 +80,7 @@ TEST(Catalogue, CoveredContributionsHaveBothLanguages) {
             "nur Rauschen (es sind keine Unsicherheiten angegeben)");
 }
 
-TEST(Catalogue, ContributorsHaveBothLanguages) {
+TEST(Catalogue, ContributorsHaveNamesInBothLanguages) {
   const ContributorKind all[] = {
 #define CONTRIBUTOR(code, english, german) ContributorKind::code,
 #include "schema/uncertainty/contributor_names.inc"

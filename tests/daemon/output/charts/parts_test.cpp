@@ -219,7 +219,7 @@ const Colour& paper() {
                        [](const Colour& c) { return c.mark == std::string_view("paper"); });
 }
 
-TEST(PlotStyle, HasTheContrastItClaimsInLightAndDark) {
+TEST(PlotStyle, ColoursHaveTheStatedContrastInLightAndDark) {
   EXPECT_NEAR(contrast("#ffffff", "#000000"), 21, 1e-9);
   const std::set<std::string_view> texts = {"text", "quiet"};
   const std::set<std::string_view> no_data = {"paper", "halo", "grid"};

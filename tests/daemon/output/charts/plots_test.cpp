@@ -172,7 +172,7 @@ TEST_F(Plots, DoNotDependOnTimeOrFolder) {
   EXPECT_EQ(write(r), before);
 }
 
-TEST_F(Plots, ShowTheirFigures) {
+TEST_F(Plots, ShowTheNumbersOfTheStudy) {
   const auto files = write(study());
   const auto has = [&](const std::string& file, const std::string& text) {
     return files.at(file).find(">" + text + "<") != std::string::npos;
@@ -244,7 +244,7 @@ TEST_F(Plots, TheLegendNamesOnlyIntervalsThatAreDrawn) {
   EXPECT_FALSE(names_intervals());
 }
 
-TEST_F(Plots, AConstantHasOneBar) {
+TEST_F(Plots, AConstantOutputHasOneBar) {
   StudyResult r;
   OutputSummary o = triangular("EAX_urad", 1);
   o.histogram = {2.5, 0, {1000}, 0, 0};

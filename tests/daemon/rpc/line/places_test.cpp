@@ -88,7 +88,7 @@ int unprivileged_exit_code(const TestServer& server) {
   return WEXITSTATUS(status);
 }
 
-TEST(Places, OthersAreAcceptedBesideAUserAtHisLimit) {
+TEST(Places, OtherUsersAreAcceptedWhenOneUserIsAtHisLimit) {
   if (::getuid() != 0) GTEST_SKIP() << "only root can become another user";
   TestServer server(limits(3));
   ::chmod(server.path.c_str(), 0666);

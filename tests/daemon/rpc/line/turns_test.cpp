@@ -68,7 +68,7 @@ TEST_F(Turns, OthersAreServedBetweenMembersOfABatch) {
   EXPECT_LT(calls_run_before_another(many + "]\n"), kMany / 2);
 }
 
-TEST_F(Turns, ADividedBatchHasOneReplyBeforeTheNext) {
+TEST_F(Turns, ADividedBatchIsAnsweredBeforeTheNextRequest) {
   server_.start();
   RawClient client(server_.path);
   std::string batch = "[" + kSpin;
@@ -131,16 +131,16 @@ class Http : public Turns {
   }
 };
 
-TEST_F(Http, ThePostOfAPageRunsNothing) {
+TEST_F(Http, AnHttpPostCallsNoMethod) {
   expect_closed_unrun("POST / HTTP/1.1\r\nHost: 127.0.0.1:7341\r\nContent-Type: text/plain");
 }
-TEST_F(Http, AnotherMethodRunsNothing) {
+TEST_F(Http, AnotherHttpMethodCallsNoMethod) {
   expect_closed_unrun("patch http://127.0.0.1:7341/x HTTP/1.1");
 }
-TEST_F(Http, AnOldGetRunsNothing) {
+TEST_F(Http, AnOldHttpGetCallsNoMethod) {
   expect_closed_unrun("GET /");
 }
-TEST_F(Http, AHeaderRunsNothing) {
+TEST_F(Http, AnHttpHeaderLineCallsNoMethod) {
   expect_closed_unrun("X-Requested-With: mdof");
 }
 

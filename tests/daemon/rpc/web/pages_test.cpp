@@ -112,7 +112,7 @@ TEST_F(WebPage, KeepsAConnectionForConsecutiveRequests) {
   EXPECT_TRUE(client.closes());
 }
 
-TEST_F(WebPage, RequestsABodyThatAClientHoldsBack) {
+TEST_F(WebPage, AnswersExpectContinueBeforeTheBodyArrives) {
   HttpClient client = this->client();
   const std::string body = call("get_data");
   const std::string request = post(body, "Expect: 100-continue\r\n");

@@ -196,7 +196,7 @@ TEST(ServedFiles, HaveATypeAndAnEtagOfTheirContent) {
 }
 
 // The files of the page that this build contains.
-TEST(ServedFiles, AreThoseOfTheBuild) {
+TEST(ServedFiles, ContainTheFilesOfThisBuild) {
   const ServedFiles files(page_files());
   ASSERT_NE(files.find("/"), nullptr);
   std::ifstream installed("/usr/share/javascript/dygraphs/dygraph.min.js");

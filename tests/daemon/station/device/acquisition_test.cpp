@@ -245,7 +245,7 @@ TEST(Acquisition, ReportsALostDatumAndKeepsItSuspect) {
   EXPECT_EQ(standing[0].kind, Trouble::Kind::suspect);
 }
 
-TEST(Acquisition, ReportsADeviceThatCannotBeOpenedAlsoLater) {
+TEST(Acquisition, ReportsOnceThatADeviceCannotBeOpened) {
   Collector collector;
   Acquisition acquisition(scripted_spec(std::deque<Script::Act>(100, refuse)), collector.sink());
   acquisition.start();

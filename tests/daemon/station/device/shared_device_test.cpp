@@ -163,7 +163,7 @@ TEST_F(SharedDeviceTest, ALossIsReportedToBothAxes) {
 }
 
 // The state of the device is checked once a second.
-TEST_F(SharedDeviceTest, ADatumBelongsToOneAxis) {
+TEST_F(SharedDeviceTest, ALostDatumAffectsItsAxisOnly) {
   start();
   state_->y_lost = true;
   const std::vector<std::string> suspect = {"suspect"};

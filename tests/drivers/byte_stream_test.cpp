@@ -52,7 +52,7 @@ TEST(ByteStream, ClosedPeerIsAnErrorWithoutASignal) {
   EXPECT_FALSE(pair.ours.write("x", milliseconds(1)));
 }
 
-TEST(ByteStream, PeerThatReadsNothingEndsTheWrite) {
+TEST(ByteStream, WriteFailsIfThePeerReadsNothing) {
   Pair pair = make_pair();
   const std::string much(1 << 22, 'x');
   const Status written = pair.ours.write(much, milliseconds(5));

@@ -45,7 +45,7 @@ TEST(Calibration, MissingValueStaysMissing) {
 
 // Calculated by hand. Each limit is inside the range by 0.05 % of the range (200 um). With reads =
 // "gap", a reading increases when the target recedes.
-TEST(Calibration, WindowLimitsAreDisplacementsInOrder) {
+TEST(Calibration, WindowLimitsAreDisplacementsInAscendingOrder) {
   const auto expect = [](const std::string& more, double low_um, double high_um) {
     const auto [low_m, high_m] = displacement_window_m(rig_with(more).probes[0]);
     EXPECT_NEAR(low_m, low_um * 1e-6, 1e-12) << more;
@@ -60,7 +60,7 @@ TEST(Calibration, WindowLimitsAreDisplacementsInOrder) {
 // A laboratory's um_per_V applies to volts, and must not be used for a reading that the amplifier
 // has converted to a length. If um_per_V is in the rig and not in a record, um_per_V may be for
 // logs in volts; then there is no notice.
-TEST(Calibration, LengthDoesNotUseTheScaleOfARecord) {
+TEST(Calibration, ScaleOfARecordDoesNotApplyToALength) {
   Rig rig = rig_with("um_per_V = 20\n");
   EXPECT_TRUE(unused_scales(rig, {{"A", Unit::um}}).empty());
   rig.probes[0].calibration.scale_record = "sensitivity-7";

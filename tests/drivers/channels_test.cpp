@@ -61,7 +61,7 @@ TEST(Channels, ReportsEachError) {
     EXPECT_NE(refusal(c.toml).find(c.says), std::string::npos) << refusal(c.toml);
 }
 
-TEST(Channels, MarkAppliesToTheEncoderWithoutOffset) {
+TEST(Channels, EncoderWithoutOffsetMayHaveAMark) {
   const std::string encoder = "[[channel]]\nid = \"encoder\"\ninput = \"count\"\n";
   const auto channels = read(encoder + "index_mm = -12.5\n");
   ASSERT_TRUE(channels) << channels.error().message;

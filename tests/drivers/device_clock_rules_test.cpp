@@ -18,7 +18,7 @@ std::int64_t at_ns(std::int64_t tick, double ppm) {
   return 7'000'000'000 + std::llround(static_cast<double>(tick) * kRuleTick_ns / (1 + ppm * 1e-6));
 }
 
-TEST(DeviceClockRules, NewClockHasNoState) {
+TEST(DeviceClockRules, NewClockIsNotSettledAndHasNoDrift) {
   const ClockState state = DeviceClock(kRuleTick_ns).state();
   EXPECT_EQ(state.drift_ppm, 0);
   EXPECT_EQ(state.jitter_ns, 0);

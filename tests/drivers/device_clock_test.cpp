@@ -68,7 +68,7 @@ TEST(DeviceClock, FollowsADriftThroughJitter) {
 }
 
 // The computer is busy when a device is opened, so the first packets seem to arrive 60 ms late.
-TEST(DeviceClock, CorrectsABusyBeginningSoon) {
+TEST(DeviceClock, CorrectsLateFirstPacketsWithin600Milliseconds) {
   const Device device{50, 1e6};
   DeviceClock clock(kTick_ns);
   double worst_us = 0;
@@ -95,7 +95,7 @@ TEST(DeviceClock, IsExactWithoutJitter) {
 }
 
 // A restart of the device sets its count to 0 or to another number.
-TEST(DeviceClock, JumpOfTheDeviceIsAStepAndTimesGrow) {
+TEST(DeviceClock, JumpOfTheCountIsAStepAndTimesStillIncrease) {
   for (const std::int64_t jump : {10'000, -10'000}) {
     DeviceClock clock(kTick_ns);
     const Device device{50, 1e6};
@@ -147,7 +147,7 @@ TEST(DeviceClock, ASlowLinkIsNoStep) {
 
 // The time of the device stops for 0.3 s. The clock is uncertain from the first later packet on,
 // until it has fitted a new line. A new line takes 64 s.
-TEST(DeviceClock, UncertainAfterTimeStoodStillUntilSettled) {
+TEST(DeviceClock, UncertainAfterDeviceTimeStoppedUntilSettled) {
   DeviceClock clock(kTick_ns);
   const Device device{0, 1e6};
   const std::int64_t from = 4'000, end = from + 35'000;
@@ -178,7 +178,7 @@ TEST(DeviceClock, SameCallsGiveTheSameBits) {
   }
 }
 
-TEST(DeviceClock, TimesGrowAfterAReset) {
+TEST(DeviceClock, TimesStillIncreaseAfterAReset) {
   DeviceClock clock(kTick_ns);
   follow(clock, {0, 1e6}, 1'000);
   const std::int64_t last = clock.host_ns(8'000);

@@ -90,7 +90,7 @@ TEST(DeviceLock, AnswersAnyNumberOfInquiries) {
   }
 }
 
-TEST(DeviceLock, LongNamesAreLocksToo) {
+TEST(DeviceLock, LongNamesCanBeLocked) {
   const std::string identity = fresh(std::string(5000, 'x'));
   auto held = DeviceLock::take(identity);
   ASSERT_TRUE(held);

@@ -104,7 +104,7 @@ std::string rule_for(const LinuxNode& node) {
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
-TEST(UdevRules, NewDeviceNeedsARowOnly) {
+TEST(UdevRules, NewDeviceNeedsOnlyARow) {
   const std::string group = R"(MODE="0660", GROUP="mdof", TAG+="uaccess")";
   EXPECT_EQ(rule_for(UsbDevice{.name = "A", .vendor = 0xABC, .product = 0x12}),
             R"(SUBSYSTEM=="usb", ENV{DEVTYPE}=="usb_device", ATTR{idVendor}=="0abc", )"

@@ -53,7 +53,7 @@ TEST(Capancdt, TimesAreOneSampleTimeApart) {
   EXPECT_NEAR(driver.info().rate_hz, 1e6 / 960, 1e-9);
 }
 
-TEST(Capancdt, ReturnsNothingBeforeTheClockIsWarm) {
+TEST(Capancdt, ReturnsNothingDuringTheWarmUpOfTheClock) {
   Rack rack;
   rack.options.warm_up = 80ms;
   Capancdt driver(rack.options);
@@ -65,7 +65,7 @@ TEST(Capancdt, ReturnsNothingBeforeTheClockIsWarm) {
   EXPECT_EQ(got.lost, 0u);
 }
 
-TEST(Capancdt, AcceptsBothOrdersOfTheSizes) {
+TEST(Capancdt, AcceptsBothOrdersOfTheSizeFields) {
   for (const SizeOrder sizes : {SizeOrder::bytes_per_frame_first, SizeOrder::frames_first}) {
     SimulatedCapancdt::Options device;
     device.faults.sizes = sizes;
@@ -153,7 +153,7 @@ TEST(Capancdt, DropsDuplicates) {
                 0.2 * 512e3 + 2);
 }
 
-TEST(Capancdt, VanishedChannelIsMissing) {
+TEST(Capancdt, ValuesOfAVanishedChannelAreMissing) {
   SimulatedCapancdt::Options device;
   device.faults.missing_channel = 1;
   device.faults.vanish_from = 20;
@@ -177,7 +177,7 @@ TEST(Capancdt, VanishedChannelIsMissing) {
   }
 }
 
-TEST(Capancdt, EndsOfTheRangeAreOverRange) {
+TEST(Capancdt, ReadingsAtTheEndsOfTheRangeAreOverRange) {
   Rack rack({}, [](std::size_t input, std::int64_t) { return input == 0 ? -5.0 : 5000.0; });
   Capancdt driver(rack.options);
   ASSERT_EQ(error_of(driver.open()), "");
@@ -189,7 +189,7 @@ TEST(Capancdt, EndsOfTheRangeAreOverRange) {
   EXPECT_EQ(got.all.value[1][0], 2000.0);
 }
 
-TEST(Capancdt, MathsChannelHasNoEndsOfRange) {
+TEST(Capancdt, ReadingsOfAMathsChannelAreNeverOverRange) {
   SimulatedCapancdt::Options device;
   device.inputs[2].maths = true;
   Rack rack(device, [](std::size_t, std::int64_t) { return 0.0; });

@@ -199,7 +199,7 @@ TEST(CapancdtFrameCounter, UnknownUnitIsAnError) {
   EXPECT_TRUE(placed.empty());
 }
 
-TEST(CapancdtRateWatch, ReportsAnotherRate) {
+TEST(CapancdtRateWatch, ReportsARateThatDiffersFromTheNominalRate) {
   for (const double ratio : {0.5, 0.85, 1.15, 3.0}) {
     RateWatch watch(1e6);
     std::optional<double> measured;
@@ -241,7 +241,7 @@ TEST(CapancdtRateWatch, OneSlowIntervalAtTheBeginningIsADelay) {
 
 // The limit of the difference is 10 %. A difference of 9 % is accepted, a difference of 11 % is
 // reported.
-TEST(CapancdtRateWatch, ReportsMoreThanATenth) {
+TEST(CapancdtRateWatch, ReportsDifferencesOverTenPercent) {
   const auto reported = [](double ratio) {
     RateWatch watch(1e6);
     bool tells = false;

@@ -170,7 +170,7 @@ TEST(CsvStream, RefusesTimesInMilliseconds) {
   EXPECT_NE(all.error.find("time_s must be in seconds"), std::string::npos) << all.error;
 }
 
-TEST(CsvStream, MissingHeaderFailsToOpen) {
+TEST(CsvStream, OpeningFailsWithoutAHeader) {
   SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.no_header = true}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);

@@ -91,7 +91,7 @@ TEST(CsvStreamProtocol, ReportsAMissingHeader) {
       << fed.error;
 }
 
-TEST(CsvStreamProtocol, TimeMustGrowUntilTheHeaderIsRepeated) {
+TEST(CsvStreamProtocol, TimeMustIncreaseUntilTheHeaderIsRepeated) {
   CsvStreamProtocol protocol("probe", 3);
   const Fed fed = feed(protocol, "time_s,A_um\n5,1\n6,2\ntime_s,A_um\n0.5,3\n0.5,4\n");
   ASSERT_EQ(fed.rows.size(), 3u);

@@ -164,7 +164,7 @@ TEST_F(PoKeys57uOnHid, SilenceIsAnError) {
   EXPECT_EQ(collect(patient, 5).first_quality(4), Quality::good) << "it had its power all the time";
 }
 
-TEST_F(PoKeys57uOnHid, CountsWrapAndContinue) {
+TEST_F(PoKeys57uOnHid, CountContinuesOverTheEndOf32Bits) {
   double calls = 0;  // increases by one when an encoder is read
   SimulatedPokeys57u wrapping([&](std::size_t, std::int64_t) { return calls += 1; },
                               {.count_offset = (std::int64_t{1} << 31) - 1000});

@@ -19,7 +19,7 @@ TEST(LabjackVolts, ConvertsWithNominalConstants) {
 // U6 and T7. At gain 1 the nominal slopes are 0.00031580578 and -0.0003158058 V per code. The
 // slope of each further gain is a tenth of the previous slope. The centre is code 33523. Sources:
 // LabJackPython, src/u6.py, CalibrationInfo; LabJack's T7 example stream.c.
-TEST(LabjackVolts, EachGainIsATenth) {
+TEST(LabjackVolts, EachFurtherGainHasATenthOfTheSlope) {
   const double lowest_v[] = {-10.586757, -1.0586757, -0.10586757, -0.010586757};
   const double highest_v[] = {10.109575, 1.0109575, 0.10109575, 0.010109575};
   for (std::size_t gain = 0; gain < 4; ++gain) {

@@ -129,7 +129,7 @@ TEST_F(LabjackT7Device, SwapsWordsOnRequest) {
 }
 
 // T-Series Datasheet 13.2.9: DIO_EF_READ_A of line n is at address 3000 + 2 n.
-TEST_F(LabjackT7Device, OnlyConfiguredPairsCount) {
+TEST_F(LabjackT7Device, OnlyConfiguredPairsOfLinesCount) {
   // High word of the count at an address. All its bits are 1 if the count is negative.
   const auto high = [&](const char* address) {
     return ask((std::string("00 01 00 00 00 06 01 03 ") + address + " 00 02").c_str()).substr(9, 2);

@@ -207,7 +207,7 @@ TEST(LabjackU6Protocol, RefusesRepliesToOtherCommands) {
   EXPECT_FALSE(decode(packet, 25));
 }
 
-TEST(LabjackU6PacketLine, ContinuesOverPacketsAndWraps) {
+TEST(LabjackU6PacketLine, ScansContinueOverPacketsAndCounterWraps) {
   PacketLine line(7);
   std::vector<Scan> scans;
   StreamData packet = ramp();

@@ -97,7 +97,7 @@ TEST_F(ComediBoard, ReadsLongSamplesInTheirOwnRange) {
   EXPECT_EQ(board_->started.inputs[1].range, 2U);
 }
 
-TEST_F(ComediBoard, EndsOfARangeAreOverRange) {
+TEST_F(ComediBoard, ReadingsAtTheEndsOfARangeAreOverRange) {
   board_->code = [](std::uint64_t scan, unsigned channel) {
     return channel == 5 ? 30'000U : scan % 2 == 0 ? 0U : 65535U;
   };

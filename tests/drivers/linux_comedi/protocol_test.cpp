@@ -148,7 +148,7 @@ TEST_F(ComediCommand, SlowScansWakeTheReaderOneByOne) {
   EXPECT_EQ(command(1001)->flags, 0U);
 }
 
-TEST_F(ComediCommand, UsesAnEndOnlyIfTheBoardNeedsOne) {
+TEST_F(ComediCommand, StatesANumberOfScansIfTheBoardNeedsIt) {
   sources_.stop.source = kCount;
   EXPECT_EQ(command(1000)->stop.source, kCount);
   EXPECT_EQ(command(1000)->stop.argument, UINT32_MAX);

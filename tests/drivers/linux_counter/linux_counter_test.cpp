@@ -27,7 +27,7 @@ TEST(CountUnwrap, WrapsInBothDirectionsAtAnyCeiling) {
   }
 }
 
-TEST(CountUnwrap, FollowsManyTurns) {
+TEST(CountUnwrap, FollowsManyWraps) {
   CountUnwrap unwrap(65535);
   std::int64_t position = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -156,7 +156,7 @@ TEST_F(LinuxCounter, ReadReturnsInTimeAtALowRate) {
   EXPECT_LT(monotonic_ns() - before_ns, 2'000'000'000);
 }
 
-TEST_F(LinuxCounter, FewFailuresAreLostAndTheNextScanIsSuspect) {
+TEST_F(LinuxCounter, AFewFailedReadsLoseScansAndTheNextIsSuspect) {
   const auto driver = make_linux_counter("scale", options_);
   ASSERT_TRUE(driver->open());
   collect(*driver, 3);

@@ -39,7 +39,7 @@ TEST(GapLaw, PlateLawGivesTheGap) {
   }
 }
 
-TEST(GapLaw, TableKeepsItsValueAtItsEnds) {
+TEST(GapLaw, TableKeepsItsEndValuesBeyondItsEnds) {
   const GapLaw law{0, 0, {{1, 90}, {2, 45}, {3, 30}}};
   EXPECT_EQ(gap_um(law, 1).value, 90);
   EXPECT_EQ(gap_um(law, 1.5).value, 67.5);
@@ -66,7 +66,7 @@ TEST(GapLaw, InterpolationErrorIsAsStatedInTheManual) {
   }
 }
 
-TEST(Ad7746, EndsOfTheRangeAreOverRange) {
+TEST(Ad7746, ReadingsAtTheEndsOfTheRangeAreOverRange) {
   const GapLaw law{5, 0, {}};
   EXPECT_EQ(ad7746_gap_um(law, 8'388'607, 0).quality, Quality::over_range);
   EXPECT_EQ(ad7746_gap_um(law, -8'388'608, 43'008'000).quality, Quality::over_range);

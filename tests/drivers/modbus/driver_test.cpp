@@ -233,7 +233,7 @@ TEST(ModbusDriver, ReadsMicrometresOfASmax) {
   EXPECT_EQ(block.quality_at(0, 0), Quality::good);
 }
 
-TEST(ModbusDriver, SmaxCountsBelowZero) {
+TEST(ModbusDriver, SmaxPositionMayBeNegative) {
   Smax smax({}, "ring_bits = 11\n");
   smax.position = 1;
   ASSERT_TRUE(smax.driver->open());

@@ -11,7 +11,7 @@
 namespace mdof::drivers {
 namespace {
 
-TEST(QsbProtocol, EncodesAndReadsTheManualsVersion) {
+TEST(QsbProtocol, EncodesAndReadsTheVersionReplyOfTheManual) {
   const QsbReply reply{'r', qsb::kVersion, 0x00001201, 16};
   const std::string line = "r 14 00001201 00000010 !\r\n";
   EXPECT_EQ(line.size(), 26u);

@@ -101,7 +101,7 @@ TEST(Qsb, TruncatedLineIsCountedAndItsScansAreLost) {
   EXPECT_EQ(all.lost, 2u);
 }
 
-TEST(Qsb, StampStepCountsLostLines) {
+TEST(Qsb, StepOfTheTimeStampCountsLostLines) {
   SimulatedQsb device(still, {.faults = {.jump_at = 10, .jump_ticks = 7}});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));

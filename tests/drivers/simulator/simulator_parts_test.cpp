@@ -21,7 +21,7 @@ SimulatorOptions short_travel() {
   return options;
 }
 
-TEST(SimulatorMotion, RestsAtEveryTargetInBothDirectionsOnly) {
+TEST(SimulatorMotion, StopsOnlyAtTargetsInBothDirections) {
   SimulatorOptions options = short_travel();
   options.targets_mm = {-5, 1, 20};
   const Motion motion(options);

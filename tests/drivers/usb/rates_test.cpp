@@ -123,12 +123,12 @@ class UsbU6Rates : public testing::Test {
   std::unique_ptr<labjack_u6::LabjackU6> made;
 };
 
-TEST_F(UsbU6Rates, FiveInputsAndTheEncoder) {
+TEST_F(UsbU6Rates, FiveInputsAndTheEncoderLoseNoScan) {
   const Count count = run(5, true, {});
   expect_all(count, rate_hz_);
 }
 
-TEST_F(UsbU6Rates, OneInputAtFiftyThousand) {
+TEST_F(UsbU6Rates, OneInputAt50kHzLosesNoScan) {
   const Count count = run(1, false, {});
   expect_all(count, rate_hz_);
   EXPECT_EQ(rate_hz_, 50'000);
@@ -192,11 +192,11 @@ class Usb1608Rates : public testing::Test {
   std::unique_ptr<mcc_usb1608fs_plus::MccUsb1608fsPlus> made;
 };
 
-TEST_F(Usb1608Rates, FourInputsAtAHundredThousand) {
+TEST_F(Usb1608Rates, FourInputsAt100kHzLoseNoScan) {
   expect_all(run(4, 100'000, {}), 100'000);
 }
 
-TEST_F(Usb1608Rates, FiveInputsAtEightyThousand) {
+TEST_F(Usb1608Rates, FiveInputsAt80kHzLoseNoScan) {
   expect_all(run(5, 80'000, {}), 80'000);
 }
 

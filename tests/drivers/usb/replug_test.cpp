@@ -120,13 +120,13 @@ std::unique_ptr<Driver> labjack_u6_driver() {
   return std::make_unique<labjack_u6::LabjackU6>(settings);
 }
 
-TEST(UsbReplug, LabjackU6) {
+TEST(UsbReplug, ReplugsOfLabjackU6LeakNoResources) {
   labjack_u6::SimulatedLabjackU6 device(sense, {});
   const auto driver = labjack_u6_driver();
   expect_sound(replug(*driver, device, usb::replugs(), [] {}));
 }
 
-TEST(UsbReplug, MccUsb1608fsPlus) {
+TEST(UsbReplug, ReplugsOfMccUsb1608fsPlusLeakNoResources) {
   mcc_usb1608fs_plus::SimulatedMccUsb1608fsPlus device(sense, {});
   mcc_usb1608fs_plus::Settings settings;
   settings.name = "daq";

@@ -11,7 +11,7 @@
 namespace mdof {
 namespace {
 
-TEST(Targets, AreEvenWithoutJitterAndNearWithIt) {
+TEST(Targets, AreEquallySpacedWithoutJitterAndNearbyWithJitter) {
   EXPECT_EQ(spaced_targets_mm({.from_mm = -5, .to_mm = 10, .interval_mm = 5}),
             (std::vector<double>{-5, 0, 5, 10}));
   const TargetSpacing jittered{.from_mm = 0, .to_mm = 60, .interval_mm = 5, .jitter_mm = 1};
@@ -45,7 +45,7 @@ TEST(Targets, ErrorsNameTheKey) {
   EXPECT_STREQ(check_spacing({.to_mm = std::numeric_limits<double>::quiet_NaN()})->key, "to_mm");
 }
 
-TEST(Targets, ReportsIntervalsOfWholePeriods) {
+TEST(Targets, ReportsIntervalsOfWholeScalePeriods) {
   EXPECT_TRUE(scale_period_notice({0, 5, 10}, 20));  // each interval is 250 periods
   EXPECT_TRUE(scale_period_notice({0, 5, 12}, 20));  // the intervals are 250 and 350 periods
   EXPECT_FALSE(scale_period_notice({0, 5.007, 10}, 20));

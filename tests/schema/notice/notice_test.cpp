@@ -34,7 +34,7 @@ TEST(Notice, InheritedNoticesNameTheirSources) {
             "of two: run 3: probe_stepped E step_um=0.5 time_s=2");
 }
 
-TEST(Notice, ListsTenOfManyAndTheirNumber) {
+TEST(Notice, KeepsTenEqualNoticesAndCountsTheOthers) {
   const Notice one = notice(NoticeCode::visit_missing, "",
                             {{"run", 1}, {"approach", "forward"}, {"targets", "target 3"}});
   for (const std::size_t n : {0u, 10u, 11u, 40u}) {

@@ -239,7 +239,7 @@ TEST(CsvRowParser, RestartsTheCountOfEmptyLinesAfterEachRow) {
   EXPECT_EQ(p.bad_lines.size(), 19u * 4u);
 }
 
-TEST(CsvRowParser, GivesUpAfterTheStatedNumberOfBadLines) {
+TEST(CsvRowParser, StopsAfterTheStatedNumberOfBadLines) {
   std::string text = kHeader + "0,1,2\n";
   for (int i = 0; i < 5; ++i) text += "bad\n";
   EXPECT_EQ(parse(text, {.bad_lines = 5}).error, "");
@@ -269,7 +269,7 @@ TEST(CsvRowParser, RejectsAFileWithoutAValidRow) {
   expect_contains(parse(kHeader + "a,b,c\n").error, {"no valid row", "x.csv:2: ", "\"a\""});
 }
 
-TEST(CsvRowParser, NumbersTheRowsOfAFramesFile) {
+TEST(CsvRowParser, RowNumbersAreTheTimesOfAFramesFile) {
   const Parsed p = parse("encoder_mm,A_um\n5,1\n4,2\n4,3\n", {.bad_lines = 0, .scans_per_block = 2},
                          CsvKind::frames);
   ASSERT_EQ(p.error, "");
@@ -308,7 +308,7 @@ std::vector<std::uint64_t> bits(const std::vector<std::vector<double>>& columns)
   return all;
 }
 
-TEST(CsvRowParser, GivesTheSameBlocksForAnyCut) {
+TEST(CsvRowParser, GivesTheSameBlocksForAnyDivisionOfTheText) {
   const std::string text = wild_log(3000);
   const CsvLimits limits{.bad_lines = 1000, .scans_per_block = 100};
   const Parsed whole = parse(text, limits);

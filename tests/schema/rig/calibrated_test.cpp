@@ -121,7 +121,7 @@ TEST(CalibratedRig, RejectsAnInvalidCovariance) {
   }
 }
 
-TEST(CalibratedRig, UncertaintiesFollowTheReplacedValues) {
+TEST(CalibratedRig, RecordReplacesDeclaredUncertaintyOfPositionsOnly) {
   const Rig rig = with_record("u_position_mm = 0.05\nu_calibration_um = 0.5\n",
                               "[installation]\nu_offset_mm = 0.4\n");
   EXPECT_NEAR(rig.probes[1].uncertainty.position.u[1], 2e-6, 1e-18);
@@ -130,7 +130,7 @@ TEST(CalibratedRig, UncertaintiesFollowTheReplacedValues) {
 }
 
 // A declared uncertainty of 0 is a declaration and is not replaced.
-TEST(CalibratedRig, KeepsWhatTheRigDeclaresAsZero) {
+TEST(CalibratedRig, KeepsADeclaredUncertaintyOfZero) {
   const Rig rig = with_record("u_calibration_um = 0\n", "[installation]\nu_offset_mm = 0\n");
   EXPECT_EQ(rig.probes[1].uncertainty.calibration.u, 0);
   EXPECT_TRUE(rig.probes[1].uncertainty.calibration.known());
@@ -140,7 +140,7 @@ TEST(CalibratedRig, KeepsWhatTheRigDeclaresAsZero) {
 
 // The correction table states corrections at t = raw - offset, but each correction belongs to a raw
 // reading. If a record changes the offset, t of each correction changes too.
-TEST(CalibratedRig, LinearityMovesWithTheOffset) {
+TEST(CalibratedRig, LinearityTableIsShiftedWithTheOffset) {
   const Rig table = with_record("offset_um = 1\nlinearity = [[-50, 0.2], [50, -0.1]]\n");
   EXPECT_EQ(table.probes[1].calibration.linearity[0], (std::array<double, 2>{-51.5, 0.2}));
   EXPECT_EQ(table.probes[1].calibration.linearity[1], (std::array<double, 2>{48.5, -0.1}));
@@ -174,7 +174,7 @@ TEST(CalibratedRig, HasTheCalibratedRangeOfAProbe) {
 
 // The second record changes the offset from 0 to 2.5 um. The calibrated range belongs to raw
 // readings, so its limits in t decrease by 2.5 um.
-TEST(CalibratedRig, CalibratedRangeMovesWithTheOffset) {
+TEST(CalibratedRig, CalibratedRangeIsShiftedWithTheOffset) {
   CalibrationRecord sensitivity = mounting();
   sensitivity.kind = "sensitivity";
   sensitivity.probes = {CalibratedProbe{}};

@@ -217,7 +217,7 @@ bool is_locked(const fs::path& file) {
   return status == 0;
 }
 
-TEST_F(ForeignDatabase, OtherNamesOfAFileKeepItsLocks) {
+TEST_F(ForeignDatabase, OpeningAFileByAnotherNameKeepsItsLocks) {
   auto own = Connection::open(file_, OpenMode::read_write);
   ASSERT_TRUE(own->execute("PRAGMA journal_mode = WAL; INSERT INTO t VALUES (10)"));
   const fs::path foreign = folder_ / "foreign";

@@ -37,7 +37,7 @@ std::map<std::string, std::string> defined_commands() {
   return files;
 }
 
-TEST(Commands, FilesAndRowsMatch) {
+TEST(Commands, SourceFilesMatchTheRowsOfTheCommandList) {
   std::map<std::string, std::string> rows;
   for (const Command& row : all_commands())
     rows[file_name_of(row.name)] = file_name_of(row.name) + ".cpp";

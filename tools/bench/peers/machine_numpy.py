@@ -2,7 +2,7 @@
 """Calculates the budget of bench_machine with vectorised NumPy on one thread: 84 uniformly distributed part errors, the
 complete product of 14 frames. stdin is the nominal machine from `bench_machine --frames`, so that both programs use the
 same machine. There are two ways:
-- the product of 4x4 matrices, as in Eq. 8 and 10 of the paper; the limit of 20 applies to this way
+- the product of 4x4 matrices, as in Eq. 8 and 10 of the paper; mdof must be at least 20 times as fast as this way
 - the fastest known way: plane rotations transform the tool point from frame to frame, in place in buffers that are
   created once
 Prints ns per trial for the best array size, and the same figures as bench_machine, first with the matrices.

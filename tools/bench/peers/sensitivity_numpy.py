@@ -143,7 +143,7 @@ def by_histogram(trials, m):
     counts = np.zeros((5, BINS * CORE), dtype=np.int64)
     t, index = np.empty((BINS, m)), np.empty((BINS, m), dtype=np.intp)
     offset = (np.arange(BINS) * CORE).astype(float)[:, None]
-    # The core, from a pilot, as in mdof.
+    # The histogram covers the core of the values, estimated from the first trials, as in mdof.
     low, per_width = [], []
     for x in simulation.run():
         q = np.quantile(x[:, :500], (0.01, 0.99))

@@ -31,7 +31,7 @@ struct LiveRequest {
   double margin_mm = 0.1;  // Smallest distance between a soft limit and the hard stop of the axis.
   std::string socket;
   bool simulated = false, despite_warnings = false;
-  // The tables have only one approach; the component applies it in both directions.
+  // Accepts tables of one approach; the component then applies these values in both directions.
   bool one_approach = false;
 };
 

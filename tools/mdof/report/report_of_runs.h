@@ -28,7 +28,7 @@ void add_report_options(CLI::App& command, ReportRequest& request);
 // - the changes between two runs of an axis
 // - the squareness of axes
 // - the decisions on tolerances
-// - the facts in [report] of the rigs, with the facts from --set replaced
+// - the facts in [report] of the rigs; a fact from --set replaces the fact of the rigs
 // Errors: a run or a rig cannot be read. Errors (usage): a key or figure is unknown; before_after
 // is true, but an axis does not have exactly two runs.
 Result<report::Report> report_of_runs(const ReportRequest& request);

@@ -39,7 +39,7 @@ struct FoundAllocation {
 };
 
 struct FoundMachineBudget {
-  FoundStage now;  // Stage measured: a measured error replaces the sources that act on it.
+  FoundStage now;                      // Stage measured, see algo::BudgetStage.
   std::optional<FoundStage> designed;  // Present if errors are measured and sources are declared.
   std::vector<algo::MeasuredError> measured;
   std::optional<FoundAllocation> allocation;

@@ -69,9 +69,9 @@ void warn_wrapped(std::string_view words) {
   say(wrapped("warning: " + std::string(words), terminal_columns(), 2));
 }
 
-// "point 3 of 26, next 15.000 mm". If the run has no targets or no repeats, the text states less. k
-// counts each requested point once, as soon as the errors of this point are solved. The text also
-// states the number of other points.
+// "point 3 of 26, next 15.000 mm". If the run has no targets or no repeats, the unknown numbers are
+// omitted. k counts each requested point once, as soon as the errors of this point are solved. The
+// text also states the number of other points.
 std::string progress_line(const auto& event) {
   const std::int64_t all = integer(event, "points").value_or(0);
   const std::int64_t points = integer(event, "done").value_or(all);

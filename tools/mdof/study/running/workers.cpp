@@ -30,7 +30,7 @@ struct Shared {
   std::mutex mutex;
   std::condition_variable ended;
   unsigned running;            // protected by `mutex`
-  std::exception_ptr failure;  // under mutex
+  std::exception_ptr failure;  // protected by `mutex`
 };
 
 void run_pieces(Shared& shared, unsigned worker) {

@@ -158,7 +158,7 @@ class EncoderDatum(unittest.TestCase):
             self.client.call("encoder.set", axis="X", position_mm=1)
         time.sleep(0.3)
         self.client.call("run.stop", run=run, abort=True)
-        refused = 0  # for a whole pass, because the axis is moving only in a part of it
+        refused = 0  # requests while the axis moves
         end = time.monotonic() + 4
         while time.monotonic() < end:
             try:

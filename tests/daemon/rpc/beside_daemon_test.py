@@ -1,8 +1,7 @@
 #!/usr/bin/python3
-"""Every command of mdof works while mdofd runs and holds the database: a reading command reads, and a writing
-command has mdofd write. The documents are the same as for a database without a daemon, apart from times and paths. A
-command that this test does not know makes it fail. One exception, which the command states: a study is stored in a
-separate database.
+"""Every command of mdof works while mdofd runs and holds the database; commands that write ask mdofd to write. The
+documents are the same as for a database without a daemon, apart from times and paths. A command that this test
+does not know makes it fail. One exception, which the command states: a study is stored in a separate database.
 
 usage: beside_daemon_test.py MDOFD MDOF"""
 import gzip

@@ -143,7 +143,7 @@ class SameDocument(unittest.TestCase):
         self.assertEqual({m["name"] for m in methods(self.client)}, {method for method, *_ in SAME} | OTHERS.keys())
 
     def test_the_sense_stays_with_a_long_text(self):
-        text = os.path.join(self.folder, "long.rtl")  # this statement about the file is longer than a reply may be
+        text = os.path.join(self.folder, "long.rtl")  # the document of this run is too long for one reply
         with open(text, "w", encoding="latin-1") as file:
             file.write("HEADER::\nFile type  : rtl\n\nTARGET DATA::\nFiletype : ISO\nTarget-count: 2\nTargets :\n0.0000 10.0000\n\nUSER-TEXT::\n" +
                        "".join(f"Remark {i}: {'x' * 40}\n" for i in range(3000)) +

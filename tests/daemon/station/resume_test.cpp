@@ -56,7 +56,8 @@ std::string why_not(const EncoderDatum& of_run, const EncoderDatum& now, bool co
   return same ? "goes on" : words::text(same.error());
 }
 
-// The two datums differ by 10 mm. Their positions must not have the same target number.
+// After the datum is lost, positions are no machine positions and must not get the target numbers
+// of the run.
 TEST(SameDatum, ALostDatumMustBeSetAgainFirst) {
   using Kind = EncoderDatum::Kind;
   for (const Kind known : {Kind::set, Kind::configured}) {

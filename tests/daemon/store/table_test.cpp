@@ -154,7 +154,7 @@ TEST_F(StoreTest, GenerationsContinueInANewDatabase) {
     ASSERT_TRUE(store->add_table(make_table({1})));
     const std::string utc = "2026-11-22T15:30:0" + std::to_string(database) + ".5Z";
     const auto first = store->activate(1, "anna", utc);
-    // The first part is the time utc: date -ud ... +%s.
+    // The generation is the time `utc` in seconds since 1970, here from `date -u -d ... +%s`.
     EXPECT_EQ(first->generation, 1'795'361'400 + database);
     EXPECT_GT(first->generation, last);
     last = first->generation;

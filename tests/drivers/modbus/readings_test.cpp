@@ -226,12 +226,12 @@ TEST(ModbusSentinels, SentinelLengthIsUnusedAndNotPending) {
   const Shape three{kReadInput, 3}, two{kReadInput, 2}, one{kReadInput, 1}, four{kReadInput, 4};
   EXPECT_TRUE(sentinels.add_regular(three));
   EXPECT_EQ(sentinels.pick(three), two);
-  EXPECT_EQ(sentinels.pick(three), two);  // the same length, until a reply has proved the line
+  EXPECT_EQ(sentinels.pick(three), two);  // the same length until the reply to this sentinel
   sentinels.proved();
   // The reply to the sentinel has arrived, so no request is pending.
   EXPECT_EQ(sentinels.pick(three), two);
   sentinels.failed();
-  sentinels.proved();  // the reply that proved the line may be the late reply to the first sentinel
+  sentinels.proved();  // this may be the late reply to the first sentinel
   EXPECT_EQ(sentinels.pick(three), one);
   sentinels.proved();
   EXPECT_EQ(sentinels.pick(three), two);

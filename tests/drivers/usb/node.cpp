@@ -191,7 +191,7 @@ void Bus::Node::take_part(Urb& urb) {
   if (urb.type != USBDEVFS_URB_TYPE_BULK || !(urb.endpoint & 0x80)) return;
   for (const Urb& each : urbs)
     if (!each.done && each.endpoint == urb.endpoint) {
-      if (&each != &urb) return;  // packets belong to the oldest transfer only
+      if (&each != &urb) return;  // an older transfer gets the packets
       break;
     }
   while (urb.got.size() + kFullSpeedPacket <= urb.length) {

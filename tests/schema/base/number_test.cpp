@@ -129,7 +129,7 @@ TEST(ParseDouble, MatchesFromCharsForExponents) {
 
 TEST(ParseDouble, RoundsHalfwayCasesToEven) {
   Random random;
-  // Numbers exactly between two doubles, and numbers slightly beside them.
+  // Numbers exactly halfway between two doubles, and numbers slightly above or below halfway.
   for (int i = 0; i < 50'000; ++i) {
     const std::uint64_t odd =
         (std::uint64_t{1} << 53) + 2 * random.below(std::uint64_t{1} << 52) + 1;

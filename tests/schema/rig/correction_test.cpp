@@ -14,7 +14,8 @@ CorrectionSigns of_X(const char* chain) {
 constexpr std::size_t kEYX = 0, kEZX = 1;
 
 TEST(Correction, DependsOnRotaryAxesBetweenTheAxes) {
-  // X and Y move the workpiece, Z moves the tool. The correction is -E in Y and +E in Z.
+  // X and Y move the workpiece, Z moves the tool. The correction is minus the error EYX in Y, and
+  // plus the error EZX in Z.
   EXPECT_EQ(of_X("w-X-Y-b-Z-t").factor[kEYX], -1);
   EXPECT_EQ(of_X("w-X-Y-b-Z-t").factor[kEZX], 1);
   // C rotates the direction of Y relative to X, on the workpiece side and on the tool side of the

@@ -112,8 +112,8 @@ TEST_F(ForeignDatabase, DoesNotDeleteAFileNamedInAJournal) {
     EXPECT_NE(opened.error().message.find("names a super-journal"), std::string::npos);
     EXPECT_EQ(contents(), before);
   }
-  // The journal may appear after the check and before SQLite opens the database. SQLite itself
-  // must not delete the file either.
+  // The journal may appear after the check and before SQLite opens the database. In this case
+  // SQLite must not delete the file `victim` either.
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open(file_.c_str(), &database), SQLITE_OK);
   (void)sqlite3_exec(database, "SELECT count(*) FROM t", nullptr, nullptr, nullptr);

@@ -12,7 +12,7 @@ namespace mdof::algo {
 namespace {
 
 // The expected parts are calculated separately; the expected K comes from sums over all pixels.
-TEST(Clamping, SplitsPartsAndFindsK) {
+TEST(Clamping, SeparatesElasticAndPlasticPartsAndFindsK) {
   const SurfaceMap before = map_of(bumps);
   const auto elastic = [](double x, double y) {
     return 1e-6 * std::sin(x / 10e-3) * (1 + y / 40e-3);
@@ -54,7 +54,7 @@ TEST(PlateStress, MatchesClosedForms) {
   ASSERT_TRUE(cylinder);
   const double s = 70e9 * 2.5e-3 / 2 / (1 - 0.33 * 0.33) * c;
   EXPECT_NEAR(cylinder->max_Pa, s * std::sqrt(1 - 0.33 + 0.33 * 0.33), 1e-6 * s);
-  // The square at a corner has a third of its pixels.
+  // At each corner of the map, less than half of the square about twelve pixels exists.
   EXPECT_EQ(cylinder->pixels, 121u * 81u - 4 * 12u);
   const auto twist =
       plate_stress(map_of([&](double x, double y) { return c * x * y; }), plate, 5e-3);

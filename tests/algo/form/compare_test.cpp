@@ -44,7 +44,7 @@ TEST(FormCompare, FindsShiftAndTurn) {
   }
 }
 
-TEST(FormCompare, PlaneAndNoneDoNotMoveTheMap) {
+TEST(FormCompare, RegistrationsPlaneAndNoneDoNotMoveTheMap) {
   const SurfaceMap a = map_of(bumps);
   const SurfaceMap b =
       map_of([](double x, double y) { return 2 * bumps(x, y) + 1e-6 + 1e-5 * x - 2e-5 * y; });
@@ -71,7 +71,7 @@ TEST(FormCompare, CountsUndeterminedMovements) {
   EXPECT_EQ(found->undetermined, 3u);
   EXPECT_NEAR(found->pose.shift_x_m, 0, 1e-9);
   EXPECT_LT(found->rms_m, 1e-12);
-  // Waves along x only: the map does not determine the shift along y, but the turn.
+  // Waves along x only: the map determines the turn, but not the shift along y.
   const auto waves = [](double x, double) { return 1e-6 * std::sin(x / 5e-3); };
   const auto along =
       compare(map_of(waves), map_of([&](double x, double y) { return waves(x - 0.4e-3, y); }),
@@ -80,7 +80,7 @@ TEST(FormCompare, CountsUndeterminedMovements) {
   EXPECT_NEAR(along->pose.shift_x_m, 0.4e-3, 1e-7);
 }
 
-TEST(FormCompare, HandlesHolesAndRefusesNoOverlap) {
+TEST(FormCompare, AcceptsHolesAndRefusesMapsWithoutOverlap) {
   SurfaceMap a = map_of(bumps), b = map_of(bumps, -30.2e-3, -20.1e-3);
   for (std::size_t j = 30; j < 50; ++j)
     for (std::size_t i = 20; i < 60; ++i) b.z_m[j * b.nx + i] = SurfaceMap::kMissing;

@@ -1,5 +1,5 @@
-// Tests passes with known repeatable and random shares: the estimated shares, the next path, the
-// floors.
+// Tests passes with known repeatable and random shares: the estimated shares, the next path, and
+// the floors (lowest errors that passes can reach).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -127,8 +127,9 @@ TEST_F(Cutting, SmoothingKeepsLongWaves) {
               1.2e-3);
 }
 
-// The errors are 0.08 um, and the random share is equal. Then the optimal gain leaves less error
-// than gain 1. If the random share is much larger, the factor is 0. The piston is always corrected.
+// The repeatable share and the random share are both 0.08 um. Then the optimal gain leaves less
+// error than gain 1. If the random share is much larger, the factor is 0. The piston is always
+// corrected.
 TEST_F(Cutting, OptimalGainLeavesTheSmallestError) {
   const SurfaceMap repeats = map(0.08e-6, false), first = map(0.08e-6, true);
   CuttingPasses p{map(0, false), {first}, false, CuttingGain::optimal, 0, 0.08e-6};

@@ -211,7 +211,7 @@ TEST(CuttingByHand, PathsOfSuccessivePasses) {
 
 // The passes converge if the last error is smaller than the first, and at most 1.5 times the
 // smallest error after the first.
-TEST(CuttingByHand, ConvergesWhileErrorsStayNearTheBest) {
+TEST(CuttingByHand, ConvergesWhileErrorsStayNearTheSmallest) {
   const auto of = [](const std::vector<double>& sizes) {
     std::vector<std::vector<double>> cuts;
     for (const double s : sizes) cuts.push_back({s, -s, s, -s});

@@ -282,7 +282,7 @@ TEST(TurnSpectrumSmall, UndulationsAreRelativeToTheLargest) {
   EXPECT_EQ(spectrum.undulations(0.31), 2u);
 }
 
-TEST(PathGaps, EdgeIsMissingWithoutMeasuredPixels) {
+TEST(PathGaps, EdgeIsMissingIfNoEdgePixelIsMeasured) {
   SurfaceMap map = map_of([](double, double) { return 0.0; }, 0, 0, 1e-3, 4, 5);
   for (std::size_t k = 0; k < 20; ++k)
     if (k != 1 * 4 + 2 && k != 3 * 4 + 1) map.z_m[k] = SurfaceMap::kMissing;

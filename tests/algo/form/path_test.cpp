@@ -144,8 +144,8 @@ TEST(SpiralPath, LargeToolRestsOnTheWallsOfOneRow) {
   EXPECT_GT(sharp, 10u);
 }
 
-// A part that is narrower than long. The path is measured on the part, extended by three pixels
-// beyond it, and bridged elsewhere.
+// A part that is narrower than long. The heights of the path are measured on the part, extended up
+// to three pixels beyond it, and bridged elsewhere.
 TEST(SpiralPath, EdgesAreExtendedAndBridged) {
   const double d = 0.2e-3, half = 8e-3;
   const auto wave = [](double x, double y) { return 1e-6 * std::sin(x / 5e-3) + 40e-6 * y; };

@@ -190,7 +190,7 @@ TEST(RegistrationMatrix, ABowIsLeftWhereTheShapeDeterminesNoMovement) {
 
 // All movements are determined, so a movement can remove a part of the bow. Linear least squares
 // with analytic slopes gives the expected part.
-TEST(RegistrationMatrix, BowMovesAFreeformAsLeastSquares) {
+TEST(RegistrationMatrix, BowMovesAFreeformAsLeastSquaresPredict) {
   const double share = 0.02;
   const auto b_of = [&](double x, double y) { return freeform(x, y) + share * bow(x, y); };
   const SurfaceMap a = map_on_grid(freeform), b = map_on_grid(b_of);

@@ -168,7 +168,7 @@ TEST(ScanMapByHand, MatchesTheSimpleFit) {
 
 // The positions of pixels are whole multiples of their size. A pixel with points on one side only
 // has no height. Rows without heights are omitted.
-TEST(ScanMapByHand, EndsWhereItsHeightsEnd) {
+TEST(ScanMapByHand, MapEndsWhereItsHeightsEnd) {
   ScanPoints points;
   for (int j = 0; j <= 24; ++j)
     for (int i = 0; i <= 30; ++i) {

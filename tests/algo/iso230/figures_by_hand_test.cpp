@@ -136,7 +136,7 @@ CompensationTable table_of(const Column& x_m, const Column& y) {
   return table;
 }
 
-TEST(TableByHand, OnePositionAppliesEverywhere) {
+TEST(TableByHand, ValueAtTheOnlyPositionAppliesEverywhere) {
   const CompensationTable table = table_of({2e-3}, {5e-6});
   for (const double at_m : {0.0, 2e-3, 9e-3}) {
     const TableValue value = table_at(table, at_m, TableSide::mean);
@@ -214,7 +214,7 @@ TEST(SquarenessByHand, UsesTwoRunsOfOneAxis) {
 }
 
 // The angle of the square is declared by one rig, or with the same value by both.
-TEST(ArtefactByHand, OneRigMayDeclareIt) {
+TEST(ArtefactByHand, OneRigMayDeclareTheAngle) {
   const Rig x_without = test::rig_x(),
             y_without = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_Y.toml").value();
   Rig x_with = x_without, y_with = y_without;

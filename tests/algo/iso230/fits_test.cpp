@@ -260,7 +260,7 @@ TEST(Squareness, EachLineCombinesBothSlopesAndTheArtefact) {
 }
 
 // Between the fixture and the origin of the carriage, yaw has a lever.
-TEST(Squareness, EachLineIsStatedAtTheFixture) {
+TEST(Squareness, EachLineRefersToTheFixture) {
   mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um);
   const mdof::Run y = run_of(Axis::y, kAxis2_m, kAxis2_um);
   for (MeasuredPoint& p : x.points) p.errors.local[kEz] = 3e-6 * p.point.position_m;

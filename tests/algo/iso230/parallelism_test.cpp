@@ -101,16 +101,17 @@ TEST(ParallelismByHand, IsOverTheTravelOfTheMovingBody) {
   expect_line(found->planes[1].least_squares, 120, -120);
 }
 
-// Parallelism is stated at the fixture. If the errors are stated at the carriage, a yaw of 10 urad
-// contributes with its lever.
-TEST(ParallelismByHand, IsStatedAtTheFixture) {
+// The reference point of parallelism is the fixture. If the errors of a run refer to the origin of
+// the carriage, a yaw of 10 urad contributes with its lever.
+TEST(ParallelismByHand, RefersToTheFixture) {
   mdof::Run a = make_motion_run(motion_a());
   for (MeasuredPoint& p : a.points) p.errors.local[kEz] = 10e-6;
   a.header.stated = kAtCarriage;
   a.header.provenance.model = "simplified";
   const auto found = parallelism(a, make_motion_run(motion_b()));
   ASSERT_TRUE(found) << found.error().message;
-  // The origin of M is at -d in C. There the target is lower by the yaw times the travel.
+  // The origin of the fixture is at -d in the frame C of the carriage (d: travel). There EYX is
+  // smaller by the yaw times d.
   expect_line(found->planes[0].least_squares, 50, -20);
 }
 

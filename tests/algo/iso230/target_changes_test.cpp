@@ -1,5 +1,6 @@
-// The linear map of the means is compared with the means themselves. The runs lack visits, some
-// targets were approached from one side only, and some points have no errors.
+// Changes of the means by the linear map of TargetChanges are compared with differences of the
+// means. The runs lack visits, some targets were approached from one side only, and some points
+// have no errors.
 #include "algo/iso230/target_changes.h"
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@ namespace mdof::algo {
 namespace {
 
 struct Scatter {
-  double noise, of_run, direction_sd;  // of a point; of a run; of one direction of a run, nm
+  double noise, of_run, direction_sd;  // nm; of a point, a run, a direction of a run
 };
 
 // Root mean square of the stated u divided by the root mean square of the error of the mean. The

@@ -34,7 +34,7 @@ void add_sources(Machine& machine, test::RandomMachines& random, int count) {
   }
 }
 
-// A copy of the machine at which each source has a value, in the unit of the source. The effects of
+// A copy of the machine in which each source has a value, in the unit of the source. The effects of
 // the sources are added to the errors.
 Machine with_sources_at(Machine machine, const Command& at, const std::vector<double>& value) {
   for (std::size_t s = 0; s < machine.sources.size(); ++s)
@@ -94,7 +94,7 @@ TEST(MachineBudgetTrials, MatchTheProductOfMatrices) {
 }
 
 // A source changes all errors that it acts on together. Limit: 1e-9 of the sensitivity.
-TEST(MachineBudget, SensitivitiesMatchTheProduct) {
+TEST(MachineBudget, SensitivitiesMatchDifferencesOfTheExactError) {
   test::RandomMachines random(12);
   for (int i = 0; i < 40; ++i) {
     auto machine = without_errors(random.machine(kChains[i % 5], 0, 0, 0.3));
@@ -222,7 +222,7 @@ TEST(MachineBudget, MeasuredErrorsReplaceAssumedOnes) {
   EXPECT_NEAR(rows[0].measured_effect_m * 1e6, std::sqrt(12.5 + 0.01), 1e-9);
 }
 
-TEST(MachineBudget, RefusesACauseBeyondTheModel) {
+TEST(MachineBudget, RefusesACauseTooLargeForTheModel) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   machine.sources[1].u = 1e5;
   const auto model = budget_model(machine, {}, MachineApproach::mean, BudgetStage::designed);

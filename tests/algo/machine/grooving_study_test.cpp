@@ -31,8 +31,8 @@ double between(const ErrorFunction& f, double at) {
 using Three = std::array<double, 3>;
 
 // Y carries the work and moves against its command. X carries the tool, 120 mm above both guides.
-// The errors of X are stated at the carriage of X, the errors of Y at the bed in the middle of the
-// travel of X.
+// The reference point of the errors of X moves with the carriage of X. The reference point of the
+// errors of Y is fixed to the bed, in the middle of the travel of X.
 struct ByHand {
   Machine machine = grooving_machine();
   const MachineFrame& x = *machine.find("X");

@@ -318,7 +318,7 @@ TEST(CompensatingEdges, PerfectMachineNeedsOneStep) {
 
 // An error with a value at one position has this value at all positions. At other positions the
 // result reports the error as beyond its table.
-TEST(MachineEdges, ErrorAtOnePositionIsBeyondElsewhere) {
+TEST(MachineEdges, OtherPositionsAreBeyondATableOfOnePosition) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   MachineFrame& x =
       machine.frames[static_cast<std::size_t>(machine.find("X") - machine.frames.data())];

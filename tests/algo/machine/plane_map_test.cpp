@@ -93,7 +93,7 @@ TEST(PlaneMap, MatchesItsSinglePoints) {
 
 // At the first corner the lever of ECX is 0, at the others it is not. The map must still report
 // that u of ECX is unknown.
-TEST(PlaneMap, NamesErrorsThatCountAtAnyCorner) {
+TEST(PlaneMap, NamesErrorsThatActAtAnyCorner) {
   Machine m;
   m.frames.resize(2);
   m.frames[0].id = "X";

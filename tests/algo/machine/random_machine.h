@@ -47,7 +47,7 @@ class RandomMachines {
     return {between(-size_m, size_m), between(-size_m, size_m), between(-size_m, size_m)};
   }
 
-  // Makes f a rod that moves with a linear axis; the direction of its motion is random.
+  // Makes the frame `f` a rod that moves with a linear axis; the direction of its motion is random.
   void follow(MachineFrame& f, const std::string& letters) {
     const std::size_t axis = letters.find_first_of("XYZ");
     f.moves_with = letters[axis];

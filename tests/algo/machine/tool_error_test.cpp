@@ -33,7 +33,7 @@ TEST(MachineModel, MatchesTheProductOfMatrices) {
   EXPECT_LT(worst_angle, 1e-14);
 }
 
-TEST(MachineModel, LinearIsWithinItsBound) {
+TEST(MachineModel, LinearErrorIsWithinItsBound) {
   test::RandomMachines random(2);
   double closest = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -66,10 +66,10 @@ TEST(MachineModel, DeclaredZeroIsAKnownU) {
   EXPECT_TRUE(std::isnan(tool_error(machine, command, MachineApproach::mean).u[0]));
 }
 
-// Tests one error at a time. The expected derivative is the slope of the full product, by
+// Tests one error at a time. The expected derivative is the slope of the exact error, by
 // differences of fourth order at several distances h; their errors are h^4/30 and rounding/h.
 // Limit: 1e-9 of the derivative.
-TEST(MachineModel, DerivativesMatchTheProduct) {
+TEST(MachineModel, DerivativesMatchDifferencesOfTheExactError) {
   test::RandomMachines random(3);
   double worst = 0;
   for (int i = 0; i < 70; ++i) {
@@ -160,7 +160,7 @@ TEST(MachineModel, NamesUnmeasuredErrors) {
   EXPECT_EQ(e.no_u[0], std::vector<std::string>{"EXX"});
 }
 
-TEST(MachineModel, HoldsAndReportsTheEndOfATable) {
+TEST(MachineModel, HoldsTheLastValueAndReportsTheEndOfATable) {
   auto m = by_hand(false);
   m.frames[0].error[0] = {{0, 0.04}, {0, 4e-6}, {0, 6e-6}, {}, {}};
   const auto at = [&](double x_m, MachineApproach approach) {
@@ -272,7 +272,7 @@ TEST(Compensating, CorrectsThePositionCompletely) {
 }
 
 // The corrected command is beyond the end of the table of EXX.
-TEST(Compensating, NamesTablesThatEndBefore) {
+TEST(Compensating, NamesTablesThatEndBeforeTheCommand) {
   auto m = by_hand(true);
   m.frames[0].error[0] = {{0, 0.04}, {0, 4e-6}, {}, {}, {}};
   const auto at = [&](double x_m) {

@@ -102,7 +102,7 @@ TEST(CutTurn, PowerIsTangentialForceTimesSpeed) {
     }
 }
 
-TEST(Milling, ResultsMatchItsTurns) {
+TEST(Milling, ResultsMatchTheTurnsOfBentAndRigidTool) {
   const MillingPlan plan = deflected_cut(ChipModel::sine, DeflectionModel::steady, true);
   MillingPlan rigid = plan;
   rigid.deflection = DeflectionModel::rigid;

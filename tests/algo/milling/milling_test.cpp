@@ -35,8 +35,9 @@ TEST(Beam, MatchesTextbooks) {
   const double E = 600e9, d = 0.4e-3, l = 2e-3, I = kPi * std::pow(d, 4) / 64;
   const auto C = beam_compliance({{l, d}}, E, {0, 0.5e-3}, {0, 0.5e-3});
   EXPECT_NEAR(C(0, 0) / (l * l * l / (3 * E * I)), 1, 1e-12);
-  // Eq. 2 of the paper with corrected symbols: the compliance is v² (3 l - v) / 6EI. It is the same
-  // if force and point are exchanged.
+  // Eq. 2 of the paper with corrected symbols: the compliance is v² (3 l - v) / 6EI; l is the
+  // length of the tool, v the distance of the force from its clamped end. It is the same if force
+  // and point are exchanged.
   const double v = 1.5e-3;
   EXPECT_NEAR(C(0, 1) / (v * v * (3 * l - v) / (6 * E * I)), 1, 1e-12);
   EXPECT_EQ(C(0, 1), C(1, 0));
@@ -71,8 +72,8 @@ TEST(CuttingEdge, RigidWindowMatchesTheCircle) {
               1e-15);
 }
 
-// Eq. 8 is compared with the exact trochoid. Without run-out, the error by Bao and Tansel is below
-// 0.02 µm.
+// Eq. 8 (Bao and Tansel) is compared with the exact trochoid. Without run-out, the difference is
+// below 0.02 µm.
 TEST(CuttingEdge, Eq8IsCloseToTheTrochoid) {
   for (const int teeth : {2, 4}) {
     MillingPlan eq8 = plain(ChipModel::eq8, DeflectionModel::rigid);
@@ -210,8 +211,9 @@ TEST(Milling, StaysInTheStableEquilibrium) {
   EXPECT_NEAR(bent_m(ChipModel::sine) / bent_m(ChipModel::eq8), 1, 2e-3);
 }
 
-// Eq. 9 in the middle of a down cut without Kr: u = k (f - u) with k = -C b Kt / 2 at 135 degrees.
-// There the chip increases with its own deflection.
+// Eq. 9 in the middle of a down cut without Kr: u = k (f - u) with k = -C b Kt / 2 at 135 degrees
+// (u: deflection, f: feed, C: compliance, b: depth). There the chip increases with its own
+// deflection.
 TEST(Milling, GrowingChipMatchesTheClosedForm) {
   MillingPlan plan = plain(ChipModel::sine, DeflectionModel::paper);
   plan.is_up = false;

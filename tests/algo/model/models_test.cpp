@@ -17,7 +17,7 @@ namespace mdof::algo {
 namespace {
 
 // Random errors as large as in the paper's simulations: angles of ±1 mrad, displacements of ±50 µm,
-// d from 0 to 60 mm.
+// travel d from 0 to 60 mm.
 struct Draw {
   explicit Draw(unsigned seed, double angle_rad = 1e-3) : rng(seed), angle(angle_rad) {}
   double uniform(double half) { return std::uniform_real_distribution<>(-half, half)(rng); }
@@ -159,7 +159,7 @@ TEST(SmallAngle, ProbeOrderAndDirectionComeFromTheRig) {
   const auto m = exact_outputs(*solver.small_angle(), 0.03, e);
   std::vector<double> readings(5);
   for (std::size_t k = 0; k < 5; ++k) readings[solver.small_angle()->probe[k]] = m[k];
-  // The sign of the reading is reversed.
+  // The probe measures in the opposite direction, so the sign of its reading is reversed.
   EXPECT_LT(m[0] * exact_outputs(small(test::rig_x()), 0.03, e)[0], 0);
   const AxisErrors got = solver.solve(0.03, readings, {});
   ASSERT_TRUE(got.valid);

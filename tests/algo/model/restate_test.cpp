@@ -1,4 +1,5 @@
-// Errors at another point. They are compared with a pose that is calculated by rotations of Eigen.
+// Errors at another reference point are compared with a pose that is calculated by rotations of
+// Eigen.
 #include "algo/model/restate.h"
 
 #include <gtest/gtest.h>
@@ -124,7 +125,7 @@ TEST(Restate, LeavesUnsolvedErrorsUnsolved) {
   EXPECT_FALSE(restate(nothing, Model::rigid, Axis::x, 0.1, kAtCarriage, kAtFixture).valid);
 }
 
-TEST(SmallRotation, RotationAloneHasTheSameBits) {
+TEST(SmallRotation, BothFunctionsGiveTheSameBits) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z})
     for (int i = -20; i <= 20; ++i) {
       const Errors5 errors = {0, 0, 0.011 * i, -0.007 * i + 0.01, 0.0123 * i - 0.002};

@@ -13,8 +13,8 @@ Fixture paper_fixture() {
   return make_fixture(test::rig_x()).value();
 }
 
-// Calculated by hand at a travel of 5 mm: n·δ/(n·u) for displacements, lever × n/(n·u) for angles.
-// The second probe is not used.
+// Calculated by hand at a travel of 5 mm: n·δ/(n·u) for displacements δ, lever × n/(n·u) for
+// angles; n is the normal of the plane, u the direction of the probe. The second probe is not used.
 TEST(Visibility, FirstOrderJacobianByHand) {
   const Fixture fixture{Axis::x,
                         {{"P", {12e-3, 3e-3, 7e-3}, {0.6, 0, 0.8}, {0, 0, 1}, 0, {}, {}},

@@ -77,7 +77,7 @@ TEST(CircularTest, BacklashGivesStepsAndHysteresis) {
   // There r is larger by 4 µm cos; in the other half r is unchanged. In clockwise motion the two
   // halves are exchanged.
   const auto path = predicted(flat_machine("EXX_um = [[0, 0, 4], [100, 0, 4]]", "")).path;
-  // The circle starts with the ball at the mean of both directions: 2 µm in the direction +X.
+  // The centre of the circle has the mean error of both directions: +2 µm along X.
   EXPECT_NEAR(path.ccw_m[30], +2e-6 * std::cos(30 * std::numbers::pi / 180), 1e-9);
   EXPECT_NEAR(path.cw_m[30], -2e-6 * std::cos(30 * std::numbers::pi / 180), 1e-9);
   EXPECT_NEAR(path.ccw_m[210], -2e-6 * std::cos(210 * std::numbers::pi / 180), 1e-9);

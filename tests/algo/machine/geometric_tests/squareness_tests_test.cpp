@@ -143,7 +143,7 @@ TEST(Diagonals, PredictionHasTheSameSign) {
   EXPECT_NEAR((*d)[1].range_m, (*d)[1].deviation_m.back(), 1e-15);
 }
 
-// The corner of the range is not the zero of the axes. Both diagonals must begin and end at the
+// No corner of the range is at the zeros of the axes. Both diagonals must begin and end at the
 // corners.
 TEST(Diagonals, GoFromCornerToCorner) {
   Machine m;

@@ -45,8 +45,8 @@ TEST(SmallAngleFixture, HasThreeTopProbesAndTwoSideProbes) {
   EXPECT_TRUE(says(refused(fixture), "has 2 probes along ±z and 2 along ±y"));
 }
 
-// D and E are 1 mm apart along the motion. At 30 mrad, with 20 mm along z, the exact model had an
-// error of 76 µm.
+// D and E are 1 mm apart along the motion. If they are also 20 mm apart along z, the exact model
+// has an error of 76 µm at 30 mrad.
 TEST(SmallAngleFixture, RefusesSideProbesTooCloseAlongTheMotion) {
   Fixture fixture = five_probe_fixture();
   fixture.probes[4].p_MP.x() = fixture.probes[3].p_MP.x() + 1e-3;

@@ -203,13 +203,13 @@ TEST(CertifiedProbe, ReadsTableOfErrors) {
   EXPECT_TRUE(has(found->not_taken, {"sensitivity_not_certified"}));
 }
 
-// In volts at -40 µm/V. The readings are -10 and 30 µm, the errors -2 and 1.2 µm; u is positive.
+// Volts at -40 µm/V. The readings are -10 and 30 µm, the errors -2 and 1.2 µm; u is positive.
 TEST(CertifiedProbe, ConvertsTableInVoltsByTheRigScale) {
   const std::vector<DccQuantity> table = {measured(kVolt, {0.25, -0.75}),
                                           error(kVolt, {0.05, -0.03}, {0.002, 0.003})};
   const auto found = of_b(rig_of(-40, 0), certificate({}, {table}));
   ASSERT_TRUE(found) << found.error().message;
-  // The corrections are 2 and -1.2 µm; at 0, a quarter of the interval, it is 1.2 µm.
+  // The corrections are 2 and -1.2 µm, and 1.2 µm at the reading 0, a quarter of the interval.
   expect_rows(found->probe.linearity, {{-10, 0.8}, {30, -2.4}});
   EXPECT_NEAR(found->facts.u_linearity_m, 0.12e-6, 1e-18);
   EXPECT_TRUE(refused(of_b(rig_of(std::nullopt, 0), certificate({}, {table})),
@@ -256,7 +256,7 @@ TEST(CertifiedProbe, CorrectsTheScaleOnlyOnce) {
   EXPECT_TRUE(refused(found(20, 79.7), {"c.xml:31: ", "20.0401 um/V", "\"as found\""}));
 }
 
-// Reference values instead of errors: corrections of 2, -3 and 1 µm at -19, 0 and 41 µm.
+// Reference values instead of errors. Corrections: 2, -3, 1 µm at the readings -19, 0.5, 41 µm.
 TEST(CertifiedProbe, ReadsTableOfReferenceValues) {
   const std::vector<double> read = {41e-6, -19e-6, 0.5e-6}, x = {42e-6, -17e-6, -2.5e-6};
   const std::vector<double> u_read = {3e-8, 5e-8, 4e-8}, u_x = {4e-8, 1e-8, 5e-8};
@@ -295,7 +295,7 @@ TEST(CertifiedProbe, ErrorsWithoutUTakeUOfTheReadings) {
   EXPECT_TRUE(refused(found({}), {"c.xml:47: ", "table", "no uncertainty"}));
 }
 
-// At 32 µm/V all numbers are exact, so both sides of a limit can be tested.
+// At 32 µm/V all numbers are exact binary fractions, so both sides of a limit can be tested.
 TEST(CertifiedProbe, RefusesErrorsThatContradictTheReference) {
   const auto found = [](double error_V, const std::vector<double>& u_V, double read_V = 0.5) {
     return of_b(rig_of(32, 0),
@@ -306,7 +306,7 @@ TEST(CertifiedProbe, RefusesErrorsThatContradictTheReference) {
   const std::vector<double> u = {0.03125, 0.0625, 0.125};
   ASSERT_TRUE(found(0.25, u)) << found(0.25, u).error().message;
   EXPECT_NEAR(found(0.25, u)->facts.u_linearity_m, 4e-6, 1e-18);
-  for (const double off : {-0.125, 0.125}) {  // two times u
+  for (const double off : {-0.125, 0.125}) {  // twice the u of this error
     EXPECT_TRUE(found(0.25 + off, u)) << off;
     const double error_V = 0.25 + 1.05 * off, expected_error_um = 32 * error_V;
     EXPECT_TRUE(refused(found(error_V, u), {"c.xml:47: ", "value 2 is ", off < 0 ? "3.8" : "12.2",

@@ -100,9 +100,9 @@ TEST(MountingModel, DerivativesMatchFiniteDifferences) {
   expect_derivatives(model);
 }
 
-// A declared position uncertainty is along the axes of the machine. Scales that the rig does not
-// declare have the values for mounting by hand.
-TEST(MountingModel, ScalesComeFromTheRigOrFromDefaults) {
+// The rig declares the uncertainty of a position along the machine axes. An unknown whose
+// uncertainty the rig does not declare has the prior uncertainty of mounting by hand.
+TEST(MountingModel, PriorUncertaintiesComeFromTheRigOrDefaults) {
   const Rig rig = test::rig_x_with(
       "D", "u_position_mm = [0.02, 0.03, 0.04]\nu_direction_mrad = 7\nu_sensitivity_ppm = 300");
   const auto model = MountingModel::create(rig, simulated_clampings(5)).value();

@@ -15,7 +15,7 @@ using test::TiltedTarget;
 
 // A direction has an effect on a reading only by the product travel × tilt × direction: 2 mm × 3
 // mrad × 2 mrad = 12 nm. With most of these seeds, Gauss-Newton iterations alone do not converge.
-TEST(MountingNoise, FitsNearTheDetectionLimitEndAndCover) {
+TEST(MountingNoise, FitsNearTheDetectionLimitCoverTheTruth) {
   const Rig rig = parse_rig(test::mounting_rig_toml("", 12000), "rig_X.toml").value();
   int inside = 0, n = 0, seen = 0;
   for (const double noise_m : {9e-9, 18e-9})

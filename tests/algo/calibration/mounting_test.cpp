@@ -222,8 +222,8 @@ TEST(Mounting, DetectsAReversedAxis) {
 
 // Errors that the mounting causes in a measurement, before and after the calibration. The true
 // probes measure random errors of the axis (simulation II: 1 mrad, 50 um). The readings are solved
-// with the declared rig and with the calibrated rig. Straightness is stated at the origin of the
-// calibrated rig, see the README.
+// with the declared rig and with the calibrated rig. The reference point of straightness is the
+// origin of the calibrated rig, see the README.
 TEST(Mounting, CalibrationReducesInducedErrorsTwentyfold) {
   std::mt19937_64 rng(8);
   const Rig rig = rig_with(kDeclared);
@@ -238,8 +238,8 @@ TEST(Mounting, CalibrationReducesInducedErrorsTwentyfold) {
       calibrated.probes[k].position_m = fit.found.probes[k].position_m;
     const auto declared = Solver::create(rig, Model::rigid).value();
     const auto known = Solver::create(calibrated, Model::rigid).value();
-    // Offset of the origin of the axis relative to the true probes. The clampings do not determine
-    // the mean position of the probes.
+    // True deviations that the clampings do not determine, such as a common shift of the probes.
+    // They move the reference point of straightness.
     const Eigen::VectorXd off =
         true_deviations(target, rig) - fit.seen * true_deviations(target, rig);
     for (int trial = 0; trial < 200; ++trial) {

@@ -1,5 +1,5 @@
-// Tests the sentences about combinations that the clampings do not determine; the combinations are
-// given.
+// Tests the sentences about combinations of unknowns that the clampings do not determine. The tests
+// give the combinations.
 #include "algo/calibration/mounting_view.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ MountingModel two_plane_model() {
   return MountingModel::create(rig, {}).value();
 }
 
-// Sentences for a view in which only these directions are not determined, in units of scale().
+// Sentences if only these combinations of unknowns (vectors in units of scale()) are not
+// determined.
 Unseen named(const MountingModel& model, const std::vector<Eigen::VectorXd>& directions) {
   MountingView view;
   view.unseen = Eigen::MatrixXd(model.unknowns(), static_cast<Eigen::Index>(directions.size()));
@@ -29,8 +30,8 @@ Unseen named(const MountingModel& model, const std::vector<Eigen::VectorXd>& dir
 Eigen::VectorXd unit(const MountingModel& model, std::size_t probe, MountingUnknown which) {
   return Eigen::VectorXd::Unit(model.unknowns(), unknown_of(probe, which));
 }
-// Direction in which the same unknown of several probes changes together, along the axis of the
-// first probe.
+// Combination in which the same unknown of several probes changes by the same amount. A position
+// changes along the axis that this unknown has for the first probe.
 Eigen::VectorXd together(const MountingModel& model, const std::vector<std::size_t>& probes,
                          MountingUnknown which) {
   const std::size_t j = which == kPlace1 ? 0 : 1;
@@ -57,7 +58,7 @@ TEST(MountingView, NamesAProbeRelativeToTheOthers) {
               Sentences{"the direction of E: the tilts and readings are too small"});
   EXPECT_EQ(sentences(3, algo::kScale), Sentences{"the sensitivity of D: only a calibration of the "
                                                   "sensitivity can determine the sensitivity"});
-  // D measures along Y, so its position is known along X and Z.
+  // D measures along Y, so the unknowns of its position are along X and Z.
   for (const auto which : {kPlace1, kPlace2}) {
     const bool is_x = std::abs(model.along(3, which == kPlace1 ? 0 : 1).x()) > 0.5;
     EXPECT_EQ(sentences(3, which),

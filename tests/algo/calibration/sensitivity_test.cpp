@@ -48,7 +48,7 @@ TEST(Sensitivity, MatchesSlopeAndUncertaintyByHand) {
   EXPECT_FALSE(found->um_per_V);
 }
 
-// Share (%) of 5,000 intervals that contain the true sensitivity; the coverage factor is that of
+// Share (%) of 5,000 intervals that contain the true sensitivity; the coverage factor follows from
 // the degrees of freedom. The axis visits `places` positions in both directions. The readings have
 // white noise, and an encoder error that is the same at both visits of a position.
 double coverage_percent(const std::string& of_rig, double encoder_m, double noise_m, int places) {
@@ -79,13 +79,13 @@ TEST(Sensitivity, IntervalsCoverAnEncoderErrorAtEachPosition) {
   for (const int places : {5, 11}) {
     SCOPED_TRACE(places);
     EXPECT_GT(coverage_percent(declared, 0.2e-6, 10e-9, places), 94);
-    // The residuals show the encoder error.
+    // The rig does not declare the encoder error, but the residuals contain it.
     EXPECT_GT(coverage_percent("", 0.2e-6, 10e-9, places), 94);
     EXPECT_GT(coverage_percent("", 0, 50e-9, places), 94);
   }
 }
 
-TEST(Sensitivity, ReportsUnseenContributions) {
+TEST(Sensitivity, ReportsContributionsThatUDoesNotContain) {
   const auto says = [](const Rig& rig) {
     const auto found = fit_sensitivity(rig, kA, along_z([](double z) { return z; })).value();
     std::string all;

@@ -23,7 +23,8 @@ constexpr double kStep_m = 10e-3;
 using RandomAxis = std::function<double(double x_m)>;
 using Draw = std::function<RandomAxis(std::mt19937_64&)>;
 
-// An axis with eight waves; their lengths are between `shortest` and `longest` steps of the table.
+// An axis whose error is the sum of eight waves; their lengths are between `shortest` and `longest`
+// steps of the table.
 Draw waves(double shortest, double longest) {
   return [=](std::mt19937_64& random) -> RandomAxis {
     struct Wave {
@@ -46,7 +47,8 @@ Draw waves(double shortest, double longest) {
   };
 }
 
-// An axis with a long bend and the error of a ball screw; the pitch of the screw is 3 to 8 steps.
+// An axis whose error is a long bend plus the error of a ball screw; the pitch of the screw is 3 to
+// 8 steps.
 Draw screw() {
   return [](std::mt19937_64& random) -> RandomAxis {
     const RandomAxis bend = waves(15, 60)(random);
@@ -59,7 +61,8 @@ Draw screw() {
   };
 }
 
-// An axis with a uniform cubic B-spline; its random control points are `apart` steps apart.
+// An axis whose error is a uniform cubic B-spline; its random control points are `apart` steps
+// apart.
 Draw spline(double apart) {
   return [=](std::mt19937_64& random) -> RandomAxis {
     std::normal_distribution<double> normal(0, 1e-6);
@@ -96,7 +99,8 @@ CompensationTable table_of(const RandomAxis& axis, std::size_t targets, double n
 }
 
 struct Coverage {
-  // In %; `without`: with the u of the targets alone.
+  // Intervals of ±1.96 u that contain the true error, %. `without`: between the targets, if u is
+  // the u of the targets alone.
   double at_targets = 0, between = 0, without = 0;
   double rms = 0;                  // root mean square of error / u between the targets
   double ratio_percentile_95 = 0;  // 95th percentile of error / u between the targets
@@ -174,7 +178,7 @@ CompensationTable bare(const std::vector<double>& values, double u) {
 
 // y = c x² has the second derivative 2 c. At the fraction s of a step h, the distance between the
 // parabola and its chord is c s (1 - s) h².
-TEST(BetweenTargets, ParabolaGivesTheDistanceFromTheChord) {
+TEST(BetweenTargets, UOfAParabolaIsItsDistanceFromTheChord) {
   constexpr double c = 2e-3;
   std::vector<double> values;
   for (int i = 0; i < 9; ++i) values.push_back(c * std::pow(kStep_m * i, 2));
@@ -186,7 +190,7 @@ TEST(BetweenTargets, ParabolaGivesTheDistanceFromTheChord) {
   }
 }
 
-TEST(BetweenTargets, IsZeroAtTargetsAndNeverReducesU) {
+TEST(BetweenTargets, InterpolationUIsZeroAtTargetsAndNeverReducesU) {
   auto table = bare({0, 1e-6, -1e-6, 2e-6, 0, 1e-6, 3e-6}, 1e-8);
   table.u_forward[0][3] = 5e-8;
   for (std::size_t i = 0; i < table.position_m.size(); ++i) {
@@ -218,7 +222,7 @@ TEST(BetweenTargets, NoiseIsSubtractedFromCurvature) {
   EXPECT_LT(std::sqrt(sum), 1.0e-8);  // without subtraction: 1.22e-8 and more
 }
 
-TEST(BetweenTargets, PreparedTableIsEqualAndGapsAreBridged) {
+TEST(BetweenTargets, PreparedTableGivesTheSameUAndBridgesGaps) {
   auto table = bare({0, 1e-6, kNaN, 2e-6, 0, 1e-6, 3e-6}, 1e-8);
   auto prepared = table;
   add_curvatures(prepared);

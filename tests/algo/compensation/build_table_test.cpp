@@ -73,7 +73,7 @@ TEST(BuildTable, RefersStraightnessToLineAndAnglesToStart) {
       EXPECT_NEAR(table->reverse[4][i], 1e-3 * x - kReversal_rad, 1e-14);
     }
     // The two visits differ by 40 nm, equally at all targets, so u of a value as measured is 20 nm.
-    // About the line, u is 0, because the line moves with the values.
+    // Relative to the line, u is 0, because the line moves with the values.
     for (const auto* u : {&kept.u_forward, &kept.u_reverse})
       EXPECT_NEAR((*u)[1][i], kScatter_m, 1e-14);
     for (const auto* u : {&about_line.u_forward, &about_line.u_reverse})
@@ -115,7 +115,7 @@ TEST(BuildTable, RefusesIncompatibleRuns) {
   EXPECT_NE(refusal({few}).find("2 targets with calculated errors"), std::string::npos);
 }
 
-TEST(BuildTable, StatesThePointAndTheRuns) {
+TEST(BuildTable, StatesTheReferencePointAndTheRuns) {
   const auto table = built({run_by_hand(1), run_by_hand(2)}, true);
   EXPECT_EQ(table.stated, kAtCarriage);
   EXPECT_TRUE(table.slope_removed);

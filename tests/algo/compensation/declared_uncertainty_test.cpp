@@ -49,7 +49,7 @@ TEST(DeclaredUncertainty, IsEmptyWithoutDeclarations) {
   EXPECT_EQ(table.u_of(table.u_forward, 0, 1), table.u_forward[0][1]);
 }
 
-TEST(DeclaredUncertainty, OffsetCancelsAboutALineOnly) {
+TEST(DeclaredUncertainty, OffsetCancelsOnlyInValuesRelativeToALine) {
   const Rig rig = rig_x_with("D", "u_calibration_um = 0.1");
   const auto about_line = table_of({rig}), as_measured = table_of({rig}, false);
   for (std::size_t i = 0; i < about_line.position_m.size(); ++i) {
@@ -97,14 +97,14 @@ TEST(DeclaredUncertainty, UsesTheApproachWithTheLargerU) {
 
 // Two runs with the same fixture have the same error of D. If the second run
 // has another fixture, which is exact, half of this error remains in the mean.
-TEST(DeclaredUncertainty, MoreRunsOfOneFixtureDoNotReduceIt) {
+TEST(DeclaredUncertainty, IsNotReducedByMoreRunsOfOneFixture) {
   const Rig rig = rig_x_with("D", "u_calibration_um = 0.1"), exact = rig_x_with("", "");
   EXPECT_NEAR(table_of({rig, rig}, false).u_declared[0][3], 0.1e-6, 1e-13);
   EXPECT_NEAR(table_of({rig, exact}, false).u_declared[0][3], 0.05e-6, 1e-13);
 }
 
 // The targets of two runs differ by some micrometres; the runs still measure the same surface.
-TEST(DeclaredUncertainty, RunsOverOnePlaneShareItsFlatness) {
+TEST(DeclaredUncertainty, RunsOverOnePlaneShareItsFlatnessError) {
   const Rig rig = rig_x_with("", "",
                              "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
                              "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.1\n");

@@ -36,7 +36,7 @@ struct Case {
   }
 };
 
-// EYX is a parabola. `noise`: u of all values by noise, m or rad.
+// EYX is a parabola. `noise`: u that noise causes in every value, m or rad.
 Case make_error_case(const Rig& rig, double noise) {
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
@@ -72,9 +72,10 @@ TEST(ErrorCovariance, EqualNoiseGivesTheFixtureCorrelations) {
   EXPECT_EQ(c.of(kEYXIndex, kEAXIndex, 0), 0);  // at the first target the angle is 0
 }
 
-// A scale error s of D changes EYX by s D and ECX by -s (D - D0) / 10 mm. A tool at x = 10 mm is
-// not affected, because both changes cancel there.
-TEST(ErrorCovariance, ErrorOfOneProbeCorrelatesTheErrors) {
+// A scale error s of probe D changes EYX by s d and ECX by -s (d - d0) / 10 mm; d is its reading,
+// d0 its reading at the first target. A tool at x = 10 mm is not affected, because both changes
+// cancel there.
+TEST(ErrorCovariance, ErrorOfOneProbeCorrelatesStraightnessAndYaw) {
   const Case c = make_error_case(test::rig_x_with("D", "u_sensitivity_ppm = 1000"), 0);
   const std::size_t last = c.table.position_m.size() - 1;
   ASSERT_GT(c.table.u_declared[kEYXIndex][last], 1e-9);
@@ -107,9 +108,9 @@ TEST(ErrorCovariance, UsesTheOnlyMeasuredApproach) {
       1e-9);
 }
 
-// The yaw of the target is proportional to the square of the travel. For the table `off` E
-// reads 1000 ppm too much. The angle is set to 0 in the middle of the travel, so the scale of E has
-// no effect there.
+// The yaw of the target is proportional to the square of the travel. In the table `off` the
+// readings of probe E are 1000 ppm too large. The angle is set to 0 in the middle of the travel, so
+// the scale of E has no effect there.
 TEST(ErrorCovariance, UsesTheZeroPositionOfAngles) {
   const Rig rig = test::rig_x_with("E", "u_sensitivity_ppm = 1000");
   const auto tables = [&](double off, const TableOptions& options) {

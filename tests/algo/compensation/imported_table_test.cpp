@@ -45,8 +45,8 @@ TEST(ImportedTable, MeansAndTheirUncertaintyByHand) {
   ASSERT_EQ(table->position_m.size(), 3U);
   const PositioningErrors& along = table->positioning;
   for (std::size_t i = 0; i < 3; ++i) {
-    // Four readings of 0, 0.01, 0.02 and 0 µm more: their mean is 0.0075 µm, s = 0.009574 µm, u =
-    // s/√4.
+    // The four readings exceed the first one by 0, 0.01, 0.02 and 0 µm: the mean of these
+    // differences is 0.0075 µm, s = 0.009574 µm, u = s/√4.
     EXPECT_NEAR(along.forward[i], 1e-6 * (static_cast<double>(i) + 0.1075), 1e-18);
     EXPECT_NEAR(along.reverse[i], 1e-6 * (static_cast<double>(i) - 0.0925), 1e-18);
     EXPECT_NEAR(along.u_forward[i], 0.0047871e-6, 1e-12);
@@ -173,7 +173,7 @@ TEST(ImportedTable, RefusesTravelThatContradictsTheMachine) {
 
 // With the sense "body" the readings change their sign if the body moves against the command. With
 // the sense of the command the sign never changes.
-TEST(ImportedTable, TravelInvertsTheSenseOfTheBody) {
+TEST(ImportedTable, NegativeTravelChangesTheSignOfSenseBody) {
   const auto built = [](const char* options, std::optional<bool> against = std::nullopt) {
     mdof::Run run = imported(7, 1);
     run.header.provenance.options_json = options;

@@ -1,6 +1,6 @@
-// u of the position of a tool if the same probes measured two axes. Expected: tables are built from
-// readings of a probe with a scale error, and the machine model calculates the tool position from
-// these tables.
+// u of the position of a tool if the same probes measured two axes. Expected values: tables are
+// built from readings of a probe with a scale error, and the machine model calculates the tool
+// position from these tables.
 #include "algo/compensation/shared_quantities.h"
 
 #include <gtest/gtest.h>

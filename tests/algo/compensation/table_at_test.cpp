@@ -51,7 +51,7 @@ TEST(TableAt, GivesTheValueOfTheLastTarget) {
   EXPECT_EQ(table_at(table, 0, TableSide::forward).error[0], 1e-6);
 }
 
-TEST(TableAt, NoRunsHaveNoUnevenVisits) {
+TEST(TableAt, NoRunsGiveNoNoticesOfUnevenVisits) {
   const auto uneven = uneven_visit_notices({});
   ASSERT_TRUE(uneven);
   EXPECT_TRUE(uneven->empty());
@@ -96,8 +96,8 @@ CompensationTable table_with_u() {
 }
 
 // u is linear between targets for the declared part and for the random part. The error is 0
-// everywhere, so the interpolation adds nothing. The larger u of the two targets would have a jump
-// beside a target.
+// everywhere, so the interpolation adds nothing. If the larger u of the two targets applied, u
+// would jump beside a target.
 TEST(TableAt, UIsLinearBetweenTargets) {
   const CompensationTable table = table_with_u();
   ASSERT_TRUE(table.has_declared());

@@ -43,7 +43,7 @@ TEST(TableLimits, ReportsPositionLimitAndRemedy) {
   expect_message_contains(refusal(true, {-9e-3, kNaN, 9.9e-3 + 3e-3}), {"the limit"});
 }
 
-TEST(TableLimits, OptionsRaiseThemUpToAMaximum) {
+TEST(TableLimits, OptionsRaiseLimitsUpToAMaximum) {
   const double um = 3000, slope = 200;
   const auto raised = TableLimits::asked(&um, &slope);
   ASSERT_TRUE(raised);
@@ -79,7 +79,7 @@ TEST(TableLimits, ApplyToEachErrorAndApproach) {
 }
 
 // Each option changes one limit only, for lengths and for angles.
-TEST(TableLimits, AreInMicrometresAndMicrometresPerMillimetre) {
+TEST(TableLimits, OptionsAreInMicrometresAndTheirSlopePerMillimetre) {
   const TableLimits usual;
   const double um = 20, slope = 80;
   const auto value = TableLimits::asked(&um, nullptr), steep = TableLimits::asked(nullptr, &slope);

@@ -70,8 +70,8 @@ TEST(TableUncertainty, IsTheSpreadOfItsErrors) {
             << name << ", level " << level_m << " " << remove_slope;
 }
 
-// Calculated by hand: five targets have equal distances. At the first target the least-squares line
-// is the sum of their values with the weights 3/5, 2/5, 1/5, 0, -1/5.
+// Calculated by hand: five targets have equal distances. The value of the least-squares line at the
+// first target is the sum of the five values with the weights 3/5, 2/5, 1/5, 0, -1/5.
 TEST(TableUncertainty, ReferencesAreWeightsOfTheMeans) {
   const Reference end = line_at({0, 1, 2, 3, 4}, 0), beyond = line_at({0, 1, 2}, 4);
   const double expected[] = {0.6, 0.4, 0.2, 0, -0.2};

@@ -49,10 +49,11 @@ SeriesOfErrors expected_series_u(const std::vector<MeasuredPoint>& points, Appro
                            references);
 }
 
-// Each direction has 6 visits, 3 means of targets, and 1 pass relative to the other pass: 2 degrees
-// of freedom. The variance of a visit is 4/2 forward and 12/2 reverse; the mean of two visits has
-// half of this variance. The level of a pass has the variance 2 * 9 forward and 2 * 25 reverse,
-// less a third of the variance of a visit. The mean of two levels has half of this variance.
+// In each direction, 6 visits less 3 means of targets less 1 difference of both passes give 2
+// degrees of freedom. The variance of a visit is 4/2 forward and 12/2 reverse; the mean of two
+// visits has half of this variance. The level of a pass has the variance 2 * 9 forward and 2 * 25
+// reverse, less a third of the variance of a visit. The mean of two levels has half of this
+// variance.
 constexpr double kMeanVarianceForward = 1, kMeanVarianceReverse = 3;
 constexpr double kLevelForward = (18 - 2 / 3.) / 2, kLevelReverse = (50 - 6 / 3.) / 2;
 // Half of (forward minus reverse) deviates from its mean by -1.5, -0.5, -1 in run 1, on average by

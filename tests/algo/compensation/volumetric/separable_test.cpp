@@ -24,7 +24,7 @@ VolumetricTable function_table(CorrectionFunction f, std::size_t nx = 5, std::si
   return t;
 }
 
-// Largest residual; the sum is calculated by its definition.
+// Largest residual of the correction; the sum is calculated by its definition.
 double largest_left(const VolumetricTable& t, const SeparableCorrection& sum) {
   double most = 0;
   for (std::size_t node = 0; node < t.nodes(); ++node) {
@@ -65,14 +65,14 @@ TEST(Separable, AngleWithItsLeverIsOneProduct) {
   }
 }
 
-TEST(Separable, ReportsTheResidualOfThreeAxes) {
+TEST(Separable, ReportsTheResidualOfAProductOfThreeAxes) {
   const auto t = function_table([](double x, double y, double z) { return x * y * z; });
   const auto sum = separate(t, 1, 1e-12);
   EXPECT_GT(sum.left_m, 1e-7);
   EXPECT_NEAR(largest_left(t, sum), sum.left_m, 1e-18);
 }
 
-TEST(Separable, PlaneHasTheTablesOfItsAxes) {
+TEST(Separable, PlaneHasFunctionsOfItsTwoAxesOnly) {
   const auto t = function_table([](double x, double y, double) { return 1e-3 * x * y; }, 5, 4, 1);
   const auto sum = separate(t, 1, 1e-12);
   EXPECT_EQ(sum.along[0].size(), 5U);

@@ -15,9 +15,9 @@ double form(const AxisNoise::SquareForm& c, double p, double q) {
   return c[0] + c[1] * p + c[2] * q + c[3] * p * p + c[4] * p * q + c[5] * q * q;
 }
 
-// Expected variance of Y and Z between the nodes V0 and V1 with the covariance C: (1-part)² V0 + 2
-// part (1-part) C + part² V1. A command of X beyond the grid is replaced by the command
-// at the end of the grid.
+// Expected variance of Y and Z between two nodes with the variances V0 and V1 and the covariance C:
+// (1-part)² V0 + 2 part (1-part) C + part² V1. Beyond the grid, the command of X at its end
+// applies.
 TEST(VolumetricNoise, IsInterpolatedForEachAxis) {
   VolumetricTable table;
   table.command_m = {std::vector<double>{0.2, 0.5}, {0.1, 0.4, 0.9}, {-0.3, 0.7}};

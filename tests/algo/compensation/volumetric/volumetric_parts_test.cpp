@@ -26,7 +26,7 @@ using NoiseMixing = std::array<std::array<double, kBodyErrors>, kBodyErrors>;
 // rad.
 struct Axis6 {
   NoiseMixing noise{};
-  // U of a shift that is the same at all positions of the table.
+  // Standard uncertainty u of a shift that is the same at all positions of the table.
   std::array<double, kBodyErrors> common{};
 };
 
@@ -103,7 +103,8 @@ Machine simulated_measurement(const Simulated& s, std::mt19937_64& source, bool 
 }
 
 struct NodeSpread {
-  Vec3 first{}, last{}, product{};  // sums over the trials; differences from the truth
+  Vec3 first{}, last{}, product{};  // means over the trials, m²: squares of the deviations at both
+                                    // nodes, and their products
 };
 
 // Commands of X, Y, Z that move the tool by `place`.
@@ -285,7 +286,7 @@ TEST(VolumetricParts, GridFinerThanTheTargetsKeepsU) {
 
 // The noise differs from node to node, and each axis has a different number of nodes. At a node,
 // volumetric_at() returns the value of the node.
-TEST(VolumetricParts, AtANodeAreTheValuesOfTheNode) {
+TEST(VolumetricParts, ValuesAtANodeAreThoseStoredForTheNode) {
   Simulated s = simulated_axes(3);
   for (MachineFrame& frame : s.machine.frames) {
     frame.range = {0, kPartsTravel_m / static_cast<double>(1 + frame.direction)};

@@ -11,8 +11,8 @@
 namespace mdof::algo {
 namespace {
 
-// Text of a machine with X, Y, Z and the tool point at (0, 0, 50) mm; the errors are stated at the
-// origin. `x`, `y`, `z`: text of the errors of these axes.
+// Text of a machine with X, Y, Z and the tool point at (0, 0, 50) mm; the reference point of the
+// errors is the origin. `x`, `y`, `z`: text of the errors of these axes.
 std::string machine_text(const std::string& chain, const std::string& x, const std::string& y,
                          const std::string& z) {
   const auto axis = [](const std::string& id, const std::string& errors) {
@@ -55,7 +55,7 @@ VolumetricTable built(const Machine& m, const VolumetricRequest& request = {}) {
 
 // A ball screw with a pitch of 10 mm has error values every 2.5 mm. Nodes every 10 mm and the
 // centres of the cells do not show its error. EXY has a bend at 1 mm, beside a node; its effect
-// adds.
+// adds to that of EXX.
 TEST(Volumetric, StatesErrorsBetweenNodes) {
   std::string exx = "EXX_um = [", exy = "EXY_um = [[0, 0], [1, 0.9], [40, 0]]";
   for (int quarter = 0; quarter <= 16; ++quarter)
@@ -66,7 +66,7 @@ TEST(Volumetric, StatesErrorsBetweenNodes) {
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", exx + "]", exy), request);
   EXPECT_NEAR(largest_correction_m(t, 0), 0.69e-6, 0.01e-6);  // EXY at Y = 10 mm
   // The corrected command is beside the peak, on a slope of 4 µm/mm, where EXX is 10/1.004 µm. EXY
-  // adds 0.9 µm at Y = 1 mm. The straight line between the nodes contains a part of it: a tenth of
+  // adds 0.9 µm at Y = 1 mm. The straight line between the nodes contains a part of EXY: a tenth of
   // EXY at Y = 10 mm, which is 0.9 µm · 30/39.
   EXPECT_NEAR(t.interpolation_m[0], (10 / 1.004 + 0.9 - 0.09 * 30 / 39) * 1e-6, 1e-9);
   EXPECT_NEAR(t.interpolation_m[1], 0, 1e-12);
@@ -83,8 +83,8 @@ TEST(Volumetric, CorrectsErrorsOfToolAndWorkAxes) {
     EXPECT_NEAR(t.correction_m[t.node(2, 3, 1)][0], -1e-6, 1e-10) << chain;
     EXPECT_NEAR(t.correction_m[t.node(4, 4, 4)][1], 0, 1e-12) << chain;
   }
-  // EYX of the tool: Y moves the tool back by EYX. EYX of the work: Y moves the tool after the
-  // work.
+  // If X carries the tool, Y moves the tool back by EYX. If X carries the work, Y moves the tool
+  // after the work.
   const std::string eyx = "EYX_um = [[0, 0], [40, 4]]";
   const VolumetricTable tool = built(machine("w-b-X-Y-Z-t", eyx));
   EXPECT_NEAR(tool.correction_m[tool.node(4, 1, 2)][1], -4e-6, 1e-10);
@@ -193,7 +193,7 @@ TEST(Volumetric, UnmeasuredErrorsAreRefusedOrNamed) {
   EXPECT_TRUE(std::isnan(t.u_m[0][0]));  // the machine declares no u
 }
 
-TEST(Volumetric, LimitsAxesAndSizesAreChecked) {
+TEST(Volumetric, ChecksLimitsStepAndRangesOfAxes) {
   const auto code = [](const Machine& m, const VolumetricRequest& request) {
     const auto table = build_volumetric(m, request);
     return table ? std::string("built") : table.error().message;

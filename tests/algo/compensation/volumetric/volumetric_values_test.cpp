@@ -1,5 +1,6 @@
 // The values of a volumetric table are compared with three linear interpolations, one axis after
-// the other. The facts of a built table are compared with errors that add in closed form.
+// the other. The residuals that a built table states are compared with errors that add in closed
+// form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -169,7 +170,7 @@ TEST(VolumetricTables, StateTheUncorrectedReversal) {
   EXPECT_EQ(without->reversal_m, (Vec3{}));
 }
 
-TEST(VolumetricTables, StateTheFactsOfTheMachine) {
+TEST(VolumetricTables, StateTheMachineAndItsUnknownErrors) {
   Machine m = parsed(machine_of("u_EXX_um = 0.3\nEXX_um = [[0, 0], [15, 1]]",
                                 "EYY_um = 1\nu_EYY_um = 0.4", "EZZ_um = 1\nu_EZZ_um = 0.5"));
   m.simulated = true;
@@ -239,7 +240,7 @@ TEST(VolumetricTables, UncorrectedPartIsTheLargestOfAllNodes) {
   EXPECT_NEAR(t->turn_left_rad, 130e-6, 1e-9);
 }
 
-TEST(VolumetricTables, NameTheLineThatIsTooSteep) {
+TEST(VolumetricTables, NameTheGridLineThatIsTooSteep) {
   const auto refused = [](const Machine& m, const VolumetricRequest& request) {
     const auto t = build_volumetric(m, request);
     return t ? std::string("built") : t.error().message;

@@ -63,7 +63,7 @@ Slow none() {
 
 struct World {
   int runs = 3;
-  // M, at a fraction of the log.
+  // Drift of δy, m; `part`: elapsed fraction of the log.
   std::function<double(double part)> drift = [](double) { return 0.0; };
   Slow slow = none();
 
@@ -284,7 +284,7 @@ TEST(RemovedDrift, ARandomWalkAloneIsSeldomTakenForADrift) {
   EXPECT_LE(removed, 0.01 * logs);
 }
 
-TEST(RemovedDrift, IntervalsWithoutItsUMissTheTruth) {
+TEST(RemovedDrift, IntervalsWithoutUOfTheDriftMissTheTruth) {
   World world;
   world.drift = kDrifts.at("linear");
   Coverage coverage;
@@ -309,7 +309,7 @@ TEST(RemovedDrift, StartRemainsAsMeasured) {
 
 // 50 mm above the fixture, δy of the tool also contains the drift of εx. This drift is correlated
 // with the drift of δy.
-TEST(RemovedDrift, AtTheToolIncludesTheDriftOfAngles) {
+TEST(RemovedDrift, UAtTheToolIncludesTheDriftOfAngles) {
   World world;
   world.drift = kDrifts.at("linear");
   bool removed = false;
@@ -329,7 +329,7 @@ TEST(RemovedDrift, AtTheToolIncludesTheDriftOfAngles) {
   EXPECT_GT(u_last(there, kDy), 2 * u_last(run, kDy));
 }
 
-TEST(RemovedDrift, HasNoContributorWithoutRemoval) {
+TEST(RemovedDrift, BudgetHasNoContributorWithoutRemovedDrift) {
   bool removed = true;
   const mdof::Run run = without_drift(World{}.measured(7), removed);
   EXPECT_FALSE(removed);

@@ -16,9 +16,9 @@ struct Log {
   double noise_m = 0;
   std::uint32_t seed = 1;
   bool both_ways = true, back_to_start = false;
-  std::function<double(double)> drift = [](double) { return 0.0; };  // of δy, m, at a time in s
-  std::function<double(int)> reversal = [](int) { return 80e-9; };   // for a target
-  std::function<double(int)> of_run = [](int) { return 0.0; };       // a step, for a run
+  std::function<double(double)> drift = [](double) { return 0.0; };  // m, at a time in s
+  std::function<double(int)> reversal = [](int) { return 80e-9; };   // m, at a target
+  std::function<double(int)> of_run = [](int) { return 0.0; };       // shift, m
 
   double length_s() const { return 2.0 * (targets * (both_ways ? 2 : 1) * runs - 1); }
 
@@ -71,7 +71,7 @@ struct Log {
 
 constexpr double kNoise = 3e-9;
 
-// Largest deviation of δy from the true form and reversal, minus the mean of all deviations.
+// Largest deviation of δy from the true form and reversal, relative to the mean deviation.
 double worst_deviation_m(const Log& log, const std::vector<MeasuredPoint>& points) {
   double mean = 0;
   std::vector<double> off;
@@ -354,12 +354,12 @@ TEST(RunDrift, PointsWithoutErrorsRemainUnchanged) {
   EXPECT_NE(DriftOfRun({}).found().not_seen, "");
 }
 
-TEST(DriftDesign, TakesOnlyOrdersThatVisitsShow) {
+TEST(DriftDesign, UsesOnlyOrdersThatRepeatedVisitsDetermine) {
   std::vector<TimedVisit> visits;
   for (int i = 0; i < 20; ++i) visits.push_back({static_cast<std::size_t>(i % 10), 1.0 * i});
   const DriftDesign twice(visits);
   EXPECT_GE(twice.orders(), 1);
-  EXPECT_LT(twice.orders(), DriftDesign::kMostOrders);  // one is nearly the same in both runs
+  EXPECT_LT(twice.orders(), DriftDesign::kMostOrders);  // one order is nearly equal in both runs
   EXPECT_DOUBLE_EQ(twice.freedom(), 20 - 10 - twice.orders());
   visits.resize(10);
   EXPECT_EQ(DriftDesign(visits).orders(), 0);
@@ -372,7 +372,7 @@ TEST(DriftDesign, CriticalTMatchesTheTables) {
   EXPECT_NEAR(critical_t(0.05, 10), 2.228, 0.001);
 }
 
-// One drift falls. The other rises by 120 nm and falls to -40 nm at the end.
+// One drift falls. The other rises to 101 nm and falls to -40 nm at the end.
 TEST(RunDrift, RangeIsHighestMinusLowest) {
   Log log;
   log.noise_m = 0.1 * kNoise;

@@ -16,7 +16,7 @@ namespace {
 
 // Correlation times: 1, 2, 4 ... times the mean interval between visits, up to eight times the
 // length of the log.
-// Ratios of slow to white noise: 1/4, 1, 4 and more.
+// Ratios of the variance of slow noise to that of white noise: 1/4, 1, 4 and more.
 TEST(SlowNoises, RangeFromWhiteNoiseToRandomWalk) {
   const std::vector<SlowNoise> all = slow_noises({2, 3, 20, 22});
   ASSERT_EQ(all.size(), 1 + 5 * 5u);
@@ -33,7 +33,7 @@ TEST(SlowNoises, RangeFromWhiteNoiseToRandomWalk) {
 }
 
 // The longest correlation time is at most eight times the length of the log.
-TEST(SlowNoises, CorrelationTimesReachEightLogs) {
+TEST(SlowNoises, CorrelationTimesReachEightLogLengths) {
   // 1, 2, 4, 8 times the interval; the log is 1 interval.
   EXPECT_EQ(slow_noises({0, 1}).size(), 1 + 4 * 5u);
   // Up to 16 times the interval; the log is 2 intervals.
@@ -150,7 +150,7 @@ TEST(DriftDesignByHand, PolynomialsAreLegendreFromTheFirstVisit) {
 }
 
 // Rows are in the order of time. The mean of the rows of a place is subtracted from each of them.
-TEST(DriftDesignByHand, RowsHaveNoMeansOfPlaces) {
+TEST(DriftDesignByHand, RowsAreRelativeToTheMeanOfTheirPlace) {
   std::vector<TimedVisit> visits = many_visits(3, 8);
   std::swap(visits[1], visits[9]);
   const DriftDesign design(visits);
@@ -185,8 +185,8 @@ TEST(DriftDesignByHand, RowsHaveNoMeansOfPlaces) {
   EXPECT_EQ(rows.freedom(), 24 - 3 - design.orders());
 }
 
-// From 49 places on two neighbouring visits share a row, from 97 places on three. The row is the
-// mean of consecutive visits.
+// From 49 places on two neighbouring visits share a row, from 97 places on three visits. The row is
+// the mean of consecutive visits.
 TEST(DriftDesignByHand, NeighboursOfManyPlacesShareARow) {
   for (const auto& [places, each] : {std::pair(48u, 1u), std::pair(49u, 2u), std::pair(97u, 3u)}) {
     const DriftDesign design(many_visits(places, 2));

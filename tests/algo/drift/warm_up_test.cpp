@@ -54,7 +54,7 @@ TEST(WarmUp, ShortLogsAreNotReady) {
   EXPECT_FALSE(warm_up(readings(60, 30, infinity, steady)).ready_after_s);
 }
 
-TEST(WarmUp, LogsOfSecondsAreNotReady) {
+TEST(WarmUp, LogsShorterThanTenMinutesAreNotReady) {
   EXPECT_FALSE(warm_up(readings(40, 0.1, 1e6, steady)).ready_after_s);
   EXPECT_FALSE(warm_up(readings(59, 10, 1e4, steady)).ready_after_s);
   EXPECT_TRUE(warm_up(readings(60, 10, 1e4, steady)).ready_after_s);
@@ -76,7 +76,7 @@ TEST(WarmUp, RateAndItsUncertaintyByHand) {
   EXPECT_NEAR(w.u_rate_per_s, std::sqrt((0.9 - 4.5 * 4.5 / 82.5) / 8 / 82.5) * 1e-9, 1e-18);
 }
 
-TEST(WarmUp, NoiseGivesUndecided) {
+TEST(WarmUp, NoiseGivesAnUndecidedVerdict) {
   const auto r = readings(60, 1, 100, [](double s) { return std::fmod(s * 7, 10); });
   const WarmUp w = warm_up(r);
   EXPECT_FALSE(w.ready_after_s);

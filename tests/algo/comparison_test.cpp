@@ -8,8 +8,8 @@
 namespace mdof::algo {
 namespace {
 
-// An experiment whose outputs are the values of the test, one a trial; NaN: the trial is not
-// solved.
+// An experiment with one output. The test gives its value in each trial; NaN: the trial has no
+// solution.
 class Given : public Experiment {
  public:
   Given(std::string key, std::vector<double> values)
@@ -44,10 +44,10 @@ TEST(ComparisonByHand, FourTrials) {
   EXPECT_NEAR(result[0].sd_this, std::sqrt(5.0 / 3), 1e-12);
   EXPECT_NEAR(result[0].sd_other, std::sqrt(12.0), 1e-12);
   EXPECT_NEAR(result[0].ratio, std::sqrt(12 * 3 / 5.0), 1e-12);
-  // Each sum of squares is divided by the variance of its experiment; the difference is other minus
-  // this.
-  // First block, sums 2.25 + 0.25 (this) and 1 + 9 (other): 10/12 - 2.5 × 3/5 = -2/3.
-  // Second block, sums 2.5 (this) and 1 + 25 (other): 26/12 - 2.5 × 3/5 = 2/3.
+  // In each block of two trials, the sum of the squares about the mean is divided by the variance
+  // of its experiment. The difference of both quotients is other minus this.
+  // First block, sums of squares 2.25 + 0.25 (this) and 1 + 9 (other): 10/12 - 2.5 × 3/5 = -2/3.
+  // Second block, sums of squares 2.5 (this) and 1 + 25 (other): 26/12 - 2.5 × 3/5 = 2/3.
   // Standard error of the ratio: ratio/2 √(2 × 2 × 4/9)/4 = ratio/6.
   EXPECT_NEAR(result[0].ratio_se, result[0].ratio / 6, 1e-12);
 }

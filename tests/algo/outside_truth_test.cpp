@@ -65,8 +65,8 @@ double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Transforms a point p from frame M to frame C: Rᵀ (p - t). R = Rz Ry Rx; the three rotations are
-// inverted one after the other.
+// Transforms a point p from the machine frame M to the carriage frame C: Rᵀ (p - t). R = Rz Ry Rx;
+// the three rotations are inverted one after the other.
 Vector to_carriage(Vector p, double travel_m, const Errors5& e) {
   p = {p[0] - travel_m, p[1] - e[0], p[2] - e[1]};
   const auto turn = [&p](std::size_t a, std::size_t b, double angle) {
@@ -128,7 +128,7 @@ TEST(OutsideTruth, ReadingsOfARandomTargetMatchBisection) {
   }
 }
 
-// The top plane has a hill of 1 µm under probe P1 alone, so the surface is 1 µm nearer along +Z.
+// The top plane has a hill of 1 µm under probe P1 alone, so the surface at P1 is 1 µm higher (+Z).
 TEST(OutsideTruth, HillGivesPositiveReading) {
   Rig rig = test::rig_oblique();
   for (auto& plane : rig.planes)
@@ -140,9 +140,9 @@ TEST(OutsideTruth, HillGivesPositiveReading) {
   EXPECT_NEAR(readings(1), 0, 1e-12);
 }
 
-// Compares fixtures that differ from the default fixture with the same bisection; probe D is not at
-// x = 0. The exact model differs from a true rotation in second order: by 31 nm at 1 mrad, by 0.31
-// nm at 0.1 mrad.
+// Solves readings of fixtures other than the default fixture; the same bisection gives the
+// readings. Probe D is not at x = 0. The exact model differs from a true rotation in second order:
+// by 31 nm at 1 mrad, by 0.31 nm at 0.1 mrad.
 TEST(OutsideTruth, ExactModelHoldsForOtherFixtures) {
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<> unit(-1, 1);
@@ -204,9 +204,9 @@ TEST(OutsideTruth, MeanAndItsUncertaintyByHand) {
   }
 }
 
-// A curve at uneven positions. It is linear between its points and across a missing value, and
-// constant beyond its ends. u is interpolated linearly, too. The uncertainty of the interpolation
-// is added in quadrature.
+// An error curve at uneven positions. The curve is linear between its points and across a missing
+// value, and constant beyond its ends. u is interpolated linearly, too. The uncertainty of the
+// interpolation is added in quadrature.
 TEST(OutsideTruth, TableIsLinearBetweenItsPoints) {
   CompensationTable table;
   table.position_m = {0, 1, 3, 4, 8};

@@ -1,4 +1,4 @@
-// A simulated machine axis and its encoder, which moves and stops as a test commands.
+// A simulated machine axis with an encoder. A test commands its moves and stops.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace mdof::algo {
 
-// stop() moves to a position and waits there. The test itself counts the stops.
+// stop() moves to a position and waits there.
 struct SteppingAxis {
   double rate_hz = 500, dwell_s = 0.4, speed_m_s = 0.05, noise_m = 10e-9;
   double x_m = -1e-3;

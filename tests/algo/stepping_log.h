@@ -1,5 +1,5 @@
 // The log of an axis that steps to 13 targets in both directions, three times: 78 stops. This model
-// uses no code of the code under test.
+// shares no code with the product.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct SteppingLog {
 
   // Position of the axis at each scan, mm.
   std::vector<double> path_mm() const {
-    std::vector<double> stops;  // NaN: the axis turns without a stop
+    std::vector<double> stops;  // mm
     std::vector<bool> stays;
     const auto stop = [&](double mm, bool stay) { stops.push_back(mm), stays.push_back(stay); };
     stop(-overrun_mm, false);

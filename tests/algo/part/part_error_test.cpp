@@ -89,7 +89,8 @@ TEST(PartError, AddsSignedCausesAndExpectedSquares) {
   EXPECT_NEAR(found.layers[1].rms_m, 2e-6, 1e-15);
   EXPECT_NEAR(found.layers[0].share, 0.5, 1e-12);
   EXPECT_NEAR(found.causes[0].share, 9. / 14, 1e-12);
-  // |2 + 2 xi| - 2 exceeds 1.645 u in one of twenty trials. In the other direction it is limited.
+  // For a standard normal xi, |2 + 2 xi| - 2 exceeds 1.645 u (2 um) in one of twenty trials. It
+  // cannot be less than -2.
   EXPECT_NEAR(found.U_max_m, 1.645 * 2e-6, 0.35e-6);
 }
 
@@ -137,8 +138,8 @@ TEST(PartError, SharesOfABudgetAreWithinTheirU) {
   expect_planted_shares_within_U(true);
 }
 
-// Calculated by hand: X carries the tool, Y the table. The tool is above the point at which the
-// errors are stated.
+// Calculated by hand: X carries the tool, Y the table. The tool is above the reference point of the
+// errors.
 TEST(MachineCauses, MatchesManualCalculationOfLeversAndSources) {
   const auto machine = parse_machine(R"(name = "m"
 machine = {chain = "w-Y-b-X-t"}

@@ -19,7 +19,7 @@ constexpr double kOut_m_s = 10e-3, kBack_m_s = 5e-3, kTravel_m = 20e-3;
 constexpr double kWave_m = 8e-3, kHeight_m = 20e-6;
 constexpr std::int64_t kFirst_ns = 7'000'000'000;
 
-// Changes of a steady motion forward and in reverse.
+// A log of a steady motion forward and in reverse. The fields change the motion or the log.
 struct MotionLog {
   double travel_m = kTravel_m;
   double stop_at_m = -1, stop_s = 0;  // a stop in the forward pass
@@ -312,8 +312,9 @@ TEST(OnTheFlyRun, GapIsLongerThanThreePeriods) {
   EXPECT_EQ(run.summary().gaps, 3U);
 }
 
-// The axis moves between these positions at 10 mm/s, with one bin per millimetre. In the first log
-// two of five passes cross the targets from 1 to 7 mm, in the second log two of four.
+// The axis moves from each position in `ends_mm` to the next at 10 mm/s, with one bin per
+// millimetre. In the first log two of five passes cross the targets from 1 to 7 mm, in the second
+// log two of four.
 TEST(OnTheFlyRun, TargetNeedsHalfOfThePasses) {
   const auto sequence_over = [](const std::vector<double>& ends_mm) {
     FrameBlock frames = empty_frames(1);

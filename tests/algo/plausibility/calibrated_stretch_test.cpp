@@ -11,7 +11,8 @@
 namespace mdof::algo {
 namespace {
 
-// Probe B is calibrated from t = -10 to 30 um; its readings are 5 % too large.
+// Probe B is calibrated from t = -10 to 30 um (t: reading before the linearity correction). Its
+// readings are 5 % too large.
 Rig calibrated(bool gap = false) {
   Rig rig = test::rig_x();
   Calibration& c = rig.probes[1].calibration;
@@ -49,7 +50,7 @@ TEST(CalibratedStretch, AcceptsATenthBeyondTheRange) {
   EXPECT_EQ(stretch_notices(calibrated(), {point(32.4e-6)}).size(), 1U);
 }
 
-TEST(CalibratedStretch, HasNoNoticeWithoutReadingsOrRecord) {
+TEST(CalibratedStretch, HasNoNoticeWithoutReadingsOrCalibration) {
   EXPECT_TRUE(stretch_notices(test::rig_x(), {point(90e-6)}).empty());
   EXPECT_TRUE(stretch_notices(calibrated(), {point(90e-6, false)}).empty());
   EXPECT_TRUE(stretch_notices(calibrated(), {point(std::nan(""))}).empty());

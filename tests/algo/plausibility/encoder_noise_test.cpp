@@ -54,7 +54,8 @@ TEST(EncoderNoise, FindsTheSameStopsForAnyBlockSize) {
   }
 }
 
-// Half of the slots are at rest. The noise in the other half is ten times as large.
+// In half of the slots (groups of rows) the axis is at rest. The noise in the other half is ten
+// times as large.
 TEST(EncoderNoise, FloorIsTheNoiseAtRest) {
   std::mt19937_64 engine(3);
   std::normal_distribution<> unit;

@@ -50,7 +50,7 @@ TEST(MapCover, ReportsPlaneDirectionAndProbe) {
             "reached=probe B reads at 10 mm\n");
 }
 
-TEST(MapCover, ChecksBothEndsAndOnlyItsProbes) {
+TEST(MapCover, ChecksBothEndsAndOnlyProbesOfThePlane) {
   Mapped mapped({-60e-3, 10e-3}, {0});
   EXPECT_EQ(mapped.said(-51e-6, 60e-3).size(), 1u);
   EXPECT_EQ(mapped.said(0, 60.051e-3).size(), 1u);
@@ -74,7 +74,7 @@ TEST(MapCover, UsesTheAxesOfThePlane) {
   EXPECT_EQ(mapped.said(0, 60e-3).size(), 1u);
 }
 
-TEST(MapCover, UsesTargetTravelOfPointsWithErrors) {
+TEST(MapCover, UsesTheTargetTravelOfPointsWithValidErrors) {
   const Mapped mapped({-60e-3, 10e-3}, {0});
   std::vector<MeasuredPoint> points(3);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
-// Tests the lower quartile of the slots. The slots are given one by one. Mutation tests
-// (tests/mutate) found these cases.
+// Tests the noise floor, which is the lower quartile of the noise of the slots. The slots are given
+// one by one. Mutation tests (tests/mutate) found these cases.
 #include "algo/plausibility/noise_floor.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kRowsOfSlot = 16;
 
 // Mean |second difference| of white noise with this standard deviation. It is reduced, because the
-// quartile of 16 values is below their mean.
+// lower quartile of slots with 16 rows is below their mean.
 double mean_second_difference(double sd) {
   return std::sqrt(6) * std::sqrt(2 / std::numbers::pi) * sd * (1 - 0.72 / 4);
 }
@@ -27,7 +27,7 @@ double noise_floor_for(const std::vector<double>& sds) {
   return floor.sd();
 }
 
-// Centres of the bins: 17/32, 19/32 ... 31/32, eight per octave.
+// Centres of the bins of the standard deviation: 17/32, 19/32 ... 31/32, eight per octave.
 double middle(int eighth, int exponent) {
   return std::ldexp((17 + 2 * eighth) / 32.0, exponent);
 }

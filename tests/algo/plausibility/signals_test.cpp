@@ -108,7 +108,7 @@ TEST(Signals, ProbeWithCoarseResolutionIsNotClipped) {
   EXPECT_TRUE(said(sequence).empty());
 }
 
-TEST(Signals, ReportsAProbeThatDiesWithItsTime) {
+TEST(Signals, ReportsWhenAProbeDies) {
   const auto found = said(with_dead_probe(12, 5));  // before stop 5 the probe reads 0 to 4 um
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(shown(found[0]), "probe_insensitive C stops=7 from_s=5 reading_um=3");
@@ -134,7 +134,7 @@ TEST(Signals, ConstantMeansWithinEightTimesU) {
 
 // The readings of the other probes, and of the probe itself before its fault, must have changed by
 // 50 times the limit of 8 nm: 400 nm.
-TEST(Signals, OtherProbesMustMove) {
+TEST(Signals, ReadingsOfOtherProbesMustChange) {
   for (const double step_m : {38e-9, 35e-9}) {  // 418 nm and 385 nm over eleven steps
     Sequence slow = with_dead_probe(12, 0);
     for (std::size_t i = 0; i < slow.points.size(); ++i)

@@ -182,7 +182,7 @@ TEST(VisitStep, ReportsTargetsVisitedOnce) {
 }
 
 // Copies are reported if at least six points and at least a tenth of all points are copies.
-TEST(VisitStep, ReportsCopiesFromSixAndATenthOn) {
+TEST(VisitStep, ReportsCopiesFromSixPointsAndATenthOn) {
   const auto said = [](std::size_t copies, std::size_t all) {
     auto points = repeated_log(3, no_change);
     points.resize(all);

@@ -75,7 +75,7 @@ TEST(AlignDelay, IsRemovedFromItsChannel) {
 // A device reads A, B and the encoder counter one after the other in intervals of 0.5 ms. The time
 // stamp of the scan is the time of the first reading. The declared delay of an input is the time
 // from its reading to the last reading of the scan (drivers/README.md).
-TEST(AlignDelay, SequentialInputsHaveTheTimeToTheLast) {
+TEST(AlignDelay, DelayOfSequentialInputsIsTheTimeToTheLastReading) {
   constexpr double kTurn_s = 0.5e-3;
   const auto read_aligned_frames = [&](const AlignOptions& options) {
     Aligner aligner(options, {"A", "B"});

@@ -90,7 +90,7 @@ std::vector<Point> detect(const FrameBlock& frames, std::size_t block, DwellOpti
 
 const std::vector<double> kTargets = {0, 2e-3, 4.1e-3, 5.9e-3, 8e-3};
 
-TEST(Dwell, FindsEveryStopAndInventsNone) {
+TEST(Dwell, FindsEveryStopAndNoOther) {
   for (const double rate : {10.0, 20.0, 200.0, 1000.0, 4000.0}) {
     Stepper axis;
     axis.rate_hz = rate;
@@ -127,7 +127,7 @@ TEST(Dwell, GivesTheSameBitsForAnyBlockSize) {
 // A replay has larger blocks than the live run. In a larger block, a later repeated reading adds
 // the column of marks also for earlier rows, which had none.
 TEST(Dwell, LearnsTheSameResolutionForAnyBlockSize) {
-  constexpr double step_m = 100e-9;  // five rows of the motion
+  constexpr double step_m = 100e-9;  // change of the reading in five rows of the motion
   Stepper axis;
   axis.noise_m = 1e-9;
   axis.passes(kTargets, 2);

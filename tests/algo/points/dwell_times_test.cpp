@@ -238,7 +238,7 @@ TEST(DwellTimes, FindsAStopBeforeThePeriodIsKnown) {
 
 // The axis moves at 10 mm/s, and 1.5 s are missing. The event states the last position before the
 // hole and the distance moved during the hole.
-TEST(DwellTimes, HoleHasTheLastScanBeforeIt) {
+TEST(DwellTimes, HoleStatesTheLastScanBeforeIt) {
   FrameBlock frames = empty_frames(1);
   for (std::int64_t ms = 0; ms < 4000; ++ms) {
     if (ms > 1000 && ms < 2500) continue;

@@ -29,7 +29,7 @@ const std::size_t kBlocks[] = {1, 13, 100'000};
 
 // Three of five scans of one stop have no position. The point is the mean of the other scans and
 // has a flag.
-TEST(MissingEncoder, HandlesMoreThanHalfOfAStop) {
+TEST(MissingEncoder, AveragesAStopWithMostPositionsMissing) {
   const SteppingLog log = one_run();
   const FrameBlock whole = log.frames();
   const auto clean = detect(log, whole, 1000);
@@ -72,7 +72,7 @@ TEST(MissingEncoder, FirstFramesMayHaveNoPosition) {
 
 // The positions are missing for a second, while the axis moves from stop 3 to stop 5. This is a
 // hole.
-TEST(MissingEncoder, ManyInARowAreAHole) {
+TEST(MissingEncoder, ManyMissingPositionsInARowAreAHole) {
   const SteppingLog log = one_run();
   FrameBlock frames = log.frames();
   const auto clean = detect(log, frames, 1000);

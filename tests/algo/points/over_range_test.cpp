@@ -47,9 +47,10 @@ OverRange one_over(double at_m) {
   return over;
 }
 
-// The bias of the mean is phi(a)/Phi(a) with Phi(-a) = p. The values are from a table of the normal
+// A fraction p of the readings, above the end of the range, is missing. The bias of the mean is
+// phi(a)/Phi(a) standard deviations with Phi(-a) = p. The values are from a table of the normal
 // distribution.
-TEST(OverRange, UCoversTheBiasOfATrace) {
+TEST(OverRange, UCoversTheBiasOfOneMissingReading) {
   struct {
     std::size_t of;
     double bias;

@@ -170,7 +170,7 @@ TEST(BlockFigures, AreEqualWithAndWithoutStatistics) {
   }
 }
 
-TEST(AdaptiveBlocks, HaveAtLeast100TrialsOutside) {
+TEST(AdaptiveBlocks, HaveAtLeast100TrialsOutsideTheInterval) {
   const FourRectangular e;
   EXPECT_EQ(adaptive_block_trials(e, 0.95).value(), block_trials(e));
   EXPECT_GE(adaptive_block_trials(e, 0.9999).value(), 1'000'000u);

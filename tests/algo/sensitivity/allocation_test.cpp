@@ -115,8 +115,8 @@ TEST(Allocation, IsTheSameHoweverItsTasksAreRun) {
   EXPECT_EQ(forward.reached, backward.reached);
 }
 
-// Trial j of n has the output scale (1 + spread j/n); the quantity is 1. Without a spread, a trial
-// is within a limit up to exactly the scale that equals the limit.
+// The size of the output of trial j of n = 300 is scale × (1 + spread j/n). Without a spread, a
+// trial is within a limit if its scale is at most this limit.
 class Proportional : public ScalableExperiment {
  public:
   explicit Proportional(double spread = 0) : spread_(spread) {}
@@ -225,7 +225,7 @@ TEST(Comparison, TwiceTheWidthHalvesTheAngles) {
   EXPECT_EQ(reversed.result()[0].ratio, result[0].ratio);
 }
 
-TEST(Comparison, StandardErrorIsThatOfPairedTrials) {
+TEST(Comparison, StandardErrorHoldsForPairedTrials) {
   // The drift of A is twice as large in the second plan, the drift of B is equal in both. A and B
   // are independent.
   double squares = 0;

@@ -264,7 +264,7 @@ TEST(PlanExperiment, ExpansionIsAboutTheOriginOfM) {
 }
 
 TEST(PlanExperiment, EncoderErrorsActWithTheAngles) {
-  // δz = c - d p: an error of 1 µm of the travel d at a pitch p of 100 µrad changes δz by -0.1 nm.
+  // δz contains -d p: a travel error of 1 µm at a pitch p of 100 µrad changes δz by -0.1 nm.
   const auto offset = experiment_of(still("EBX_urad = [100]\n" + constant("encoder.offset_um", 1)));
   EXPECT_NEAR(run(*offset, 1)[kEZX][0], -1e-4, 1e-6);
   const auto scale =

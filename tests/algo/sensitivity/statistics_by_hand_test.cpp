@@ -100,7 +100,7 @@ TEST(StatisticsByHand, BlockIsTheSmallestMultiple) {
 
 // At least 100/(1 - coverage) trials are necessary, in blocks of 10240: 10204 trials in one block,
 // 10246 in two.
-TEST(StatisticsByHand, AdaptiveBlockHas100TrialsOutside) {
+TEST(StatisticsByHand, AdaptiveBlockHas100TrialsOutsideTheInterval) {
   EXPECT_EQ(adaptive_block_trials(Given({1}), 0.5).value(), 10240u);
   EXPECT_EQ(adaptive_block_trials(Given({1}), 0.9902).value(), 10240u);
   EXPECT_EQ(adaptive_block_trials(Given({1}), 0.99024).value(), 20480u);

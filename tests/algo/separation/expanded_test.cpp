@@ -17,8 +17,8 @@ double normal(std::uint32_t trial, std::uint32_t set_up, std::uint32_t i) {
   return gaussian(uniform(words[0], words[1]));
 }
 
-// Three set-ups: in the second the target is shifted by a step, in the third it is turned over.
-// There are n - 3 degrees of freedom.
+// Three set-ups with n positions: in the second the target is shifted by a step, in the third it is
+// turned over. There are n - 3 degrees of freedom.
 SeparationRequest noise_only(std::uint32_t n, std::uint32_t trial) {
   SeparationRequest request;
   for (std::uint32_t k = 0; k < 3; ++k) {

@@ -9,7 +9,8 @@
 namespace mdof::algo {
 namespace {
 
-// A run with δy = 2 µm/m · d and the yaw εz = 30 µrad/m · d. At the fixture EYX is δy - d εz.
+// A run with δy = 2 µm/m · d and the yaw εz = 30 µrad/m · d at the travel d. At the fixture EYX is
+// δy - d εz.
 mdof::Run make_slope_run(const Rig& rig) {
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .targets_m = {0, 10e-3, 30e-3}};
   synthetic.truth = [](double d) { return Errors5{2e-6 * d, 0, 0, 0, 30e-6 * d}; };
@@ -27,8 +28,8 @@ TEST(RunSeries, ErrorSeriesIsTheMeanAtEachTarget) {
   }
 }
 
-// Probe D at x = 0 reads δy - εz d. Each target has two visits in three runs, so u of the mean is
-// u/√6.
+// Probe D at x = 0 reads δy - εz d. Each target has two visits in each of three runs, so u of the
+// mean is u/√6.
 TEST(RunSeries, ProbeSeriesIsTheReading) {
   for (const char* id : {"D", "E"}) {
     const auto run = make_slope_run(test::rig_x());
@@ -75,7 +76,7 @@ TEST(RunSeries, DeclaredGainHasTheEffectOfARealGain) {
 
 // The flatness of the measured surface is a result of the separation and not part of u. The
 // flatness of the other surface contributes to u.
-TEST(RunSeries, ContainsFlatnessOfTheOtherSurface) {
+TEST(RunSeries, UContainsFlatnessOfTheOtherSurfaceOnly) {
   const std::string planes =
       "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.05\n"
       "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n";

@@ -30,8 +30,8 @@ CycleFound there_and_back(const Row& targets, int count) {
   return cycle_of(row, count);
 }
 
-// There may be more blocks of visits than targets, because the axis returned once: one block more,
-// or a quarter of the number of targets more.
+// There may be more blocks (consecutive visits of one target) than targets, because the axis
+// returned once: one block more, or a quarter of the number of targets more.
 TEST(PilgrimLimit, AllowsAQuarterMoreBlocksThanTargets) {
   EXPECT_EQ(there_and_back({1, 2, 3, 4, 3, 5, 6, 7}, 7).cycle, Cycle::pilgrim);
   EXPECT_NE(there_and_back({1, 2, 3, 4, 3, 4, 5, 6, 7}, 7).cycle, Cycle::pilgrim);
@@ -39,8 +39,8 @@ TEST(PilgrimLimit, AllowsAQuarterMoreBlocksThanTargets) {
   EXPECT_NE(there_and_back({1, 2, 3, 4, 5, 3, 4, 5, 6, 7, 8, 9}, 9).cycle, Cycle::pilgrim);
 }
 
-// First, three of six targets are visited twice in a row, with nine visits in all. Then there are
-// eight visits.
+// In the first cycle, three of six targets are visited twice in a row (nine visits), in the second
+// cycle only two (eight visits).
 TEST(PilgrimLimit, HalfOfTheTargetsAreVisitedTwiceInARow) {
   const CycleFound found = cycle_of({1, -1, 2, 3, -3, 4, 5, -5, 6}, 6);
   EXPECT_EQ(found.cycle, Cycle::pilgrim);

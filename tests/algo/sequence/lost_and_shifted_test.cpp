@@ -64,7 +64,7 @@ TEST(ShiftedTargets, AreFoundWithTimeAndShift) {
 }
 
 // One direction has one more target. The shift is calculated from the common targets.
-TEST(ShiftedTargets, MayHaveOneMoreTargetOnOneSide) {
+TEST(ShiftedTargets, MayHaveOneMoreTargetInOneDirection) {
   const double d = 2e-3;
   EXPECT_NEAR(find_shifted_targets(
                   visited({0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d, 45e-3}, {1, 3, 5, 7, 6, 4, 2}))

@@ -23,8 +23,8 @@ struct Told {
   std::vector<std::string> reasons;  // reason for each stop that is left out
 };
 
-// Simulates a log. It visits all positions, then again those with more visits, so it ends at one of
-// these.
+// Simulates a log. The axis visits all positions, then again those with more visits, so the log
+// ends at one of these.
 Told left_out_stops(const std::vector<Visited>& places, bool parked_first = false) {
   std::vector<double> targets_m;
   for (const Visited& place : places) targets_m.push_back(1e-3 * place.position_mm);
@@ -106,7 +106,7 @@ TEST(OddStops, PlaceBeyondTheEndMustBeNear) {
 
 // A position beyond the end with one visit is no target if the targets have three visits. With two
 // visits it may be a target.
-TEST(OddStops, OneVisitBeyondTheEndIsNoTargetOfThree) {
+TEST(OddStops, OneVisitBeyondTheEndIsTooFewBesideThree) {
   for (const double at_mm : {-10.0, 70.0}) {
     EXPECT_TRUE(is_target({at_mm, 1, 0}, 2, 0));
     EXPECT_FALSE(is_target({at_mm, 1, 0}, 3, 0));
@@ -167,7 +167,7 @@ TEST(OddStops, LeavesOutAParkedStartOfASinglePass) {
 
 // ---- typical values of the other positions ----
 
-// Positions for which the order of the visits has no effect.
+// Kept positions of a log in which the order of the visits has no effect.
 std::vector<double> kept_positions_mm(const std::vector<Visited>& places) {
   return left_out_stops(places).kept_mm;
 }

@@ -123,8 +123,8 @@ TEST(UnevenVisits, DriftOfAnIncompleteRunDoesNotTiltTheMean) {
     const Squareness s = squareness(cut_run(3, lacking[i]), y, {}).value();
     EXPECT_NEAR(s.slope_a_rad, kSlope, 1e-14) << i;
     EXPECT_NEAR(s.error_rad, whole.error_rad, 1e-14) << i;
-    // The drift shifts whole runs, which is included in the uncertainty. The form must not increase
-    // it.
+    // The drift shifts whole runs, which is included in the uncertainty. The form of the axis must
+    // not increase the uncertainty.
     EXPECT_NEAR(s.u_slope_a_rad / whole.u_slope_a_rad, 1, 0.5) << i;
   }
 }

@@ -79,7 +79,7 @@ Errors5 truth(double d) {
           -12e-3 + 0.2 * d, 20e-3 * std::cos(40 * d)};
 }
 
-// Run of a fixture in which one quantity is displaced by `by`.
+// Run of a fixture in which one quantity is changed by `by`.
 Run displaced(const Rig& rig, const Quantity& q, double by) {
   SyntheticRun synthetic{.rig = rig, .runs = 1, .stated = kAtCarriage, .truth = truth};
   synthetic.fixture = make_fixture(rig).value();

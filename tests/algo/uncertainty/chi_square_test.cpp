@@ -215,14 +215,15 @@ TEST(ChiSquare, NoticeHasTheLargestResidual) {
 }
 
 // A probe is assumed to be linear to 1e-4 of its range with a rectangular distribution: for 200 µm
-// this is 20 nm / √3. The reading of F may deviate until χ² reaches its limit for one degree of
-// freedom.
+// this is 20 nm / √3. The reading of probe F may deviate until χ² reaches its limit for one degree
+// of freedom.
 TEST(ChiSquare, FlagsAboveNoiseAndLinearity) {
   const auto solver = Solver::create(rig_of(6), Model::rigid).value();
   const Residuals residuals(solver, std::vector<double>(6, 200e-6));
   const Eigen::VectorXd still = rigid_readings(solver.fixture(), 0, Errors5{});
   const double u = std::hypot(3e-9, 20e-9 / std::sqrt(3.0));
-  // The part of a change of F that remains in the residuals. The six readings have the same u.
+  // The part of a change of the reading of F that remains in the residuals. The six readings have
+  // the same u.
   const Eigen::MatrixXd J = rigid_jacobian(solver.fixture(), 0, Errors5{});
   const Eigen::VectorXd left = Eigen::VectorXd::Unit(6, 5) - J * (J.transpose() * J).inverse() *
                                                                  J.transpose() *

@@ -89,7 +89,7 @@ TEST(CommonSurface, TopIsCommonToXAndY) {
     EXPECT_NEAR(u / spread, 1, 0.06) << length_mm;
   }
   // A twist of the surface changes both slopes with the same sign. If the surface were a pure
-  // twist, the ratio would be √2.
+  // twist, the ratio of u for one common surface to u for two surfaces would be √2.
   EXPECT_GT(stated_u(400, "top") / stated_u(400, "another"), 1.25);
 }
 

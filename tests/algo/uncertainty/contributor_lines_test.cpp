@@ -15,7 +15,7 @@ Errors5 curved_axis(double d) {
   return {2e-3 * d * d, 1e-3 * d * d, 1e-3 * d, -2e-3 * d, 3e-3 * d};
 }
 
-TEST(ContributorLines, ShowWhatTheRigDeclares) {
+TEST(ContributorLines, ShowTheDeclaredUncertainties) {
   const Rig rig = test::rig_x_with(
       "B",
       "u_calibration_um = 0.11\nu_sensitivity_ppm = 120\nu_position_mm = [0.13, 0.14, 0.15]\n"

@@ -32,7 +32,7 @@ TEST(Contributors, EmptyWithoutDeclarations) {
   EXPECT_TRUE(of(rig, SyntheticRun{.rig = rig}.measure()).empty());
 }
 
-TEST(Contributors, CalibrationIsEqualAtEachPoint) {
+TEST(Contributors, CalibrationErrorIsEqualAtEachPoint) {
   const double u = 0.1e-6;
   const struct {
     const char* probe;
@@ -108,12 +108,12 @@ TEST(Contributors, InstallationRollHasNoEffectOnALevelPlane) {
   synthetic.truth = [](double d) { return Errors5{0, 1e-3 * d, 0, 0, 0}; };
   const auto run = synthetic.measure();
   const auto parts = of(rig, run)[0].parts();
-  // The plane remains level, so a displacement of the probes over it by 1 mrad has no effect.
+  // The plane remains level, so the displacement of the probes by a roll of 1 mrad has no effect.
   for (std::size_t j = 0; j < run.points.size(); ++j)
     for (std::size_t e = 0; e < 5; ++e) EXPECT_NEAR(parts[0][j][e], 0, 2e-10) << j << " " << e;
 }
 
-// The effect is 0 at the zero of the probe; elsewhere its u is √2 u √(1 - correlation).
+// The effect is 0 where the probe was zeroed; elsewhere its u is √2 u √(1 - correlation).
 TEST(Contributors, FlatnessActsByItsChangeSinceTheZero) {
   const Rig rig = rig_x_with("", "",
                              "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
@@ -206,7 +206,7 @@ TEST(Contributors, DirectionHasPartsAlongAndAcrossTheSlope) {
 
 // All probes are 1 mm further along x over a plane with the pitch p. There the plane is lower by p
 // times 1 mm; the calculated pitch is unchanged.
-TEST(Contributors, OffsetAlongTheMotionReadsThePitch) {
+TEST(Contributors, OffsetAlongTheMotionActsWithThePitch) {
   const Rig rig = rig_x_with("", "", "[installation]\nu_offset_mm = [1, 0, 0]\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   synthetic.truth = [](double d) { return Errors5{0, 0, 0, 0.02 * d, 0}; };
@@ -220,7 +220,7 @@ TEST(Contributors, OffsetAlongTheMotionReadsThePitch) {
 
 // All probes are 1 mm further along y or z, and the target has the roll r. There the top is higher
 // by r times 1 mm, and the side is further away.
-TEST(Contributors, OffsetAcrossTheMotionReadsTheRoll) {
+TEST(Contributors, OffsetAcrossTheMotionActsWithTheRoll) {
   for (const std::size_t c : {1u, 2u}) {
     const Rig rig = rig_x_with(
         "", "",

@@ -1,8 +1,8 @@
 // Compares the effects of declared uncertainties of tilts, probe curves and ambient conditions with
 // the formulas of algo/README.md. A tilt t of the target brings it nearer by k r² t²/(4 gap).
-// Another permittivity of the air changes all gaps by the same factor. With l = 10 mm, a change c
-// of the reading of B changes the roll by c/2l, a change c of D changes the yaw by -c/l, and equal
-// changes c of A, B and C change the height by c.
+// A change of the permittivity of the air changes all gaps by the same factor. With l = 10 mm, a
+// change c of the reading of B changes the roll by c/2l, a change c of D changes the yaw by -c/l,
+// and equal changes c of A, B and C change the height by c.
 #include "algo/uncertainty/physics_contributors.h"
 
 #include <gtest/gtest.h>
@@ -110,7 +110,7 @@ TEST(PhysicsContributors, CorrectedTiltHasTheUOfItsFactor) {
   EXPECT_FALSE(has_contributor(rig, run, "probe B: linearity"));
 }
 
-TEST(PhysicsContributors, UncorrectedTiltCountsWhole) {
+TEST(PhysicsContributors, UncorrectedTiltContributesItsWholeEffect) {
   const Rig rig =
       declared_physics_rig(kGapKeys + "u_tilt_factor = 0.4\n", "", "[corrections]\ntilt = false\n");
   const mdof::Run run = simulated_physics_run(rig, tilting_axis);
@@ -209,7 +209,7 @@ TEST(PhysicsContributors, LinearityIsASumOfWavesOverTheRange) {
 
 // s is the reading. The omitted correction is a polynomial of s, a polynomial of -s if the probe
 // reads gaps, or straight lines between given pairs.
-TEST(PhysicsContributors, UncorrectedCurveCountsWhole) {
+TEST(PhysicsContributors, UncorrectedCurveContributesItsWholeEffect) {
   const std::string off = "[corrections]\nlinearity = false\n";
   const struct {
     std::string keys;
@@ -303,7 +303,7 @@ TEST(PhysicsContributors, CorrectedAirHasTheUOfItsConditions) {
   expect_air_quantities(rig, run, kNow);
 }
 
-TEST(PhysicsContributors, UncorrectedAirCountsWhole) {
+TEST(PhysicsContributors, UncorrectedAirContributesItsWholeEffect) {
   const Rig rig =
       declared_physics_rig(kGapKeys, "",
                            "[corrections]\ndielectric = false\n[air]\n" + kCalibrationConditions +
@@ -341,7 +341,7 @@ TEST(PhysicsContributors, AirFromTheLogHasTheSlopesOfTheCalibration) {
   EXPECT_FALSE(has_contributor(partly, run, "air: uncorrected permittivity"));
 }
 
-TEST(PhysicsContributors, PointsWithoutErrorsHaveNone) {
+TEST(PhysicsContributors, PointsWithoutErrorsHaveZeroEffect) {
   const Rig rig =
       declared_physics_rig(kGapKeys, "",
                            "[corrections]\ndielectric = true\n[air]\n" + kCalibrationConditions +

@@ -182,7 +182,7 @@ TEST(PositioningBudgets, MeanReversalMatchesManualCalculation) {
 }
 
 // M is the range of the angle. Its U equals the U of the range in the budgets of the run.
-TEST(PositioningBudgets, MHasTheUOfTheOtherBudgets) {
+TEST(PositioningBudgets, MHasTheUOfTheRange) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 20000");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.truth = [](double d) { return Errors5{1e-2 * d * d, 0, 0, 0, 1e-2 * d}; };
@@ -229,7 +229,8 @@ TEST(PositioningBudgets, SlopeDoesNotChangeStraightness) {
     EXPECT_LT(U, 0.01 * expected);
 }
 
-// Expected: R by its definition, and U by a search over all true parts of R in steps of 0.001.
+// Expected: R by its definition, and U by a search over all true values of R in steps of 0.001 of
+// the measured R.
 TEST(Repeatability, UncertaintyMatchesAnExhaustiveSearch) {
   // Two targets with three visits in each direction; 40 trials draw the errors.
   const VisitGroups groups{{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}, 2};

@@ -68,7 +68,7 @@ TEST(RunUncertainty, DeclaredUncertaintiesAddToTheNoise) {
 
 // From pass to pass the level changes by ten times the noise, so the u of each point is the
 // standard deviation of the level.
-TEST(RunUncertainty, RepeatsReplaceSmallerNoise) {
+TEST(RunUncertainty, ScatterOfVisitsReplacesSmallerNoise) {
   const Rig rig = rig_x_with("", "");
   const double steps[] = {-1, 3, 2, -2, 1, -3};  // level of D and E in each pass of nine points
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};

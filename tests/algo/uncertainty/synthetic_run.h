@@ -22,7 +22,8 @@ struct SyntheticRun {
   int runs = 3;
   double seconds_a_point = 10;
   StatedAt stated = kAtFixture;
-  // True errors of the target at the carriage, in the local frame.
+  // True errors of the target in the local frame. Their reference point is the origin of the
+  // carriage.
   std::function<Errors5(double travel_m)> truth = [](double) { return Errors5{}; };
   std::optional<Fixture> fixture = std::nullopt;  // the real fixture; none: as the rig
   // Change of the reading of a probe by a fault, m.

@@ -59,7 +59,7 @@ std::vector<DwellEvent> find_shift_jumps(const std::vector<EncoderShift>& shifts
 }
 
 // A slot of the detection has 12 or 13 rows; a window has four slots. The jump is at each row of a
-// window.
+// window in turn.
 TEST(EncoderJumpInALog, IsFoundOnceAtEachPhaseOfTheSlot) {
   for (std::size_t row = 1000; row < 1054; ++row) {
     const auto jumps = find_shift_jumps({{row, 100e-6}});

@@ -75,7 +75,7 @@ TEST(ProbeStepRule, SizeIsTheMedianOfThreeReadings) {
   EXPECT_EQ(rows.steps(0, 10, 24)[0].size_m, 1e-6);
 }
 
-TEST(ProbeStepRule, KeepsAtLeastSixTenthsOfTheStep) {
+TEST(ProbeStepRule, LaterReadingsKeepSixTenthsOfTheStep) {
   for (const double left : {0.61, 0.59}) {
     Rows rows;
     for (std::size_t i = kAt + 1; i < kRows; ++i) rows.frames.probe_m[1][i] = left * 1e-6;
@@ -85,7 +85,7 @@ TEST(ProbeStepRule, KeepsAtLeastSixTenthsOfTheStep) {
   }
 }
 
-TEST(ProbeStepRule, IsEightTimesTheSurroundingChanges) {
+TEST(ProbeStepRule, IsAtLeastEightTimesTheSurroundingChanges) {
   for (const bool before : {true, false}) {
     for (const double times : {8.1, 7.9}) {
       Rows rows;
@@ -133,8 +133,8 @@ TEST(ProbeStepRule, NeedsGoodReadings) {
   }
 }
 
-// The noise of the encoder is 2 um. If the axis moves by more than its noise at the step, the
-// movement explains the change of the probe.
+// The noise of the encoder is 2 um. If the axis moves by more than 2 um at the step, this movement
+// explains the change of the reading.
 TEST(ProbeStepRule, AxisWithinItsNoiseIsAtRest) {
   for (const auto& [by_m, count] : {std::pair(1.9e-6, 1U), {2.1e-6, 0U}}) {
     Rows rows;

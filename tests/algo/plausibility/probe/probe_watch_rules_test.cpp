@@ -35,8 +35,8 @@ struct Watched {
   }
 };
 
-// Ten readings are repeated for `each` scans, then one reading for `held` scans. Returns whether
-// the probe is reported as frozen.
+// Each of ten readings is repeated for `each` scans, then one reading for `held` scans. Returns
+// whether the probe is reported as frozen.
 bool frozen_by_noise(int each, int held, int stops, double sd_m, double resolution_m) {
   Watched w(1);
   for (int value = 0; value < 10; ++value) {

@@ -168,7 +168,7 @@ TEST(Budget, SquarenessUsesBothRunsAndTheSquare) {
   const SquareArtefact square{.angle_error_rad = 2e-6, .u_rad = 0.4e-6, .corner = -1};
   const Budget b =
       squareness_budget(x, one_way, y, along_y.measure(), square, {.trials = 20000}).value();
-  // EXY = -δy of the Y axis, which has the slope +5. EC0Y = -5 - 3 - 2.
+  // EXY = -δy of the Y axis, which has the slope +5 µrad. EC0Y = (-5 - 3 - 2) µrad.
   EXPECT_NEAR(b.value, -10e-6, 1e-10);
   EXPECT_NEAR(contribution(b, "X, probe D: drift"), -2e-6, 1e-10);
   EXPECT_NEAR(contribution(b, "angle of the square"), -0.4e-6, 1e-15);
@@ -333,7 +333,7 @@ TEST(Budget, TwoRunsAreEnoughForAScatter) {
 // Visits are missing, and the passes have different levels. Some parts shift several means
 // together, other parts shift the means of a pass. Only one run has all targets, so the scatter of
 // the runs adds nothing.
-TEST(Budget, PartsOfSeveralMeansAddBySquares) {
+TEST(Budget, PartsThatShiftSeveralMeansAddInQuadrature) {
   const Rig rig = rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
   synthetic.u_reading_m = 1e-9;

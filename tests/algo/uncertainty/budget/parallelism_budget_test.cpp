@@ -1,6 +1,6 @@
-// Budgets of parallelism, which is the slope of B minus the slope of A. Probe D has a scale error.
-// At the fixture only D measures EYX, so the error of a slope s is s times the scale error. Errors
-// that are common to both runs add with their signs.
+// Budgets of parallelism, which is the slope of motion B minus the slope of motion A. Probe D has a
+// scale error. At the fixture only D measures EYX, so the error of a slope s is s times the scale
+// error. Errors that are common to both runs add with their signs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

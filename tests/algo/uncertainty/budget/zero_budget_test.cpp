@@ -14,7 +14,7 @@ namespace mdof::algo {
 namespace {
 
 // The axis is straight, so its deviations and a first-order budget contain only rounding errors.
-TEST(Budget, RangeOfRoundingHasTheUOfItsTrials) {
+TEST(Budget, RangeOfRoundingErrorsHasTheUOfItsTrials) {
   const Rig rig = test::rig_x();
   SyntheticRun synthetic{.rig = rig, .runs = 1};
   synthetic.truth = [](double d) { return Errors5{3e-6 * d, 0, 0, 0, 0}; };

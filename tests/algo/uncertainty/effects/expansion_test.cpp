@@ -216,7 +216,7 @@ TEST(Expansion, GradientGivesTheBowOfABeam) {
 
 // Expected: the root mean square of the product of temperature difference and expansion
 // coefficient, from random draws.
-TEST(Expansion, UncorrectedExpansionCountsWhole) {
+TEST(Expansion, UncorrectedExpansionContributesItsWholeEffect) {
   const Rig rig = test::rig_x_with("", "",
                                    "[temperature]\nscale_C = 23\nu_scale_K = 2\n"
                                    "scale_ppm_per_K = 8\nu_scale_ppm_per_K = 3\n");

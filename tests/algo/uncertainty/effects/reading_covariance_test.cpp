@@ -77,9 +77,9 @@ std::vector<double> heights_m(const test_faults::DrawnSurface& top,
 }
 
 // Waves far shorter than the distances between the probes change each reading independently. The
-// variance of the change is twice the variance of the heights, because the height at the zero
-// varies, too. Waves far longer appear as tilts and bows, which the five errors explain almost
-// completely.
+// variance of the change is twice the variance of the heights, because the height at which the
+// probe was zeroed varies, too. Waves far longer appear as tilts and bows, which the five errors
+// explain almost completely.
 TEST(ReadingCovariance, SurfaceMatchesWavesOfAnyLength) {
   std::mt19937_64 engine(21);
   std::normal_distribution<> normal(0, kWhite_m);

@@ -57,8 +57,8 @@ Repeatability repeatability_by_hand(const std::vector<MeasuredPoint>& points) {
   return repeatability(x, points, target_means(x, points, Approach::both));
 }
 
-// 12 visits, 6 means of targets and directions, and 4 passes minus 2 directions: 4 degrees of
-// freedom.
+// 12 visits less 6 means of targets and directions, less 4 passes relative to 2 directions, give 4
+// degrees of freedom.
 TEST(RepeatabilityByHand, IsTheScatterWithoutThePasses) {
   const Repeatability found = repeatability_by_hand(two_runs_by_hand());
   const double variance = kSquaresOfOff / 4;
@@ -92,7 +92,7 @@ TEST(RepeatabilityByHand, IgnoresInvalidVisits) {
 
 // The scatter is used if its variance exceeds 1 + 0.84 sqrt(2/4) times the variance of the noise.
 // The variance 4 exceeds this limit if the variance of the noise is below 2.51.
-TEST(RepeatabilityByHand, ScatterCountsIfItExceedsTheNoise) {
+TEST(RepeatabilityByHand, ScatterIsUsedIfItExceedsTheNoise) {
   auto of_first = [](double noise_variance) {
     const Repeatability found = repeatability_by_hand(two_runs_by_hand(std::sqrt(noise_variance)));
     return std::pair(found.by_scatter[0], found.u[0][0]);
@@ -291,8 +291,9 @@ TEST(RepeatabilityOfVisits, UIsThe95PercentPoint) {
   }
 }
 
-// The errors are -0.75 times the readings: R for a true part l of the readings is calculated as |l
-// - 0.75| R. The interval ends at l = 0.58, but the deviation for l = 1 is 0.75 R.
+// The errors are -0.75 times the readings. If the true R is l times the R of the readings, the
+// calculated R is |l - 0.75| R. The interval ends at l = 0.58, but the deviation for l = 1 is 0.75
+// R.
 TEST(RepeatabilityOfVisits, UIsAtLeastTheErrorOfTheReadings) {
   std::vector<double> errors;
   for (const double v : kVisitsByHand) errors.push_back(-0.75 * v);

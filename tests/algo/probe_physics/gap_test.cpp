@@ -21,7 +21,8 @@ ProbePhysics electrode(double radius_m, double factor) {
 }
 
 // The gap that a probe without fringing field indicates over a tilted target: A / ∫ dA/(d + ρ θ cos
-// φ). The integral over rings and angles is calculated by the midpoint rule.
+// φ) with the area A, the gap d, the tilt θ and polar coordinates ρ, φ. The integral over rings and
+// angles is calculated by the midpoint rule.
 double disc_shows_m(double radius_m, double gap_m, double tilt_rad) {
   constexpr int kRings = 400, kAngles = 400;
   double sum = 0;

@@ -1,7 +1,7 @@
 # Compiles all files of a target together, because headers and templates take most of the time of a full build
 # (tests/CAMPAIGNS.md has the figures). This is the default under sanitizers, in tools/quickstart and in .ci/run;
 # after an edit of one file a separate compilation is faster. Compiled together, names in anonymous namespaces must
-# differ. Folders with equal names are in different parts below; tests are also divided by the first letter of the
+# differ. Folders that use equal names are in different parts below; tests are also divided by the first letter of the
 # file. After a new clash ("redefinition", "ambiguous"), choose another name, a shared header, or another part for the
 # folder. Files that Highway includes again for each instruction set, and files with a similar obstacle, are compiled
 # alone.

@@ -1,6 +1,6 @@
 # embed_page(OUTPUT FILE...): writes OUTPUT, a source file for daemon/rpc/web/page_files.h with the texts of these
-# files under their names. A file below daemon/web/ has its path from there as its name. Runs again when a file
-# changes.
+# files under their names. A file below daemon/web/ has its path from there as its name. CMake runs again when one of
+# the files changes.
 function(embed_page output)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
   foreach(file ${ARGN})

@@ -1,5 +1,5 @@
 # embed_profiles(FOLDER OUTPUT): writes OUTPUT, a source file for drivers/modbus/profile.h with the texts of
-# FOLDER/*.toml as raw strings. Runs again when a file changes.
+# FOLDER/*.toml as raw strings. CMake runs again when one of the files changes.
 function(embed_profiles folder output)
   file(GLOB files CONFIGURE_DEPENDS ${folder}/*.toml)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})

@@ -1,6 +1,6 @@
 # embed_sql(FOLDER OUTPUT): writes OUTPUT, a source file for schema/sql/sql.h with the texts of FOLDER/NNN_*.sql and
 # FOLDER/*/NNN_*.sql (migrations, in the order of their numbers) and of schema/recording/recording.sql as raw strings.
-# Runs again when a file changes.
+# CMake runs again when one of the files changes.
 function(embed_sql folder output)
   set(recording_file ${PROJECT_SOURCE_DIR}/schema/recording/recording.sql)
   file(GLOB files CONFIGURE_DEPENDS ${folder}/*.sql ${folder}/*/*.sql)

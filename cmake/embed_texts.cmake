@@ -1,5 +1,6 @@
 # embed_texts(OUTPUT HEADER NAMESPACE FILE...): writes OUTPUT, a source file that defines the text of each FILE as
-# HEADER declares it: `extern const char k_STEM_EXTENSION[]` in NAMESPACE. Runs again when a file changes.
+# HEADER declares it: `extern const char k_STEM_EXTENSION[]` in NAMESPACE. CMake runs again when one of the files
+# changes.
 function(embed_texts output header namespace)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
   foreach(file ${ARGN})

@@ -34,7 +34,7 @@ if(MDOF_SANITIZE)
     target_compile_options(mdof_options INTERFACE
                            -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitizer_ignore.txt)
   endif()
-  # Fixed addresses; otherwise each start of a program relocates 800,000 pointers of its checks.
+  # Fixed addresses; otherwise each start of a program relocates 800,000 pointers of the sanitizer's checks.
   set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
   target_compile_options(mdof_options INTERFACE $<$<NOT:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,MODULE_LIBRARY>>:-fno-pie>)
   target_link_options(mdof_options INTERFACE -fsanitize=${MDOF_SANITIZE}

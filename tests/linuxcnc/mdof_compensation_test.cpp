@@ -58,7 +58,7 @@ TEST(InterpolationTest, ReproducesFunctionsLinearInEachAxis) {
   }
 }
 
-TEST(InterpolationTest, OutsideTheGridTheValueOfTheEndHolds) {
+TEST(InterpolationTest, OutsideTheGridTheValueAtItsEndApplies) {
   const Table t(kGrid, trilinear);
   for (const auto& [at, end] : {std::pair{Vector{-9, 2, 1}, Vector{-1, 2, 1}},
                                 {{9, 2, 1}, {7, 2, 1}},
@@ -81,8 +81,9 @@ TEST(InterpolationTest, AnAxisWithOneCoordinateIsFixed) {
   }
 }
 
-// Runs until the offset is `end`. step: largest change of the offset in one period. change:
-// largest change of its velocity. largest: largest offset.
+// Result of a run until the offset is `end`. step: largest change of the offset in one period.
+// change: largest change of its velocity in one period. largest: largest offset. In machine units
+// (mm) and s.
 struct Ran {
   int periods = 0;
   double step = 0, change = 0, largest = 0;
@@ -123,7 +124,7 @@ TEST(FollowTest, BrakesInTimeWithLowAcceleration) {
     largest = std::max(largest, offset.value);
     change = std::max(change, std::abs(offset.velocity - last));
   }
-  // S/v + v/a, with the distance s, the velocity v and the acceleration a.
+  // Time s/v + v/a for the distance s, the velocity v and the acceleration a.
   EXPECT_NEAR(periods, (0.1 / 0.05 + 0.05 / 0.1) / kPeriod, 5);
   EXPECT_LE(largest, 0.1 + 1e-12);
   EXPECT_LE(change, limits.max_acceleration * kPeriod * (1 + 1e-9));
@@ -171,7 +172,7 @@ TEST(FollowTest, TheLimitsHoldForAnyInput) {
     double at = 0, slope = 0;
     for (int i = 0; i < 3000; ++i) {
       if (i % 500 == 0) slope = 0.3 * any(random);
-      // Another table at every 700th period.
+      // The table changes at every 700th period.
       const double before = i % 700 == 0 ? 0.3 * any(random) : at;
       at = before + slope * kPeriod;
       const mdof_offset last = offset;
@@ -268,7 +269,7 @@ TEST_F(ReceiverTest, RejectsAnIncompleteTable) {
   EXPECT_EQ(send(MDOF_END), MDOF_GOES_ON);
 }
 
-TEST_F(ReceiverTest, ANewLoaderRestartsAndTheOldOneIsIgnored) {
+TEST_F(ReceiverTest, ANewLoaderRestartsAndItsPredecessorIsIgnored) {
   send_grid();
   send(MDOF_NODE, .09);
   EXPECT_EQ(send(MDOF_BEGIN, 13, 0, 0, 6), MDOF_GOES_ON);

@@ -17,7 +17,8 @@ TOKEN = re.compile(r'''
   | (?P<sign><=>|<<=|>>=|->\*|\.\.\.|::|->|\+\+|--|\+=|-=|\*=|/=|%=|&=|\|=|\^=|==|!=|<=|>=|&&|\|\||<<|[^\w\s])
 ''', re.X | re.S)
 OPENS, CLOSES = {'(': ')', '[': ']', '{': '}'}, {')', ']', '}'}
-# The arguments of these names are texts for people or values for the compiler, so they are not changed.
+# The arguments of these functions and keywords are texts for people or values for the compiler, so they are not
+# changed.
 TALKS = {'assert', 'static_assert', 'bad_input', 'fail', 'not_of_this_kind', 'to_string', 'plain_number',
          'reserve', 'alignas', 'sizeof', 'noexcept', 'decltype', 'in_mm', 'in_um'}
 KEYWORDS = {'return', 'if', 'else', 'for', 'while', 'do', 'switch', 'case', 'default', 'const', 'constexpr',

@@ -1,4 +1,4 @@
-"""Reads equivalent.txt: changes that are known to change nothing, or no promised behaviour.
+"""Reads equivalent.txt: changes of a source line that change no result, or no promised behaviour.
 
 A line is  file | line of the source | change | reason  for one change as tests/mutate reports it, or file | NAME
 NAME ... | any value | reason  for the initial values of names: constants, and members that are set before they are

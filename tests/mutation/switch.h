@@ -1,10 +1,10 @@
 // tests/mutate adds this file to its copy of the sources. One build contains all changes, and the
 // environment variable MDOF_CHANGE selects the active change. If MDOF_REACHED is set, the program
-// records at its end which changes it has reached. Then each change is tried only with tests that
-// reach it.
+// records at its end which changes it has reached. tests/mutate then tries each change only with
+// the tests that reach it.
 #pragma once
 
-// A changed line may be unused or odd. This must not cause a warning.
+// A changed line may have unused or unusual code. This must not cause a warning.
 #pragma GCC diagnostic ignored "-Wunused-variable"
 #pragma GCC diagnostic ignored "-Wunused-but-set-variable"
 #pragma GCC diagnostic ignored "-Wunused-parameter"

@@ -136,7 +136,7 @@ channel = [{ id = "encoder", input = "encoder1", um_per_count = 0.5 }]
 
 
 def still_config(*columns):
-    """Columns of csv_stream with constant values, which cost no time."""
+    """A configuration with columns of csv_stream whose values are constant; they need little processor time."""
     script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "still_probes.py")
     command = json.dumps(["python3", script, *columns])
     return f'[[axis]]\nrig = "{RIG}"\n[[axis.device]]\ndriver = "csv_stream"\nname = "still"\ncommand = {command}\n'
@@ -210,8 +210,8 @@ class Station:
             return int(f.read().split()[1]) * resource.getpagesize() // 1024
 
     def watch_targets(self, from_zero=True, targets_mm=(0, 2, 4.1, 6.2), timeout_s=120):
-        """Waits until the axis has stopped at each target, in fresh live values; returns the number of values. A U6
-        counts from its position at the start: `from_zero` false."""
+        """Waits until the axis has stopped at each target, in fresh live values; returns the number of values.
+        For a U6, which counts from its position at the start, `from_zero` is false."""
         watcher = Client(self.daemon.socket, timeout_s=timeout_s)
         watcher.call("live.subscribe", interval_ms=100, events=False)
         stood, last, values, end = set(), None, 0, time.monotonic() + timeout_s

@@ -44,7 +44,7 @@ def check_rules():
 
 
 def recorded(station):
-    """Time, sawtooth and square wave of a run of some seconds."""
+    """Records some seconds; returns rows of time (s), sawtooth and square wave (V)."""
     run = station.client.call("run.start", axis="X")["run"]
     time.sleep(3 * PERIOD_S)
     station.client.call("run.stop", run=run)

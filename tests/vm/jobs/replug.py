@@ -10,7 +10,8 @@ ROUNDS = int(os.environ.get("MDOF_REPLUGS", "50"))
 WARM_UP = 20  # in the first dozen rounds, memory grows by up to 2 MiB and then stays constant
 MOST_S, MOST_GROWTH_KIB = 1.0, 1024
 
-# A USB device: its plan, the configuration with additional devices, and whether its node exists.
+# For each USB device: its plan, the configuration with additional devices, a function that returns whether its node
+# exists.
 DEVICES = {
     "encoders": (guest.POKEYS, guest.still_config("A_um", "B_um", "C_um", "D_um", "E_um") + guest.POKEYS_CONFIG,
                  lambda: len(guest.hidraw_nodes()) == 3),

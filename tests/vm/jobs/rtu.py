@@ -40,7 +40,7 @@ def crc(frame):
 
 
 def slave():
-    """Holding register n of unit 1 always reads n; runs in a separate process."""
+    """A slave whose holding register n of unit 1 always contains n; runs in a separate process."""
     import termios
     import tty
     line = os.open("/dev/ttyGS0", os.O_RDWR | os.O_NOCTTY)

@@ -21,7 +21,7 @@ def show(prop):
 
 
 def wait_for_scans(device="encoders"):
-    """Uses a separate client, like every client: the socket always exists."""
+    """Uses a new client, because the socket exists even while mdofd restarts."""
     client = guest.Client(SOCKET, timeout_s=60)
 
     def scans():
@@ -107,7 +107,7 @@ wait_for_scans()
 wait_for_scans("board")
 guest.figure("the service reads a Comedi board, which is iocard's")
 check_user()
-# In systemd's unit, with the udev rule, unplugged and plugged in again.
+# mdofd runs in systemd's unit, with the udev rule. The device is unplugged and plugged in again.
 encoders.kill()
 guest.wait_until(lambda: not guest.hidraw_nodes(), "hidraw nodes go")
 encoders.start()

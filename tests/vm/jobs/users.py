@@ -1,6 +1,7 @@
 """systemd as the first process, mdofd installed like its package, and separate users: the history names them, their
-groups decide who may activate a table and who has the connection of the control, each user has a limit of
-connections, and the group mdof can read the results. The unit with PrivateUsers=yes is the control test: it fails."""
+groups decide who may activate a table and who may use the connection reserved for the CNC control, each user has a
+limit of connections, and the group mdof can read the results. The unit with PrivateUsers=yes is the control test: it
+fails."""
 # pid 1: systemd
 # limit: 900 s
 import json
@@ -57,7 +58,7 @@ def call(user, method, **params):
 
 
 def hold(user, connections):
-    """The process that holds the connections, and how many were served."""
+    """Returns the process that holds the connections, and how many connections mdofd served."""
     process = subprocess.Popen(client(user, hold=connections), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     return process, json.loads(process.stdout.readline())
 
@@ -100,7 +101,7 @@ def make_table():
 
 
 def activated_by(user, table):
-    """The user in the history; None: refused."""
+    """Returns the user in the history; None: the activation was refused."""
     answer = call(user, "compensation.activate", table=table, despite_warnings=True)
     if "code" in answer:
         assert answer["code"] == FORBIDDEN, answer

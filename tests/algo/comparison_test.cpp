@@ -37,7 +37,7 @@ std::vector<ComparedOutput> compared(const Given& ours, const Given& other) {
 
 // The values 1, 2, 3, 4 have the variance 5/3. The values 2, 0, 2, 8 have the mean 3 and the
 // variance 12: the sum of squares 36 = 1 + 9 + 1 + 25, divided by 3.
-TEST(ComparisonByHand, FourTrials) {
+TEST(ComparisonByHand, FourTrialsGiveTheExpectedRatio) {
   const auto result = compared({"EYX_um", {1, 2, 3, 4}}, {"EYX_um", {2, 0, 2, 8}});
   ASSERT_EQ(result.size(), 1u);
   EXPECT_EQ(result[0].key, "EYX_um");
@@ -77,7 +77,7 @@ TEST(ComparisonByHand, SmallValuesHaveAStandardError) {
   EXPECT_NEAR(result[0].ratio_se, result[0].ratio / 6, 1e-12);
 }
 
-TEST(ComparisonByHand, OutputOfOneExperimentIsNotCompared) {
+TEST(ComparisonByHand, OutputOfOnlyOneExperimentIsNotCompared) {
   EXPECT_TRUE(compared({"EYX_um", {1, 2, 3, 4}}, {"EZX_um", {1, 2, 3, 4}}).empty());
 }
 

@@ -83,7 +83,7 @@ TEST(BuildTable, RefersStraightnessToLineAndAnglesToStart) {
   EXPECT_FALSE(kept.slope_removed);
 }
 
-TEST(BuildTable, TakesRunsAndSimulatedFlagFromItsRuns) {
+TEST(BuildTable, TakesRunNumbersAndSimulatedFlagFromTheRuns) {
   for (const bool simulated : {false, true}) {
     std::vector<mdof::Run> runs = {run_by_hand(7), run_by_hand(9)};
     for (mdof::Run& run : runs) run.header.simulated = simulated;

@@ -70,7 +70,7 @@ void expect_u(const SeriesOfErrors& u, const std::vector<double>& variances) {
   }
 }
 
-TEST(TableUncertaintyByHand, ValuesAsMeasured) {
+TEST(TableUncertaintyByHand, MatchesForValuesAsMeasured) {
   const std::vector<Reference> none(3, as_measured(3));
   const double forward = kMeanVarianceForward + kLevelForward,
                reverse = kMeanVarianceReverse + kLevelReverse;
@@ -80,7 +80,7 @@ TEST(TableUncertaintyByHand, ValuesAsMeasured) {
 
 // The reference is the mean of both directions at the start. Each direction contributes a quarter
 // of the variance of its mean.
-TEST(TableUncertaintyByHand, ValuesReferredToTheStart) {
+TEST(TableUncertaintyByHand, MatchesForValuesReferredToTheStart) {
   const std::vector<Reference> from_start(3, Reference{1, 0, 0});
   const double start_variance = (kMeanVarianceForward + kMeanVarianceReverse) / 4;
   const auto later = [&](double own) { return own + start_variance + kApart; };
@@ -107,7 +107,7 @@ TEST(TableUncertaintyByHand, VisitsOfARunAreAveraged) {
 
 // At the first target the line has the weights 5/6, 1/3 and -1/6, in the middle 1/3 for each
 // target.
-TEST(TableUncertaintyByHand, ValuesReferredToTheLine) {
+TEST(TableUncertaintyByHand, MatchesForValuesReferredToTheLine) {
   const std::vector<double> x = {0, 1, 2};
   const std::vector<Reference> line = {line_at(x, 0), line_at(x, 1), line_at(x, 2)};
   const double share[3][3] = {
@@ -127,7 +127,7 @@ TEST(TableUncertaintyByHand, ValuesReferredToTheLine) {
 
 // All visits have one direction. The mean is the mean of this direction, and there is no difference
 // of directions.
-TEST(TableUncertaintyByHand, OneDirectionOnly) {
+TEST(TableUncertaintyByHand, MatchesForOneDirection) {
   auto points = table_visits();
   std::erase_if(points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
   const auto against_start =
@@ -186,7 +186,7 @@ double expected_curvature(const Series& x, const Series& y, const Series& u, std
   return R * std::sqrt(std::max(0.0, 6 * mean_squared_curvature(x, y, u, 1) + near) / (6 + n));
 }
 
-TEST(CurvaturesByHand, ThreeValues) {
+TEST(CurvaturesByHand, MatchManualCalculationForThreeValues) {
   const Series found = curvatures({0, 1, 3}, {0, 1, 0}, {0.3, 0.3, 0.6});
   ASSERT_EQ(found.size(), 2u);
   // The second difference is -1. The u of the values contributes (2/3 of 0.3)² + 0.3² + (1/3 of
@@ -199,7 +199,7 @@ TEST(CurvaturesByHand, ThreeValues) {
   EXPECT_TRUE(curvatures({1}, {1}, {0}).empty());
 }
 
-TEST(CurvaturesByHand, FewValuesGiveTheFactorFourOrTwo) {
+TEST(CurvaturesByHand, FewValuesGiveTheFactorRFourOrTwo) {
   const Series x = {0, 1, 3, 4, 6, 7}, y = {0, 2, 1, 5, -1, 3}, u = {0.1, 0.2, 0.1, 0.3, 0.2, 0.1};
   for (const std::size_t n : {4u, 5u, 6u}) {
     const Series xs(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)),
@@ -214,7 +214,7 @@ TEST(CurvaturesByHand, FewValuesGiveTheFactorFourOrTwo) {
 
 // The factor R follows from q, the ratio of the curvature over one step to the curvature over two
 // steps.
-TEST(CurvaturesByHand, FactorFollowsTheRoughness) {
+TEST(CurvaturesByHand, FactorRFollowsTheRoughness) {
   const Series u(9, 0.01);
   const Series smooth = {0, 1, 4, 9, 16, 25, 36, 49, 64},  // q = 1
       wavy = {0, 1, 1.2, 0.5, -1, -2, -1.5, 0.3, 2},       // q between 1 and 2.2

@@ -297,7 +297,7 @@ TEST(RemovedDrift, IntervalsWithoutUOfTheDriftMissTheTruth) {
   EXPECT_LT(coverage["points"].percent(), 90);  // with the u of the drift: 96 %
 }
 
-TEST(RemovedDrift, StartRemainsAsMeasured) {
+TEST(RemovedDrift, ErrorsAtTheStartRemainAsMeasured) {
   World world;
   world.drift = kDrifts.at("linear");
   const auto measured = world.measured(7);

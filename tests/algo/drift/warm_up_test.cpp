@@ -61,7 +61,7 @@ TEST(WarmUp, LogsShorterThanTenMinutesAreNotReady) {
 }
 
 // A probe that does not work has a constant reading and the smallest drift. It must not be ready.
-TEST(WarmUp, ConstantReadingIsUnknown) {
+TEST(WarmUp, DriftOfAConstantReadingIsUnknown) {
   const WarmUp w = warm_up(readings(60, 30, 100, [](double) { return 1.5; }));
   EXPECT_EQ(w.windows[0][0].verdict, DriftVerdict::unknown);
   EXPECT_FALSE(w.ready_after_s);
@@ -83,7 +83,7 @@ TEST(WarmUp, NoiseGivesAnUndecidedVerdict) {
   EXPECT_EQ(w.windows[0][0].verdict, DriftVerdict::undecided);
 }
 
-TEST(WarmUp, TooFewReadingsInAWindowAreUnknown) {
+TEST(WarmUp, DriftOfAWindowWithFewReadingsIsUnknown) {
   auto r = readings(40, 30, 100, steady);
   for (std::size_t i = 0; i < 4; ++i) r.series[0].value[i] = std::nan("");
   EXPECT_EQ(warm_up(r).windows[0][0].verdict, DriftVerdict::below);

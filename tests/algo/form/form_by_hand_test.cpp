@@ -23,7 +23,7 @@ SurfaceMap small_map(std::size_t nx, std::size_t ny, std::vector<double> z) {
   return {"small", 10, -1, 2, 3, nx, ny, std::move(z), {}};
 }
 
-TEST(MapFiguresByHand, FourOneAndNoPixels) {
+TEST(MapFiguresByHand, MatchForFourOneAndNoPixels) {
   const MapFigures found = algo::figures_of(small_map(3, 2, {1, kHole, 4, -3, kHole, 6}));
   EXPECT_EQ(found.pixels, 4u);
   EXPECT_EQ(found.pv_m, 9);
@@ -43,7 +43,7 @@ TEST(MapFiguresByHand, FourOneAndNoPixels) {
 
 // Three pixels determine a plane. It is 5 at (10, -1), 6 at the next column (2 m further) and 11 at
 // the next row (3 m further).
-TEST(PlaneByHand, ThroughThreePixels) {
+TEST(PlaneByHand, PassesThroughThreePixels) {
   SurfaceMap map = small_map(2, 2, {5, 6, 11, kHole});
   const Plane plane = plane_of(map);
   EXPECT_NEAR(plane.tilt_x, 0.5, 1e-12);
@@ -58,7 +58,7 @@ TEST(PlaneByHand, ThroughThreePixels) {
 }
 
 // The plane is the least-squares plane of four corners, so the residuals have alternating signs.
-TEST(PlaneByHand, FourPixelsByLeastSquares) {
+TEST(PlaneByHand, FourPixelsGiveTheLeastSquaresPlane) {
   SurfaceMap map = small_map(2, 2, {1, 0, 0, 3});
   const Plane plane = plane_of(map);
   EXPECT_NEAR(plane.piston_m, 1, 1e-12);
@@ -110,7 +110,7 @@ TEST(ReachByHand, MiddleAndFarthestMeasuredPixel) {
 
 // Grooves with the radius 5 at a distance of 6 are 1 deep. With a radius of 3 or less, the depth
 // equals the radius.
-TEST(FeedRoughnessByHand, HeightOfArcs) {
+TEST(FeedRoughnessByHand, DepthOfGroovesMatchesTheArc) {
   EXPECT_NEAR(feed_roughness(5, 6).Rt_m, 1, 1e-12);
   EXPECT_NEAR(feed_roughness(5, 6).Ra_m, 4 / (9 * std::sqrt(3)), 1e-12);
   EXPECT_EQ(feed_roughness(3, 6).Rt_m, 3);
@@ -129,7 +129,7 @@ std::vector<std::complex<double>> transformed(const std::vector<std::complex<dou
                                   static_cast<double>(x.size()));
   return X;
 }
-TEST(DftByDefinition, AllLengthsUpToSixty) {
+TEST(DftByDefinition, MatchesForAllLengthsUpToSixty) {
   for (std::size_t n = 1; n <= 60; ++n) {
     std::vector<std::complex<double>> x;
     for (std::size_t k = 0; k < n; ++k)
@@ -155,7 +155,7 @@ CuttingPasses make_cutting_passes(std::vector<std::vector<double>> cuts, bool re
 
 // The means 3, -3, 0, 0 of the two passes have the mean square 18/4. At each of the four pixels the
 // passes differ by 2, so the variance of one pass is 8/4.
-TEST(CuttingByHand, SharesOfTwoRepeatedPasses) {
+TEST(CuttingByHand, TwoRepeatedPassesGiveTheExpectedShares) {
   const auto found =
       next_cut(make_cutting_passes({{2, -2, 1, -1}, {4, -4, -1, 1}}, true, CuttingGain::one));
   ASSERT_TRUE(found);
@@ -197,7 +197,7 @@ TEST(CuttingByHand, PassesAtTheirFloorDoNotConverge) {
 // Each pass is cut with the path that the pass before determined. The errors of the three passes
 // are 4, 2 and 3 times (1, -1, 1, -1). The errors minus the paths are 4, 6 and 9 times this form
 // with gain 1, and 4, 6 and 8 times with the mean.
-TEST(CuttingByHand, PathsOfSuccessivePasses) {
+TEST(CuttingByHand, SuccessivePassesGiveTheExpectedPath) {
   const std::vector<std::vector<double>> cuts = {{4, -4, 4, -4}, {2, -2, 2, -2}, {3, -3, 3, -3}};
   const auto one = next_cut(make_cutting_passes(cuts, false, CuttingGain::one));
   EXPECT_NEAR(one->next.z_m[0], -9, 1e-12);

@@ -242,7 +242,7 @@ TEST(PathGaps, RequestHasDefaults) {
 
 // For an even number of points the highest harmonic has no conjugate, so its amplitude is not
 // halved.
-TEST(TurnSpectrumByHand, HighestHarmonicAndBand) {
+TEST(TurnSpectrumByHand, HighestHarmonicIsNotHalved) {
   TurnSpectrum spectrum(8, 1);
   EXPECT_EQ(spectrum.turns(), 0u);
   EXPECT_EQ(spectrum.left_out().pv, 0);

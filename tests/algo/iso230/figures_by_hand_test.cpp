@@ -43,7 +43,7 @@ mdof::Run run_by_hand(Axis axis, const Column& x_m, int runs, Y first_error_at, 
 }
 
 // The line through (1, 5) and (4, -1) has the slope -2 and the value 7 at 0.
-TEST(LineByHand, ThroughTheEnds) {
+TEST(LineByHand, EndPointLineMatchesManualCalculation) {
   const Line line = end_point_line(Column{1, 2, 4}, Column{5, 99, -1});
   EXPECT_EQ(line.slope, -2);
   EXPECT_EQ(line.intercept, 7);
@@ -61,7 +61,7 @@ TEST(LineByHand, TwoReadingsHaveNoUncertainty) {
 }
 
 // x = 0, 1, 5 and y = 1, 0, 5 have the means 2 and 2, Sxx = 14 and Sxy = 2 + 2 + 9 = 13.
-TEST(LineByHand, LeastSquaresWithUncertainty) {
+TEST(LineByHand, LeastSquaresLineHasTheExpectedU) {
   const Line line = least_squares_line(Column{0, 1, 5}, Column{1, 0, 5});
   EXPECT_NEAR(line.slope, 13 / 14.0, 1e-15);
   EXPECT_NEAR(line.intercept, 2 - 26 / 14.0, 1e-15);
@@ -73,7 +73,7 @@ TEST(LineByHand, LeastSquaresWithUncertainty) {
 }
 
 // The deviations from the line y = 2 are -3, 4, 4, -5, 0.
-TEST(LineByHand, Deviations) {
+TEST(LineByHand, DeviationsMatchManualCalculation) {
   Line level;
   level.intercept = 2;
   const Deviations d = deviations_from(level, Column{0, 1, 2, 3, 4}, Column{-1, 6, 6, -3, 2});

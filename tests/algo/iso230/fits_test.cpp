@@ -38,7 +38,7 @@ TEST(LineFit, MatchesTheLinesOfTheManual) {
 }
 
 // If several deviations are equal, the result is the first.
-TEST(LineFit, DeviationsNameTheFirstOfEqualOnes) {
+TEST(LineFit, ReportsTheFirstOfEqualDeviations) {
   const std::vector<double> x = {0, 1, 2, 3, 4}, y = {0, 2, -1, 2, -1};
   const Deviations d = deviations_from(Line{}, x, y);
   EXPECT_EQ(d.peak, 1u);
@@ -281,7 +281,7 @@ TEST(Angles, AreReferredToTheStart) {
   }
 }
 
-TEST(Compensation, SeparatesApproachesAndHoldsTheEnds) {
+TEST(Compensation, SeparatesApproachesAndHoldsTheEndValues) {
   mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
   for (auto& p : run.points) {
     if (p.point.direction < 0) p.errors.local[kDz] = 5e-6;
@@ -309,7 +309,7 @@ TEST(Compensation, RemovesTheSlope) {
   EXPECT_NEAR(raw.forward[0][9], 7.2e-6, 1e-18);
 }
 
-TEST(Compensation, RefusesRunsOfTwoAxesAndOfOtherTargets) {
+TEST(Compensation, RefusesRunsOfTwoAxesOrDifferentTargets) {
   const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um),
                   y = run_of(Axis::y, kAxis2_m, kAxis2_um);
   EXPECT_FALSE(build_table({x, y}, {}));

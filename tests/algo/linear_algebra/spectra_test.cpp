@@ -18,7 +18,7 @@ TEST(SingularValues, MatchTheTextbook) {
   EXPECT_LT((svd.U * svd.values.asDiagonal() * svd.V.transpose() - A).norm(), 1e-14);
 }
 
-TEST(SingularValues, VIncludesTheNullSpace) {
+TEST(SingularValues, MatrixVIncludesTheNullSpace) {
   const MatrixXd A{{1.0, 2.0, 2.0}};
   const auto svd = singular_values(A);
   ASSERT_EQ(svd.values.size(), 1);

@@ -184,7 +184,7 @@ TEST(DiagonalEdges, AxesAreWithinSixDegreesOfSquare) {
 
 // Far from a right angle, the sensitivities differ from the sensitivities at a right angle.
 // Expected: central differences.
-TEST(DiagonalEdges, SensitivitiesFarFromARightAngle) {
+TEST(DiagonalEdges, SensitivitiesAreCorrectFarFromARightAngle) {
   for (const bool two : {false, true}) {
     DiagonalLines lines = lines_at_angle_error(0.08, two);
     const auto found = squareness_of_diagonals(lines);

@@ -159,7 +159,7 @@ TEST(CuttingEdge, TrochoidLeavesTheWorkAtItsSide) {
 }
 
 // Expected: the sum of the products of both moments over the bending stiffness.
-TEST(Beam, SteppedToolMatchesASum) {
+TEST(Beam, ComplianceOfASteppedToolMatchesASum) {
   const std::vector<ToolSection> tool = {{3e-3, 3e-3}, {1e-3, 1.5e-3}, {2e-3, 0.4e-3}};
   const double E = 600e9;
   const auto sum = [&](double at_m, double of_m) {

@@ -201,7 +201,7 @@ TEST(MillingTrials, ImpossibleCutsAreNotSolved) {
 
 // The height of an element is the height of its middle. The number of steps is a multiple of the
 // number of teeth.
-TEST(CutTurn, HasItsElementsAndSteps) {
+TEST(CutTurn, HasTheElementsAndStepsOfThePlan) {
   MillingPlan plan = rigid_cut();
   plan.elements = 4;
   plan.teeth = 4;
@@ -275,7 +275,7 @@ TEST(CutTurn, PowerIsForceTimesSpeedOfEachElement) {
   }
 }
 
-TEST(Milling, HasTheMeansAndWindowOfItsTurn) {
+TEST(Milling, MeansAndWindowMatchTheTurn) {
   MillingPlan plan = rigid_cut();
   EXPECT_EQ(milling(plan)->iterations, 1);
   plan.deflection = DeflectionModel::steady;
@@ -304,7 +304,7 @@ TEST(Milling, RefusesADeflectionBeyondHalfTheRadius) {
   EXPECT_FALSE(milling(plan));
 }
 
-TEST(WallByHand, ThreeHeights) {
+TEST(WallByHand, MatchesManualCalculationForThreeHeights) {
   const WallLine line{0, {1, 2, 6}};
   EXPECT_NEAR(line.mean_m(), 3, 1e-15);
   EXPECT_NEAR(line.waviness_m(), 5, 1e-15);
@@ -312,7 +312,7 @@ TEST(WallByHand, ThreeHeights) {
 }
 
 // The mean over the depth is the mean of the elements. The tip and the root have separate results.
-TEST(WallByHand, ResultsMatchItsLines) {
+TEST(WallByHand, ResultsMatchTheLinesOfTheWall) {
   MillingPlan plan = parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
   plan.elements = 3;
   plan.steps_per_turn = 360;

@@ -71,7 +71,7 @@ TEST(Fixture, RefusesAProbeOffItsPlane) {
                    {"rig.toml", "\"D\"", "14 mm", "\"side\"", "15 mm", "correct"}));
 }
 
-TEST(Fixture, RefusesOnePlaneAtTwoPlaces) {
+TEST(Fixture, RefusesAPlaneAtTwoDistances) {
   // E is at y = 14 mm, D at y = 15 mm. Both measure in the same direction, so they must face the
   // same plane.
   const std::string moved =

@@ -63,7 +63,7 @@ TEST(ExactModel, OutputsMatchTheInverseTransform) {
   }
 }
 
-TEST(ExactModel, RecoversRandomTruthToRounding) {
+TEST(ExactModel, RecoversRandomErrorsToRounding) {
   for (const auto& rig : {test::rig_x(), test::rig_x(7.3, -12, 31), test::rig_x(25, 0, 5)}) {
     const auto f = small(rig);
     Draw draw(2);
@@ -193,7 +193,7 @@ TEST(RigidModel, JacobianMatchesDifferences) {
   }
 }
 
-TEST(RigidModel, RecoversRandomTruthOnAnyFixture) {
+TEST(RigidModel, RecoversRandomErrorsOnAnyFixture) {
   for (const Rig& rig : {test::rig_x(), test::rig_oblique()}) {
     const Solver solver = Solver::create(rig, Model::rigid).value();
     Draw draw(6, 5e-3);

@@ -125,7 +125,7 @@ TEST(Restate, LeavesUnsolvedErrorsUnsolved) {
   EXPECT_FALSE(restate(nothing, Model::rigid, Axis::x, 0.1, kAtCarriage, kAtFixture).valid);
 }
 
-TEST(SmallRotation, BothFunctionsGiveTheSameBits) {
+TEST(SmallRotation, RotationMatrixHasTheBitsOfLocalRotation) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z})
     for (int i = -20; i <= 20; ++i) {
       const Errors5 errors = {0, 0, 0.011 * i, -0.007 * i + 0.01, 0.0123 * i - 0.002};

@@ -184,7 +184,7 @@ TEST(BinFit, SpikeLimitIsTwiceAsHighAtTheEnds) {
 
 // Both halves of the readings have the same positions, so they determine no slope. The value is the
 // mean of the readings.
-TEST(BinFit, HasNoSlopeIfBothHalvesHaveTheSamePlaces) {
+TEST(BinFit, HasNoSlopeIfBothHalvesHaveTheSamePositions) {
   BinFit found;
   std::vector<double> place, reading, scratch;
   for (int i = 0; i < 20; ++i) {

@@ -45,7 +45,7 @@ double mean_square(const Field& field) {
   return sum / kPoints;
 }
 
-TEST(PartError, SharesInClosedForm) {
+TEST(PartError, SharesMatchTheClosedForm) {
   const double size[] = {2e-6, 1e-6, 0.5e-6};
   std::vector<PartCause> causes;
   double sum = 0;
@@ -183,7 +183,7 @@ acts_on = [ { error = "EYY", factor = 2 }, { error = "EXX", factor = 9 } ]
 
 // The only cause has a u that is a share of its value. All sizes are proportional to |1 + share
 // xi|, so U of each size is the share times the 95 % point of |xi|, 1.96.
-TEST(PartError, UncertaintyOfASingleCauseInClosedForm) {
+TEST(PartError, UncertaintyOfOneCauseMatchesTheClosedForm) {
   const double share = 0.1;
   const std::vector<PartCause> causes = {
       {0, "wave", times(shape(2), 2e-6), times(shape(2), share * 2e-6)}};
@@ -230,7 +230,7 @@ TEST(PartError, RmsOfAnUnknownCauseIsUncertain) {
 
 // Two causes have the same mean square, and the first has the relative uncertainty r. The share of
 // the first is (1 + r xi)² / ((1 + r xi)² + 1); to first order it changes by r xi / 2.
-TEST(PartError, UncertaintyOfAShareInClosedForm) {
+TEST(PartError, UncertaintyOfAShareMatchesTheClosedForm) {
   const double share = 0.02;
   const std::vector<PartCause> causes = {
       {0, "a", times(shape(1), 1e-6), times(shape(1), share * 1e-6)},

@@ -91,7 +91,7 @@ TEST(MapCover, UsesTheTargetTravelOfPointsWithValidErrors) {
 }
 
 // A plane across the motion has the map axes y and z, so the travel has no effect.
-TEST(MapCover, PlaneAcrossTheMotionHasYAndZ) {
+TEST(MapCover, PlaneAcrossTheMotionHasTheMapAxesYAndZ) {
   Mapped mapped({-11e-3, 11e-3}, {4e-3, 6e-3});
   for (FixtureProbe& probe : mapped.fixture.probes) {
     probe.n_C = {-1, 0, 0};

@@ -32,7 +32,7 @@ double middle(int eighth, int exponent) {
   return std::ldexp((17 + 2 * eighth) / 32.0, exponent);
 }
 
-TEST(NoiseFloorRule, SlotCountsAsTheCentreOfItsBin) {
+TEST(NoiseFloorRule, NoiseOfASlotIsTheCentreOfItsBin) {
   for (const int exponent : {-49, -48, -30, -20, 0, 10}) {
     for (int eighth = 0; eighth < 8; ++eighth) {
       const double sd = middle(eighth, exponent);

@@ -83,7 +83,7 @@ TEST(Aligner, WaitsForNothingAtTheBeginning) {
   EXPECT_EQ(Aligner({}, {"A"}).waiting_for(), std::nullopt);
 }
 
-TEST(Aligner, InterpolatesOtherDevicesToTheEncodersInstants) {
+TEST(Aligner, InterpolatesOtherDevicesAtTheTimesOfTheEncoder) {
   Aligner aligner({}, {"A"});
   FrameBlock out;
   SampleBlock probe = block("p", {"A"}, {0, 4, 8, 12}, 2.0);
@@ -146,7 +146,7 @@ TEST(Aligner, FlushReturnsPendingFrames) {
 
 // With one device and with two: if the encoder sample is suspect or missing, no probe reading of
 // the frame is good.
-TEST(Aligner, ReadingIsNoBetterThanItsPosition) {
+TEST(Aligner, QualityOfAReadingIsNoBetterThanOfItsPosition) {
   const std::vector<Quality> of_encoder = {Quality::good, Quality::suspect, Quality::missing};
   Aligner one({}, {"A"}), two({}, {"A"});
   FrameBlock together, apart;

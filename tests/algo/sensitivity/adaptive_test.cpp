@@ -178,7 +178,7 @@ TEST(AdaptiveBlocks, HaveAtLeast100TrialsOutsideTheInterval) {
 }
 
 // The values of a block are kept in memory, so a block of 10^12 values is refused.
-TEST(AdaptiveBlocks, RejectsACoverageWithTooLongBlocks) {
+TEST(AdaptiveBlocks, RejectsACoverageThatNeedsTooLongBlocks) {
   const FourRectangular e;
   EXPECT_GE(adaptive_block_trials(e, 0.99999).value(), 10'000'000u);
   for (const double coverage : {0.999999, 0.9999999999, std::nextafter(1.0, 0.0)}) {

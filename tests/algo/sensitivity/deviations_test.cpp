@@ -73,7 +73,7 @@ Deviations deviations_by(const std::string& name) {
   return deviations_of(mounting, truth);
 }
 
-TEST(PlanDeviations, EachNameChangesOneThing) {
+TEST(PlanDeviations, EachNameChangesOneDeviation) {
   struct Case {
     const char *name, *changes;
     double by;

@@ -272,7 +272,7 @@ TEST(PlanExperiment, EncoderErrorsActWithTheAngles) {
   EXPECT_NEAR(run(*scale, 1)[kEZX][0], -3e-4, 1e-6);
 }
 
-TEST(PlanExperiment, WithoutZeroTheMountingIsAnError) {
+TEST(PlanExperiment, WithoutZeroingTheMountingIsAnError) {
   const std::string lower = constant("probe.A.z_um", 3);
   const auto zeroed = experiment_of(still(lower));
   EXPECT_NEAR(run(*zeroed, 1)[kEBX][0], 0, 1e-6);

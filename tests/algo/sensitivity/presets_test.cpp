@@ -189,7 +189,7 @@ TEST(Simulation2, EveryTrialMatchesTheScalarModels) {
   }
 }
 
-TEST(Simulations, DrawTheNumbersOfTheirAddresses) {
+TEST(Simulations, UseTheRandomNumbersOfTheirAddresses) {
   const SimulationOptions o = simulation_2_defaults();
   const SimulationTrial t = simulation_trial(o, 8731).value();
   const Stream stream = {o.seed, 0};

@@ -12,7 +12,7 @@ namespace {
 
 // The core is twice as wide as the interval of the central 98 % of the values, with the same
 // middle. For 0 ... 199 this interval is 2 ... 197.
-TEST(HistogramScale, IsTwiceTheCentralPart) {
+TEST(HistogramScale, CoreIsTwiceTheCentralInterval) {
   std::vector<double> values;
   for (int i = 0; i < 200; ++i) values.push_back((i * 77) % 200);
   values.push_back(std::numeric_limits<double>::quiet_NaN());
@@ -27,7 +27,7 @@ TEST(HistogramScale, IsTwiceTheCentralPart) {
   EXPECT_EQ(scale_for(rare).high(), 4.5 + 7);
 }
 
-TEST(HistogramScale, WidthOfAConstantIsAShareOfItOrOfOne) {
+TEST(HistogramScale, CoreOfAConstantIsAShareOfItsValueOrOfOne) {
   const OutputScale small = scale_for({0.125, 0.125}), large = scale_for({-4, -4});
   EXPECT_EQ(small.high() - small.low, 1 / 512.0);
   EXPECT_EQ((small.high() + small.low) / 2, 0.125);
@@ -39,7 +39,7 @@ TEST(HistogramScale, WidthOfAConstantIsAShareOfItOrOfOne) {
 
 // The width of the core is at least 2^-30 of the value; otherwise the edges of the bins could be
 // equal.
-TEST(HistogramScale, HasALeastWidth) {
+TEST(HistogramScale, CoreHasALeastWidth) {
   const OutputScale narrow = scale_for({4, 4 + 0x1p-36}), wide = scale_for({4, 4 + 0x1p-28});
   EXPECT_NEAR(narrow.width * kCoreBins / 0x1p-28, 1, 1e-6);
   EXPECT_NEAR(wide.width * kCoreBins / 0x1p-27, 1, 1e-6);
@@ -100,7 +100,7 @@ TEST(OutputHistogram, CountsEveryTrial) {
 }
 
 // Values beyond the core must not change the counts of the first and the last bin of the core.
-TEST(OutputHistogram, ValuesBeyondKeepTheCore) {
+TEST(OutputHistogram, ValuesBeyondTheCoreDoNotChangeTheCore) {
   const OutputHistogram counts = histogram_of({-1 + kScale.width / 2, -7, 1 - kScale.width / 2, 9});
   EXPECT_EQ(counts.core(0), 1u);
   EXPECT_EQ(counts.core(kCoreBins - 1), 1u);

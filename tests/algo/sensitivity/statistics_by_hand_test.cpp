@@ -90,7 +90,7 @@ TEST(StatisticsByHand, BinsAreContiguous) {
   EXPECT_TRUE(small_study(Given({1, 2, 3}), 7).bins().empty());
 }
 
-TEST(StatisticsByHand, BlockIsTheSmallestMultiple) {
+TEST(StatisticsByHand, BlockIsTheSmallestSufficientMultiple) {
   EXPECT_EQ(block_trials(Given({1}), 1), 512u);
   EXPECT_EQ(block_trials(Given({1}), 512), 512u);
   EXPECT_EQ(block_trials(Given({1}), 513), 1024u);

@@ -27,7 +27,7 @@ TEST(HalfTurn, SignsMatchTheTurnedVectors) {
   }
 }
 
-TEST(HalfTurn, SurfacesAreAlongYAndZOfTheLocalFrame) {
+TEST(HalfTurn, NormalsAreAlongYAndZOfTheLocalFrame) {
   EXPECT_EQ(across(Axis::x, Surface::side).normal, Axis::y);
   EXPECT_EQ(across(Axis::x, Surface::top).normal, Axis::z);
   EXPECT_EQ(across(Axis::y, Surface::side).normal, Axis::x);

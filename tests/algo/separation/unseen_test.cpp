@@ -36,7 +36,7 @@ std::string named(const std::vector<std::vector<double>>& shapes,
 const std::vector<double> kOnes(6, 1.0), kLine = {0, 1, 2, 3, 4, 5}, kSquares = {0, 1,  4,
                                                                                  9, 16, 25};
 
-TEST(UnseenShapes, HaveTheNamesOfTheirSpan) {
+TEST(UnseenShapes, AreNamedOffsetSlopeAndParabola) {
   EXPECT_EQ(named({kOnes}), "offset (1)\n");
   EXPECT_EQ(named({kLine, kOnes}), "offset (1)\nslope (1)\n");
   EXPECT_EQ(named({kOnes, kLine, kSquares}), "offset (1)\nslope (1)\nparabola (1)\n");
@@ -94,7 +94,7 @@ TEST(HiddenPeriods, AreTheGreatestCommonDivisorAndItsFractions) {
 // A shape is reported as not determined if less than a millionth of it is determined, for any
 // number of places. The column is an offset that is rotated towards the shape +1, -1 ... by the
 // angle `by`.
-TEST(UnseenShapes, UpToAMillionthOfAShapeMayBeSeen) {
+TEST(UnseenShapes, UpToAMillionthOfAShapeMayBeDetermined) {
   const auto turned = [](double by) {
     std::vector<double> shape;
     for (int i = 0; i < 6; ++i) shape.push_back(1 + (i % 2 == 0 ? by : -by));

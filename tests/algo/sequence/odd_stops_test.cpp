@@ -115,7 +115,7 @@ TEST(OddStops, OneVisitBeyondTheEndIsTooFewBesideThree) {
 }
 
 // Positions with more visits are evaluated first. If 72 mm is a target, 67 mm is no target.
-TEST(OddStops, PlacesWithMoreVisitsAreFirst) {
+TEST(OddStops, PlacesWithMoreVisitsAreEvaluatedFirst) {
   const auto beyond = [](int near, int far) {
     std::vector<Visited> places;
     for (int i = 0; i < 7; ++i) places.push_back({10.0 * i, 3, 3});
@@ -129,7 +129,7 @@ TEST(OddStops, PlacesWithMoreVisitsAreFirst) {
 }
 
 // Several positions with few visits continue the row of targets, one after the other.
-TEST(OddStops, RowOfFewVisitsContinues) {
+TEST(OddStops, PositionsWithFewVisitsContinueTheRow) {
   std::vector<Visited> places;
   for (int i = 0; i < 10; ++i) places.push_back({10.0 * i, i < 7 ? 3 : 1, i < 7 ? 3 : 1});
   EXPECT_TRUE(left_out_stops(places).reasons.empty());

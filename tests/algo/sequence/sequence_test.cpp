@@ -26,7 +26,7 @@ Sequence check(const Machine& machine, const SequenceOptions& options = {}) {
   return s;
 }
 
-TEST(Cycle, StandardOnSixtyRandomPlans) {
+TEST(Cycle, RecognisesStandardCyclesOfSixtyRandomPlans) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     std::mt19937_64 rng(seed);
     const auto uniform = [&](double a, double b) {
@@ -45,13 +45,13 @@ TEST(Cycle, StandardOnSixtyRandomPlans) {
   }
 }
 
-TEST(Cycle, StandardOneWayOnly) {
+TEST(Cycle, RecognisesAStandardCycleInOneDirection) {
   Machine m;
   for (int run = 1; run <= 3; ++run) m.forward(run), m.beyond(1, -1);
   EXPECT_EQ(check(m).cycle, Cycle::standard);
 }
 
-TEST(Cycle, StandardThatBeginsInReverse) {
+TEST(Cycle, RecognisesAStandardCycleThatBeginsInReverse) {
   Machine m;
   m.x_m = 32e-3;
   for (int run = 1; run <= 2; ++run) {
@@ -61,7 +61,7 @@ TEST(Cycle, StandardThatBeginsInReverse) {
   EXPECT_EQ(check(m).cycle, Cycle::standard);
 }
 
-TEST(Cycle, Pilgrim) {
+TEST(Cycle, RecognisesAPilgrimCycle) {
   for (const int runs : {1, 2, 5}) {
     Machine m;
     for (int t = 1; t <= m.count(); ++t) m.oscillate(t, 1, runs);
@@ -73,7 +73,7 @@ TEST(Cycle, Pilgrim) {
   }
 }
 
-TEST(Cycle, PilgrimOneWayOnly) {
+TEST(Cycle, RecognisesAPilgrimCycleInOneDirection) {
   Machine m;
   for (int t = 1; t <= m.count(); ++t) {
     for (int run = 1; run <= 3; ++run) m.beyond(t, -1), m.visit(t, run, 1);
@@ -83,7 +83,7 @@ TEST(Cycle, PilgrimOneWayOnly) {
   EXPECT_EQ(test::shown(s.notices), "");
 }
 
-TEST(Cycle, QuasiPilgrimAtEachTargetRepeatedly) {
+TEST(Cycle, RecognisesAQuasiPilgrimCycleOverAllTargets) {
   Machine m;
   for (int run = 1; run <= 3; ++run) {
     for (int t = 1; t <= m.count(); ++t) m.oscillate(t, run, 1);
@@ -92,7 +92,7 @@ TEST(Cycle, QuasiPilgrimAtEachTargetRepeatedly) {
 }
 
 // Two targets are visited three times in both directions, then the next two targets, and so on.
-TEST(Cycle, QuasiPilgrimOverGroups) {
+TEST(Cycle, RecognisesAQuasiPilgrimCycleOverGroups) {
   Machine m;
   m.targets = {0, 5e-3, 10e-3, 15e-3, 20e-3, 25e-3, 30e-3, 35e-3};
   for (int first = 1; first < m.count(); first += 2) {
@@ -106,7 +106,7 @@ TEST(Cycle, QuasiPilgrimOverGroups) {
   EXPECT_EQ(check(m).cycle, Cycle::quasi_pilgrim);
 }
 
-TEST(Cycle, Pendulum) {
+TEST(Cycle, RecognisesAPendulumCycle) {
   for (const int runs : {1, 3}) {
     Machine m;
     m.visit(1, 1, 1);
@@ -158,7 +158,7 @@ TEST(Cycle, OvershootOfEveryStopIsNoTurn) {
 }
 
 // The axis moves beyond each target, so it approaches all targets from above.
-TEST(Cycle, ApproachFromTheOtherSideCounts) {
+TEST(Cycle, TargetsMayBeApproachedFromTheOtherSide) {
   Machine m;
   for (int run = 1; run <= 2; ++run) {
     for (int t = 1; t <= m.count(); ++t) {

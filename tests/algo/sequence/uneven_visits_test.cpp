@@ -69,7 +69,7 @@ StraightnessFigure mean_figure(const mdof::Run& run) {
   return {};
 }
 
-TEST(UnevenVisits, CompleteRunHasNone) {
+TEST(UnevenVisits, CompleteRunHasNoUnevenVisits) {
   for (const int runs : {1, 3}) {
     const mdof::Run run = cut_run(runs, kAll);
     EXPECT_EQ(subtract_run_drifts(run.points).points.size(), run.points.size());

@@ -74,7 +74,7 @@ TEST(ControlChart, LargeUncertaintyWidensTheLimits) {
   EXPECT_NEAR(control_chart(x)->moved->u, 1.1, 1e-12);
 }
 
-TEST(ControlChart, ReportsEightOnOneSide) {
+TEST(ControlChart, ReportsEightValuesOnOneSide) {
   std::vector<double> x = {1, -1, 1, -1, 1, -1};  // sigma is 1.77
   for (int i = 0; i < 7; ++i) x.push_back(1.5);
   EXPECT_FALSE(control_chart(values(x), 6)->moved);

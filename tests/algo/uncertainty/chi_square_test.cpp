@@ -182,7 +182,7 @@ TEST(ChiSquare, DeclaredFaultsAreNotFlagged) {
 }
 
 // For independent readings χ² from the covariance equals χ² from least squares.
-TEST(ChiSquare, IsEqualForIndependentReadings) {
+TEST(ChiSquare, IsEqualByCovarianceAndByLeastSquares) {
   const DeclaredFaults faults;
   const Solver solver = Solver::create(faults.rig, Model::rigid).value();
   for (const MeasuredPoint& p : faults.measure(3, nullptr, 0)) {
@@ -217,7 +217,7 @@ TEST(ChiSquare, NoticeHasTheLargestResidual) {
 // A probe is assumed to be linear to 1e-4 of its range with a rectangular distribution: for 200 µm
 // this is 20 nm / √3. The reading of probe F may deviate until χ² reaches its limit for one degree
 // of freedom.
-TEST(ChiSquare, FlagsAboveNoiseAndLinearity) {
+TEST(ChiSquare, FlagsResidualsAboveNoiseAndLinearity) {
   const auto solver = Solver::create(rig_of(6), Model::rigid).value();
   const Residuals residuals(solver, std::vector<double>(6, 200e-6));
   const Eigen::VectorXd still = rigid_readings(solver.fixture(), 0, Errors5{});

@@ -70,7 +70,7 @@ TEST(ContributorLines, ShowTheDeclaredUncertainties) {
 }
 
 // EC0Y = -slope(EXY) - slope(EYX) + corner × angle error of the square.
-TEST(ContributorLines, SquareIsALineOfEC0Y) {
+TEST(ContributorLines, SquareIsALineOfTheBudgetOfEC0Y) {
   const Rig x = test::rig_x();
   for (const int corner : {1, -1}) {
     const SquareArtefact square{30e-6, 2e-6, corner};

@@ -57,7 +57,7 @@ TEST(Contributors, CalibrationErrorIsEqualAtEachPoint) {
 
 // The target rises by 20 µm/mm. The reading of B rises by the same amount, and so does the effect
 // of its scale error.
-TEST(Contributors, SensitivityIsProportionalToTheReading) {
+TEST(Contributors, SensitivityErrorIsProportionalToTheReading) {
   const Rig rig = rig_x_with("B", "u_sensitivity_ppm = 1000");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.truth = [](double d) { return Errors5{0, 0.02 * d, 0, 0, 0}; };
@@ -71,7 +71,7 @@ TEST(Contributors, SensitivityIsProportionalToTheReading) {
 
 // Probe E is 1 mm further along x and reads (l + 1 mm) times the yaw. So the calculated yaw is a
 // tenth too large, and δy at D is unchanged.
-TEST(Contributors, PositionActsWithTheAngle) {
+TEST(Contributors, PositionErrorActsWithTheYaw) {
   const Rig rig = rig_x_with("E", "u_position_mm = [1, 0, 0]");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   synthetic.truth = [](double d) { return Errors5{0, 0, 0, 0, 0.01 * d}; };
@@ -114,7 +114,7 @@ TEST(Contributors, InstallationRollHasNoEffectOnALevelPlane) {
 }
 
 // The effect is 0 where the probe was zeroed; elsewhere its u is √2 u √(1 - correlation).
-TEST(Contributors, FlatnessActsByItsChangeSinceTheZero) {
+TEST(Contributors, FlatnessActsByItsChangeSinceZeroing) {
   const Rig rig = rig_x_with("", "",
                              "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
                              "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.05\n");
@@ -146,7 +146,7 @@ TEST(Contributors, FlatnessActsByItsChangeSinceTheZero) {
 
 // The carriage's δy is D + roll l'' + d yaw, so an error of 1 µm of the travel d changes δy by 1 µm
 // times the yaw.
-TEST(Contributors, EncoderActsAtEachTargetSeparately) {
+TEST(Contributors, EncoderErrorActsAtEachTargetSeparately) {
   const Rig rig = rig_x_with("", "", "[encoder]\nu_um = 1\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .stated = kAtCarriage};
   synthetic.truth = [](double) { return Errors5{0, 0, 0, 0, 1e-3}; };
@@ -248,7 +248,7 @@ TEST(Contributors, RejectsAnImpossibleInstallationAngle) {
 }
 
 // The contributor has at most 256 parts. With more targets, two neighbouring targets share a part.
-TEST(Contributors, EncoderHasFewerPartsForManyTargets) {
+TEST(Contributors, EncoderContributorHasFewerPartsForManyTargets) {
   const Rig rig = rig_x_with("", "", "[encoder]\nu_um = 1\n");
   for (const int targets : {256, 257}) {
     SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 1};

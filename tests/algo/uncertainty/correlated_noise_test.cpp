@@ -175,7 +175,7 @@ TEST(CorrelatedNoise, UIsTheSpreadOfSlopes) {
 }
 
 // The level of a pass affects neither the residuals nor the variance of a figure.
-TEST(CorrelatedNoise, LeavesOutTheLevelOfAPass) {
+TEST(CorrelatedNoise, DoesNotDependOnTheLevelOfAPass) {
   std::mt19937_64 engine(9);
   std::vector<NoisyVisit> visits = log_of(0.9, 0, engine).visits;
   std::vector<double> weights;

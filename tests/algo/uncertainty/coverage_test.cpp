@@ -27,7 +27,7 @@ TEST(Coverage, MatchesTheGuide) {
 
 // The coverage factor is calculated by one method below 200 degrees of freedom and by another from
 // 200 on. At 200 both agree with each other and with scipy.stats.t.ppf(0.975, 200).
-TEST(Coverage, FewAndManyDegreesOfFreedomMeet) {
+TEST(Coverage, FactorsForFewAndManyDegreesMeetAt200) {
   const double below = coverage_factor(200 - 1e-6), above = coverage_factor(200);
   EXPECT_NEAR(below, above, 3e-8);
   EXPECT_NEAR(above, 1.971896, 1e-6);
@@ -76,7 +76,7 @@ TEST(Coverage, EqualPartsAddTheirFreedom) {
 }
 
 // Reference: scipy.stats.t.ppf(0.95, ν).
-TEST(Coverage, OneSidedMatchesScipy) {
+TEST(Coverage, OneSidedFactorMatchesScipy) {
   const std::pair<double, double> table[] = {{1, 6.313752},   {2, 2.919986},        {5, 2.015048},
                                              {30, 1.697261},  {199, 1.652547},      {200, 1.652508},
                                              {1e6, 1.644855}, {kInfinite, 1.644854}};

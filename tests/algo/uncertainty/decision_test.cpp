@@ -86,7 +86,7 @@ TEST(Decision, UsesUForRangesAndStudentsTForFewDegrees) {
   EXPECT_EQ(decision(few, 1.0).conformity, Conformity::undecided);
 }
 
-TEST(Decision, KeepsTheLimit) {
+TEST(Decision, ContainsTheLimit) {
   EXPECT_EQ(decision(budget_of(0.5), 1.25).limit, 1.25);
 }
 

@@ -148,7 +148,7 @@ TEST(NoiseOfRuns, SecondHighPointDoesNotNarrowARange) {
 
 // The levels of probes D and E change together by 200 nm from pass to pass. The slope does not
 // change.
-TEST(NoiseOfRuns, SlopeOmitsADriftOfTheLevel) {
+TEST(NoiseOfRuns, UOfASlopeOmitsADriftOfTheLevel) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(5);
   std::normal_distribution<> normal;

@@ -142,7 +142,7 @@ MisalignedProbe misaligned_probe(const Run& run, std::size_t j) {
   return {expected_gap_m(run, j, kOfB), 1e-3 * part, 2e-3 * part};
 }
 
-TEST(PhysicsContributors, TiltActsByItsChangeSinceTheZero) {
+TEST(PhysicsContributors, TiltActsByItsChangeSinceZeroing) {
   const Rig rig = declared_physics_rig(kGapKeys, "u_tilt_factor = 0.4\n", kCorrectedOverPlanes,
                                        "direction = [0, 0.02, 1]");
   const mdof::Run run = simulated_physics_run(rig, tilting_axis);

@@ -131,21 +131,21 @@ void expect_parameter_coverage(const std::map<std::string, CoveredParameter>& al
   }
 }
 
-TEST(PositioningBudgets, CoversAPerfectAxis) {
+TEST(PositioningBudgets, IntervalsCoverAPerfectAxis) {
   for (const int runs : {1, 5}) {
     SCOPED_TRACE(runs);
     expect_parameter_coverage(count_covered_parameters({.runs = runs}), 1.6);
   }
 }
 
-TEST(PositioningBudgets, CoversAnAxisThatScatters) {
+TEST(PositioningBudgets, IntervalsCoverAnAxisThatScatters) {
   expect_parameter_coverage(
       count_covered_parameters(
           {.runs = 5, .form_rad = 200e-6, .reversal_rad = 60e-6, .scatter_rad = 20e-6}),
       1.5);
 }
 
-TEST(PositioningBudgets, CoversADeclaredGain) {
+TEST(PositioningBudgets, IntervalsCoverADeclaredGain) {
   const AxisCase gain{.runs = 3,
                       .form_rad = 200e-6,
                       .reversal_rad = 60e-6,

@@ -46,7 +46,7 @@ Rig declared_rig() {
                     "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n");
 }
 
-TEST(Stated, TogetherEqualsSeparately) {
+TEST(Stated, BudgetsTogetherEqualSeparateBudgets) {
   const Rig rig = declared_rig();
   const auto run = uneven_run(rig);
   const StatedUncertainty stated = stated_uncertainty(rig, run);
@@ -81,7 +81,7 @@ TEST(Stated, ReportsTheErrorForPointsAndFigures) {
   EXPECT_TRUE(stated_uncertainty(rig, empty).points.points.empty());
 }
 
-TEST(Stated, RigWithoutDeclarationsHasNoise) {
+TEST(Stated, RigWithoutDeclarationsHasNoiseOnly) {
   const Rig rig = rig_x_with("", "");
   const StatedUncertainty stated = stated_uncertainty(rig, uneven_run(rig));
   EXPECT_TRUE(stated.points.noise_only);

@@ -156,7 +156,7 @@ TEST(Plan, FiveUnevenTargetsAndRunsAreEnough) {
   EXPECT_EQ(notices_of(planned(kGood_m), 1e-3), "");
 }
 
-TEST(Plan, CountsTargetsAndRuns) {
+TEST(Plan, ReportsTooFewTargetsAndRuns) {
   const std::vector<double> four(kGood_m.begin(), kGood_m.end() - 1);
   EXPECT_NE(notices_of(planned(four)).find("few_targets targets=4 travel_mm=29.7 needed=5"),
             std::string::npos);

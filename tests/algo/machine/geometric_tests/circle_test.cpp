@@ -91,7 +91,7 @@ TEST(CircularTest, BacklashGivesStepsAndHysteresis) {
   EXPECT_GT(f->Gb_m, 3.9e-6);
 }
 
-TEST(CircularTest, WorkAxisGivesTheSameRadius) {
+TEST(CircularTest, WorkAxisGivesTheSameRadialDeviation) {
   const CircularFigures tool = figures(flat_machine("EYX_um = [[0, 0], [100, 9]]", "")),
                         work =
                             figures(flat_machine("EYX_um = [[0, 0], [100, 9]]", "", "w-X-b-Y-t"));
@@ -99,7 +99,7 @@ TEST(CircularTest, WorkAxisGivesTheSameRadius) {
   EXPECT_NEAR(work.G_ccw_m, tool.G_ccw_m, 1e-9);
 }
 
-TEST(CircularTest, EvaluatesAPathByHand) {
+TEST(CircularTest, MatchesManualCalculationOfAPath) {
   // A path at 16 angles with an offset of the centre and a radius of +3 µm; the clockwise radius is
   // 1 µm less.
   CircularPath path;
@@ -157,7 +157,7 @@ TEST(CircularTest, RefusesPathsThatAreNoCircle) {
 
 // Harmonics at equal angles. The orders 0 and 1 are removed as the radius and the centre; the
 // higher harmonics of each direction remain.
-TEST(CircularTest, EvaluatesHarmonicsByHand) {
+TEST(CircularTest, MatchesManualCalculationOfHarmonics) {
   CircularPath path;
   for (int i = 0; i < 72; ++i) {
     const double a = 2 * std::numbers::pi * i / 72;

@@ -42,7 +42,7 @@ CircleReadings circle(double a, double b, double noise_m, std::mt19937& source, 
   return r;
 }
 
-TEST(PerpendicularityTest, IsSeparatedFromTiltAndAxes) {
+TEST(PerpendicularityTest, IsSeparatedFromWobbleAndAxisErrors) {
   std::mt19937 source(5);
   const auto p = perpendicularity(circle(20e-6, -7e-6, 0, source, true), 5);
   ASSERT_TRUE(p);
@@ -58,7 +58,7 @@ TEST(PerpendicularityTest, IsSeparatedFromTiltAndAxes) {
   EXPECT_FALSE(blind->tilt_known || blind->axes_known);
 }
 
-TEST(PerpendicularityTest, CoversTheTruth) {
+TEST(PerpendicularityTest, IntervalsCoverTheTruth) {
   std::mt19937 source(6);
   int a_covered = 0, b_covered = 0;
   for (int i = 0; i < kCircles; ++i) {
@@ -131,7 +131,7 @@ TEST(PerpendicularityTest, RemovesADriftBetweenTurns) {
 
 // Required: the intervals of 93 to 97.5 % of 2,000 simulations contain the truth. Each simulation
 // has its own drift.
-TEST(PerpendicularityTest, CoversTheTruthUnderDrift) {
+TEST(PerpendicularityTest, IntervalsCoverTheTruthUnderDrift) {
   std::mt19937 source(9);
   for (const int turns : {2, 3}) {
     std::array<int, 3> covered{};  // for EA0C, EB0C, drift

@@ -65,7 +65,7 @@ TEST(Diagonals, UncertaintyFollowsFromTheLines) {
 }
 
 // Required: the intervals of 94 to 96.5 % of 2,000 simulations contain the truth.
-TEST(Diagonals, CoverTheTruth) {
+TEST(Diagonals, IntervalsCoverTheTruth) {
   for (const bool two : {false, true}) {
     std::mt19937 source(3);
     int covered = 0;
@@ -81,7 +81,7 @@ TEST(Diagonals, CoverTheTruth) {
 
 // A line that was read once has the noise of the lines that were read more often. If all lines were
 // read once, the declared u applies. Required share as above.
-TEST(Diagonals, CoverTheTruthOfLinesReadOnce) {
+TEST(Diagonals, IntervalsCoverTheTruthForLinesReadOnce) {
   const std::vector<std::array<std::size_t, 4>> counts = {{1, 1, 6, 0}, {6, 1, 1, 0}, {2, 1, 3, 0},
                                                           {1, 1, 1, 5}, {1, 1, 2, 2}, {1, 1, 1, 1}};
   for (const auto& n : counts) {
@@ -118,7 +118,7 @@ TEST(Diagonals, RefuseLinesWithoutATriangle) {
 }
 
 // A machine whose Y axis is not square to X. Its diagonals differ by the law of cosines.
-TEST(Diagonals, PredictionHasTheSameSign) {
+TEST(Diagonals, PredictedDiagonalsGiveTheSameSign) {
   Machine m;
   m.frames.resize(2);
   m.frames[0].id = "X";

@@ -28,7 +28,7 @@ TEST(Budget, RangeOfRoundingErrorsHasTheUOfItsTrials) {
 }
 
 // An undeclared u is reported as missing. A declared u of 0 adds nothing to the budget.
-TEST(Budget, ArtefactWithoutUDiffersFromZeroU) {
+TEST(Budget, ArtefactWithoutUIsReportedAndZeroUIsNot) {
   const Rig x = test::rig_x();
   Rig y = x;
   y.axis = Axis::y;

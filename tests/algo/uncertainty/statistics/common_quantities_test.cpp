@@ -56,7 +56,7 @@ TEST(CommonQuantities, ProbeQuantitiesDependOnItsCertificate) {
       "");
 }
 
-TEST(CommonQuantities, PlaneIsGivenByNameNormalUncertaintyAndLength) {
+TEST(CommonQuantities, PlanesAreOneIfNameNormalUAndLengthAreEqual) {
   const auto named = [](const std::string& plane, const Vec3& normal, double u, double length_m) {
     Rig rig = test::rig_x_with(
         "", "", "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n[[plane]]\nnormal = \"+Y\"\n");

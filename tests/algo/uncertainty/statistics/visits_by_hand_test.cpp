@@ -303,7 +303,7 @@ TEST(RepeatabilityOfVisits, UIsAtLeastTheErrorOfTheReadings) {
 
 // The products of the parts add to each covariance. There are as many parts as quantities, or
 // fewer.
-TEST(IndependentParts, HaveTheCovariance) {
+TEST(IndependentParts, GiveTheCovariance) {
   const double covariance[4][4] = {{4, 2, 0, -1}, {2, 5, 0, 3}, {0, 0, 0, 0}, {-1, 3, 0, 9}};
   const auto of = [&](std::size_t i, std::size_t j) { return covariance[i][j]; };
   const Eigen::MatrixXd all = independent_parts(4, of, 10);

@@ -32,7 +32,7 @@ double log_length_s(int runs) {
   return kStop_s * (2 * kTargets * runs - 1);
 }
 
-// Correlated noise of an error at each stop, for an error of size 1.
+// Correlated noise of an error at each stop, for an error of size 1 (kSizes).
 using Slow = std::function<std::vector<double>(std::mt19937_64&, std::size_t stops)>;
 
 Slow lasting(double correlation_s, double sd) {

@@ -101,7 +101,7 @@ TEST(ReachByHand, MiddleAndFarthestMeasuredPixel) {
   EXPECT_EQ(far.y_m, 5);
   EXPECT_NEAR(farthest_pixel(map, 12, 5).radius_m, 5, 1e-12);
   EXPECT_EQ(farthest_pixel(small_map(1, 1, {kHole}), 0, 0).radius_m, 0);
-  // A map without missing pixels, from its first corner to its last.
+  // The measured pixels of a map without holes are the whole map.
   const SurfaceMap whole = small_map(3, 2, std::vector<double>(6, 0.0));
   EXPECT_EQ(algo::middle_of(whole).x_m, 12);
   EXPECT_EQ(algo::middle_of(whole).y_m, 0.5);

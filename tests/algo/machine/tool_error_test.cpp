@@ -98,7 +98,7 @@ TEST(MachineModel, DerivativesMatchDifferencesOfTheExactError) {
   EXPECT_LT(worst, 1e-9);
 }
 
-// A machine with X, which carries the work or the tool, and Z; the tool is at 100 mm. Signs and
+// A machine with X, which carries the work or the tool, and Z; the tool is at z = 100 mm. Signs and
 // levers are calculated by hand.
 Machine by_hand(bool x_carries_work) {
   Machine m;

@@ -158,7 +158,8 @@ TEST(CuttingEdge, TrochoidLeavesTheWorkAtItsSide) {
   EXPECT_EQ(CuttingEdge(slot, 0, 0).wall_edge(), 0);
 }
 
-// Expected: the sum of the products of both moments over the bending stiffness.
+// Expected compliance: the sum, over short pieces of the tool, of the product of both lever arms
+// divided by the bending stiffness.
 TEST(Beam, ComplianceOfASteppedToolMatchesASum) {
   const std::vector<ToolSection> tool = {{3e-3, 3e-3}, {1e-3, 1.5e-3}, {2e-3, 0.4e-3}};
   const double E = 600e9;

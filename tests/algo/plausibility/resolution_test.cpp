@@ -36,7 +36,8 @@ TEST(Resolution, IsAStepThatOccursThreeTimes) {
   EXPECT_EQ(step_of({1, 1.02, 1.06}), 0);
 }
 
-// Of few steps, three quarters must be equal. Of sixteen or more steps, an eighth must be equal.
+// If there are few steps, three quarters of them must be equal. If there are sixteen or more, an
+// eighth of them must be equal.
 TEST(Resolution, NeedsMostOfFewSteps) {
   EXPECT_EQ(step_of(repeated(1, 6, {2, 4})), 1);
   EXPECT_EQ(step_of(repeated(1, 5, {2, 4, 8})), 0);
@@ -95,8 +96,8 @@ TEST(Resolution, NeedsRepeatedReadingsOnBothSides) {
   EXPECT_EQ(right.step(), 0);
 }
 
-// The other steps grow by 6 % each, so no two are equal. Eight of 64 steps must be equal. Further,
-// larger steps change nothing.
+// The other steps grow by 6 % each, so no two are equal. Eight of 64 steps must be equal. A larger
+// step that is added changes nothing.
 TEST(Resolution, NeedsEightOfSixtyFourSteps) {
   const auto steps_with_outliers = [](std::size_t strays, std::size_t equal) {
     std::vector<double> steps;

@@ -1,4 +1,5 @@
-// Begin and end of a stop, and the counts of a log, for simulated logs.
+// Tests the begin and the end of a stop, and the counts in the summary of a log, for simulated
+// logs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

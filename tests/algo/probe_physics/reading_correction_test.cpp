@@ -96,8 +96,8 @@ Run corrected(const Rig& rig, Run run) {
   return run;
 }
 
-// Errors of point j relative to the first point. An error that is common to all points belongs to
-// the zero.
+// Errors of point j relative to the first point. An error that is common to all points is removed
+// when the probes are zeroed.
 Errors5 off(const Run& run, const Run& truth, std::size_t j) {
   Errors5 e{};
   for (std::size_t k = 0; k < 5; ++k)

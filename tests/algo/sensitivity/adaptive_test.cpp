@@ -86,7 +86,7 @@ TEST(AdaptiveRule, ToleranceIsHalfAUnitOfTheLastDigit) {
   EXPECT_DOUBLE_EQ(tolerance(0.33333, 2), 0.005);
   EXPECT_DOUBLE_EQ(tolerance(36, 1), 5);
   EXPECT_DOUBLE_EQ(tolerance(36, 2), 0.5);
-  EXPECT_DOUBLE_EQ(tolerance(9.96, 2), 0.5);  // is rounded to 10: c = 10, l = 0
+  EXPECT_DOUBLE_EQ(tolerance(9.96, 2), 0.5);  // rounded to 10 = c · 10^l, c = 10, l = 0
   EXPECT_DOUBLE_EQ(tolerance(1, 1), 0.5);
   EXPECT_DOUBLE_EQ(tolerance(100, 3), 0.5);
   EXPECT_DOUBLE_EQ(tolerance(1.2e-9, 3), 0.5e-11);

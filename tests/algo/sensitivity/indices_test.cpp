@@ -157,7 +157,7 @@ TEST(SumBlocks, SufficeForAStandardErrorOfFewTrials) {
   }
 }
 
-// As StandardErrorsAreCorrect, with blocks of one trial.
+// The same test as StandardErrorsAreCorrect, with blocks of one trial.
 TEST(Sobol, StandardErrorsAreCorrectInBlocksOfOneTrial) {
   const auto known = ishigami_known();
   double total = 0;

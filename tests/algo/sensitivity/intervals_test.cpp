@@ -18,7 +18,8 @@ double bin_edge_value(std::size_t bin) {
   return kIntervalScale.low + static_cast<double>(bin) * kIntervalScale.width;
 }
 
-// p M is 3.47, 3.55, 950 and 95.95. The rank is the integer part of p M + 1/2.
+// p M (probability times number of trials) is 3.47, 3.55, 950 and 95.95. The rank is the integer
+// part of p M + 1/2.
 TEST(IntervalRanks, MatchJcgm101) {
   EXPECT_EQ(quantile_rank(0.0347, 100), 3u);
   EXPECT_EQ(quantile_rank(0.0355, 100), 4u);
@@ -73,9 +74,9 @@ TEST(IntervalRanks, ShortestIsTheFirstOfTheSmallestLength) {
   }
 }
 
-// Of 3200 trials, rank 3 (0.001 M = 3.2) is alone in bin 1000, and rank 3197 (3196.8) is alone in
-// bin 2400; both are in the middle of their bins. A tenth of their distance is 140 bins, so bins
-// 860 to 2540 are drawn. These 1681 bins are drawn as bars of 15 bins.
+// There are M = 3200 trials. Rank 3 (0.001 M = 3.2) is alone in bin 1000, and rank 3197 (3196.8) is
+// alone in bin 2400; both are in the middle of their bins. A tenth of their distance is 140 bins,
+// so bins 860 to 2540 are drawn. These 1681 bins are drawn as bars of 15 bins.
 TEST(HistogramForDrawing, ShowsTheCentralTrialsAndATenthMore) {
   OutputHistogram counts;
   for (const auto& [bin, n] : {std::pair(50u, 2u), std::pair(1000u, 1u), std::pair(1500u, 1000u),

@@ -194,7 +194,7 @@ TEST(HistogramForDrawing, HasUpTo120Bars) {
   }
 }
 
-// Of 2011 trials, five are below the bins and six above.
+// There are 2011 trials: five below the bins and six above.
 TEST(HistogramForDrawing, CountsTrialsBeyondTheBars) {
   const Histogram h = drawn(2000, 5);
   EXPECT_GE(h.below, 5u);

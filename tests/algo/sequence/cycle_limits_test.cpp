@@ -1,5 +1,5 @@
-// Cycles on both sides of the limits of their rules. The series of visits are defined by hand.
-// Mutation tests (tests/mutate) found these cases.
+// Tests the rules by which cycles are recognised, on both sides of each limit. The series of visits
+// are defined by hand. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -84,7 +84,7 @@ TEST(Turns, TurnsAtTheEndsDecide) {
   // The turn 7, -6 occurs once. The turn -2, 1 occurs once; there the axis turned beyond target 1.
   EXPECT_EQ(cycle_of({1, 2, 3, 4, 5, 6, 7, -6, -5, -4, -3, -2, 1, 2, 3, 4, 5, 6, 7}, 7).cycle,
             Cycle::standard);
-  // 3, -2, 3 is no turn at an end, 7, -7 is one.
+  // The visits 3, -2, 3 are no turn at an end; the visits 7, -7 are such a turn.
   EXPECT_EQ(cycle_of({1, 2, 3, -2, 3, 4, 5, 6, 7, -7, -6, -5, -4, -3, -2, -1}, 7).cycle,
             Cycle::standard);
 }

@@ -50,8 +50,8 @@ TEST(MeanUncertainty, IsCorrectForFewReadings) {
   EXPECT_NEAR(mean_uncertainty(std::vector<double>{1, -1}, std::sqrt(2)), 1, 1e-14);
 }
 
-// More than 256 readings are replaced by means of equal numbers of readings. Of 1024 readings, each
-// four are replaced by their mean, so a block of sixteen becomes a block of four.
+// More than 256 readings are replaced by means of equal numbers of readings. Each four of 1024
+// readings are replaced by their mean, so a block of sixteen becomes a block of four.
 TEST(MeanUncertainty, AveragesManyReadings) {
   const double few = alternating_run_u(4, 64), many = alternating_run_u(16, 64);
   EXPECT_NEAR(many, few, 1e-12);

@@ -74,8 +74,8 @@ TEST(Volumetric, StatesErrorsBetweenNodes) {
 
 TEST(Volumetric, CorrectsErrorsOfToolAndWorkAxes) {
   // EXX is 2 µm at 40 mm, so the body moves 2 µm too far. If the body is the tool, the command is
-  // reduced by 2 µm. If the body is the work, its command increases against the tool; the body also
-  // moves too far, and the command is also reduced by 2 µm.
+  // reduced by 2 µm. If the body is the work, it moves against the tool when the command increases.
+  // It also moves too far, so the command is reduced by 2 µm in this case, too.
   const std::string exx = "EXX_um = [[0, 0], [40, 2]]";
   for (const char* chain : {"w-b-X-Y-Z-t", "w-X-b-Y-Z-t"}) {
     const VolumetricTable t = built(machine(chain, exx));

@@ -18,8 +18,8 @@ double noise(std::mt19937& source) {
   return sum;
 }
 
-// Lengths of the two sides and the diagonals of a plane whose axes enclose 90° + error; each line
-// is measured n times.
+// Lengths of the two sides and of the diagonals of a plane whose axes enclose 90° + error; each
+// line is measured n times.
 DiagonalLines measured_lines(double error, std::mt19937& source, std::size_t n, bool two,
                              double noise_m, double scale = 1) {
   const double x = 0.4, y = 0.3, lean = std::sin(error), up = std::cos(error);

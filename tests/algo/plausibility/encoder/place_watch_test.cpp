@@ -78,7 +78,7 @@ TEST(PlaceWatch, LeavesOutOnlyMissingPositionsBeforeItBegins) {
   PlaceWatch watch(100);
   EXPECT_EQ(placed(watch, {{1, 0}, {2, 50}, {3, kNaN}, {4, -50}}), "++-+");
   EXPECT_EQ(watch.left_out(), 1u);
-  // The last frame before defines the position of the axis.
+  // From begin_at() on, the last frame defines the position of the axis.
   watch.begin_at(4 * kMs, -50);
   EXPECT_EQ(placed(watch, {{5, -49.9}, {6, 0}}), "+-");
 }

@@ -204,7 +204,7 @@ TEST(RangeIntervalByHand, IsThe95PercentPointOfItsChange) {
       changes.push_back(0);
       changes.push_back(static_cast<double>(t));
     }
-    // The 95 % point of n distances that are counted from 0.
+    // The 95 % point is the sorted change number 0.95 n, counted from 0.
     const double expected = n == 20 ? 20 : 96;
     EXPECT_NEAR(RangeTrials({0, 100}, changes).U(), expected, 1e-9);
     // Changes with the opposite sign give the same result.

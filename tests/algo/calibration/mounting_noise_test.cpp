@@ -1,5 +1,5 @@
-// The noise is as large as the effects that show the directions of the probes. Simulated clampings
-// with known mountings (tilted_target.h).
+// Tests with simulated clampings of known mountings (tilted_target.h). The noise is as large as the
+// effects that show the directions of the probes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -185,8 +185,8 @@ TEST(DriftDesignByHand, RowsAreRelativeToTheMeanOfTheirPlace) {
   EXPECT_EQ(rows.freedom(), 24 - 3 - design.orders());
 }
 
-// From 49 places on two neighbouring visits share a row, from 97 places on three visits. The row is
-// the mean of consecutive visits.
+// From 49 places on, two neighbouring visits share a row; from 97 places on, three visits. The row
+// is the mean of consecutive visits.
 TEST(DriftDesignByHand, NeighboursOfManyPlacesShareARow) {
   for (const auto& [places, each] : {std::pair(48u, 1u), std::pair(49u, 2u), std::pair(97u, 3u)}) {
     const DriftDesign design(many_visits(places, 2));

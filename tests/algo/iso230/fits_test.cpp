@@ -37,7 +37,7 @@ TEST(LineFit, MatchesTheLinesOfTheManual) {
   EXPECT_NEAR(two.slope - one.slope, -25.0727, 1e-4);  // squareness in the manual, µrad
 }
 
-// If several deviations are equal, the result is the first.
+// If several deviations are equal, the index of the first is reported.
 TEST(LineFit, ReportsTheFirstOfEqualDeviations) {
   const std::vector<double> x = {0, 1, 2, 3, 4}, y = {0, 2, -1, 2, -1};
   const Deviations d = deviations_from(Line{}, x, y);

@@ -85,8 +85,7 @@ TEST(OverRange, SaturatedAboveOneReadingAndOnePercent) {
   EXPECT_FALSE(is_too_much(3, 300));
 }
 
-// If an over-range reading is far from all other readings on either side, its cause is a broken
-// cable.
+// An over-range reading far above or below the mean is a glitch, for example from a broken cable.
 TEST(OverRange, GlitchDoesNotSaturate) {
   for (const double at_m : {100e-6, -100e-6}) EXPECT_FALSE(is_too_much(20, 100, at_m));
   EXPECT_TRUE(is_too_much(20, 100, -2.9e-6));

@@ -83,7 +83,7 @@ TEST(SobolByHand, EstimatorsMatchThePapers) {
     const double c = centre_of(e, k, 16);
     // Only trials are used for which A, B and all mixtures are solved.
     double sum = 0, n = 0;
-    // A, B, ABi of the solved trials.
+    // Outputs of the solved trials for A, B and the three mixtures ABi.
     std::vector<std::vector<std::array<double, 5>>> solved(kBlocks);
     for (std::uint64_t i = 0; i < kTrials * kBlocks; ++i) {
       std::array<double, 5> f{e.value(std::vector<std::uint8_t>{0, 0, 0}, i, k),

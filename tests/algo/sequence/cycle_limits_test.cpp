@@ -118,7 +118,7 @@ TEST(QuasiPilgrimLimit, EveryVisitUpToTheLastCounts) {
 }
 
 // The passes go over all six targets. In each pass every second target is visited twice in a row:
-// 24 blocks of 36 visits, two thirds. Then there are 35 visits.
+// 24 blocks of 36 visits, two thirds. Without one visit, 24 blocks of 35 are more than two thirds.
 TEST(QuasiPilgrimLimit, ThirdOfTheVisitsTurnsAtATarget) {
   Row row = {1,  -1, 2,  3,  -3, 4,  5,  -5, 6,   //
              1,  2,  -2, 3,  4,  -4, 5,  6,  -6,  //

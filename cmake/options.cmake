@@ -20,12 +20,12 @@ target_link_options(mdof_options INTERFACE -Wl,-z,relro,-z,now)
 option(MDOF_BUILD_QUICKLY "Spend as little time as possible on compiling" OFF)
 
 # Assertions guard against bugs and stay on in Release.
-set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1")
+set(CMAKE_CXX_FLAGS_RELEASE "-O2")
 if(MDOF_BUILD_QUICKLY)
   set(CMAKE_CXX_FLAGS_RELEASE "-O0")
   target_compile_options(mdof_options INTERFACE -w)  # warnings are errors in every other build
 endif()
-set(CMAKE_C_FLAGS_RELEASE "-O2 -g1")
+set(CMAKE_C_FLAGS_RELEASE "-O2")
 if(MDOF_SANITIZE)
   target_compile_definitions(mdof_options INTERFACE MDOF_SANITIZED)
   target_compile_options(mdof_options INTERFACE -fsanitize=${MDOF_SANITIZE}

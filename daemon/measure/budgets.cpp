@@ -69,13 +69,7 @@ RunUncertainty noise_of(const Run& run, const Error& error) {
 
 StatedFigures stated_figures(const Run& run, const Result<algo::RunBudgets>& of_run) {
   if (!of_run) return {{}, words::text(of_run.error())};
-  if (of_run->cost() > kMostCost)
-    return {{},
-            "the uncertainty was not calculated: with " +
-                std::to_string(of_run->means().targets.size()) +
-                " targets and the declared uncertainties of the rig, the calculation would take "
-                "more than 1 s; " +
-                words::remedy(Remedy::budget_run)};
+  if (const Status quick = check_cost(*of_run); !quick) return {{}, words::text(quick.error())};
   StatedFigures stated{of_run->of(algo::figures_of_run(run.header.axis)), ""};
   std::erase_if(stated.budgets, [](const Budget& budget) { return !std::isfinite(budget.value); });
   if (stated.budgets.empty())
@@ -85,6 +79,15 @@ StatedFigures stated_figures(const Run& run, const Result<algo::RunBudgets>& of_
 }
 
 }  // namespace
+
+Status check_cost(const algo::RunBudgets& budgets) {
+  if (budgets.cost() <= kMostCost) return {};
+  return bad_input("the uncertainty was not calculated: with " +
+                       std::to_string(budgets.means().targets.size()) +
+                       " targets and the declared uncertainties of the rig, the calculation would "
+                       "take more than 1 s",
+                   Remedy::budget_run);
+}
 
 RunUncertainty uncertainty_of(const Run& run) {
   const auto rig = rig_of(run.header);

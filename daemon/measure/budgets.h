@@ -27,6 +27,9 @@ RunUncertainty uncertainty_of(const Run& run);
 // uncertainty does not include the repeatability of the run.
 RunUncertainty stop_uncertainty(const Run& part);
 
+// Error: the calculation of the budgets of all figures of a run would take more than about 1 s.
+Status check_cost(const algo::RunBudgets& budgets);
+
 // Budgets of the figures of the run. If the budgets cannot be calculated, or if the calculation
 // would take long, the result contains only the reason. `mdof budget RUN` also calculates budgets
 // that take long.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "algo/uncertainty/budget/budget.h"
+#include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/words/error_text.h"
@@ -151,7 +152,9 @@ Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>&
                const std::vector<algo::Figure>& figures) {
   MDOF_TRY(const Run run, restated_run(store, header.id, Reference::fixture));
   MDOF_TRY(const Rig rig, rig_of(run.header));
-  const auto whole = algo::RunBudgets::create(rig, run);
+  auto whole = algo::RunBudgets::create(rig, run);
+  if (whole)
+    if (const Status quick = check_cost(*whole); !quick) whole = tl::unexpected(quick.error());
   const algo::RunBudgets noise(rig, run);
   const std::string run_name = "run " + std::to_string(header.id);
   const std::vector<Budget> budgets = (whole ? *whole : noise).of(figures);

@@ -1,7 +1,13 @@
 // If a figure of a run has no uncertainty, the run contains the reason.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+
 #include "daemon/measure/budgets.h"
+#include "daemon/measure/several_runs/trends.h"
+#include "daemon/store/store.h"
+#include "daemon/words/words.h"
 #include "schema/uncertainty/budget_json.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
@@ -62,6 +68,30 @@ TEST(StatedFigures, HaveAReasonIfTheyAreOmitted) {
   EXPECT_NE(why(empty).find("no points"), std::string::npos);
   EXPECT_EQ(json_of({{}, "it \"takes\" long"}),
             R"({"uncertainty":{},"uncertainty_reason":"it \"takes\" long"})");
+}
+
+// A chart of many runs must not occupy the query thread for minutes.
+TEST(StatedFigures, TrendHasAReasonInPlaceOfAUThatTakesLong) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "mdof-trend-of-a-long-run";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  {
+    auto store = store::Store::open(folder / "mdof.db", store::Access::read_write).value();
+    auto run = run_with(declared_toml(), 1500);
+    run.header.state = RunState::complete;
+    ASSERT_TRUE(store.add_run(run));
+    TrendRequest request;
+    request.figure = "EYX_straightness_um";
+    const auto found = trends(store, request);
+    ASSERT_TRUE(found) << found.error().message;
+    const Trend& trend = found->at(0);
+    ASSERT_EQ(trend.values.size(), 1u);
+    EXPECT_TRUE(std::isfinite(trend.values[0].stated.value));
+    EXPECT_TRUE(std::isnan(trend.values[0].stated.U));
+    ASSERT_EQ(trend.notices.size(), 1u);
+    EXPECT_NE(words::text(trend.notices[0]).find("1500 targets"), std::string::npos);
+  }
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ struct CompensationTable {
   // True: the table was built by an old version that stated neither the reference point (which was
   // the carriage) nor the direction of the correction. Such a table must not be sent to a client or
   // controller.
-  bool without_stated_point = false;
+  bool lacks_reference_point = false;
   // Keys that the rigs of the runs do not declare; u does not include the contributions of these
   // keys. They are read from the rigs and not stored.
   std::vector<std::string> not_declared;

@@ -60,7 +60,7 @@ class Fit {
 
   Status run(double u_encoder_m) {
     MDOF_CHECK(settle([this] { return solve_poses(); }));
-    model_.widen_by_encoder(pose_, u_encoder_m);
+    model_.add_encoder_uncertainty(pose_, u_encoder_m);
     return settle([this] { return solve_all_unknowns(); });
   }
   MountingFit result(const Rig& rig, const std::vector<Clamping>& clampings) const;

@@ -199,7 +199,7 @@ MountingModel::Linearised MountingModel::linearised(const Eigen::VectorXd& pose,
   return out;
 }
 
-void MountingModel::widen_by_encoder(const Eigen::VectorXd& pose, double u_encoder_m) {
+void MountingModel::add_encoder_uncertainty(const Eigen::VectorXd& pose, double u_encoder_m) {
   if (!(u_encoder_m > 0)) return;
   for (TraverseReading& seen : readings_) {
     const FixtureProbe& p = nominal_.probes[seen.probe];

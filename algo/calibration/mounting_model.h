@@ -62,7 +62,7 @@ class MountingModel {
 
   // Adds the effect of the encoder's uncertainty on the readings of a tilted target to u of the
   // readings.
-  void widen_by_encoder(const Eigen::VectorXd& pose, double u_encoder_m);
+  void add_encoder_uncertainty(const Eigen::VectorXd& pose, double u_encoder_m);
   Errors5 clamping_angles(const Eigen::VectorXd& pose, std::size_t clamping) const;
 
  private:

@@ -56,9 +56,10 @@ std::size_t largest(const Vec3& v) {
   return at;
 }
 
-class Naming {
+class UnseenReporter {
  public:
-  Naming(const MountingModel& model, const MountingView& view) : model_(model), view_(view) {
+  UnseenReporter(const MountingModel& model, const MountingView& view)
+      : model_(model), view_(view) {
     together_ = Eigen::MatrixXd(model.unknowns(), 0);
     for (const Group& group : groups_of(model.nominal())) {
       for (std::size_t j = 0; j < 2; ++j) add_common_shift(group, j);
@@ -166,7 +167,7 @@ class Naming {
 }  // namespace
 
 Unseen find_unseen(const MountingModel& model, const MountingView& view) {
-  return Naming(model, view).take();
+  return UnseenReporter(model, view).take();
 }
 
 }  // namespace mdof::algo

@@ -87,7 +87,7 @@ SlopeUncertainty slope_uncertainty(const std::vector<std::vector<Reading>>& plac
   return {u_left, static_cast<double>(x.size()) - 2};
 }
 
-std::vector<std::string> blind_to(const Rig& rig) {
+std::vector<std::string> undetectable_effects(const Rig& rig) {
   std::vector<std::string> sentences = {
       "the scale error of the encoder: the sensitivity contains the whole scale error",
       "the product of two angles (the squareness error of the axis to the plane, and the tilt of "
@@ -212,7 +212,7 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
                         std::abs(along) * rig.uncertainty.encoder.u);
   found.u_sensitivity_1 = u.u;
   found.freedom = u.freedom;
-  found.not_seen = blind_to(rig);
+  found.not_seen = undetectable_effects(rig);
   found.residual_sd_m = line.residual_sd;
   found.from_m = places.front().read_m;
   found.to_m = places.back().read_m;

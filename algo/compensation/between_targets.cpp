@@ -13,7 +13,7 @@ constexpr double kRoughest = 4;
 // Smallest number of values that has three second differences over two steps.
 constexpr std::size_t kLeastRoughnessValues = 7;
 constexpr std::size_t kFew = 5;  // with fewer values the scatter of the curvature is unknown
-constexpr double kFactorOfFew = 2;
+constexpr double kFewValuesRatio = 2;
 // Weight of the mean square of all second differences; a nearby second difference has weight 1.
 constexpr double kOverallWeight = 6;
 
@@ -63,7 +63,7 @@ SquareSum squares(const Finite& f, std::size_t first, std::size_t last, std::siz
 
 // The ratio R of the curvature at half a step to the curvature at one step.
 double curvature_ratio(const Finite& f) {
-  if (f.x.size() < kLeastRoughnessValues) return f.x.size() < kFew ? kRoughest : kFactorOfFew;
+  if (f.x.size() < kLeastRoughnessValues) return f.x.size() < kFew ? kRoughest : kFewValuesRatio;
   const double one = squares(f, 0, f.x.size() - 1, 1).mean(),
                two = squares(f, 0, f.x.size() - 1, 2).mean();
   const double q = two > 0 ? std::clamp(std::sqrt(one / two), 1.0, kRoughest) : kRoughest;

@@ -54,11 +54,11 @@ ApproachVariances approach_variances(const MovingAxis& moving,
 // Runs with missing visits do not shift all means equally. This class calculates how two causes
 // change the means of each approach, as independent parts: the uncertain shifts of these runs, and
 // the different levels of their two passes (run_shifts.h).
-class SharedShifts {
+class MissingVisitEffects {
  public:
   // `u_visit`: named errors.
-  SharedShifts(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
-               const std::vector<TargetMean>& grid, const Errors5& u_visit)
+  MissingVisitEffects(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
+                      const std::vector<TargetMean>& grid, const Errors5& u_visit)
       : grid_(grid), u_visit_(u_visit) {
     std::vector<MeasuredPoint> counted;
     std::copy_if(points.begin(), points.end(), std::back_inserter(counted), counts_in_means);
@@ -194,7 +194,7 @@ SeriesOfErrors table_uncertainty(
   const ApproachVariances own = approach_variances(moving, points, grid, approach);
   const ApproachVariances other = approach_variances(moving, points, grid, back);
   const Errors5 apart = half_difference(moving, points);
-  const SharedShifts shared(moving, points, grid, own.u_visit);
+  const MissingVisitEffects shared(moving, points, grid, own.u_visit);
   SeriesOfErrors u;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     u[k].assign(grid.size(), kNaN);

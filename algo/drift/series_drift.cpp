@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastNoise2 = 1e-24;                // (1 pm)², for readings without noise
 constexpr double kNearlyAsLikely = 7, kAsLikely = 2;  // differences of -2 log(likelihood)
 // Limit of a score, in sd of the score: a subtracted drift has smaller scores, due to rounding.
-constexpr double kTaken = 1e-6;
+constexpr double kLeastScore = 1e-6;
 constexpr Eigen::Index kWaves = 12;  // waves of the slow noise: 1 to 12 half periods in the log
 constexpr double kPi = 3.14159265358979323846;
 
@@ -70,7 +70,7 @@ void DriftFit::estimate(Eigen::Index k, const std::vector<WeighedFit>& fits, dou
                         double critical_t) {
   std::vector<double> unlikely;
   for (const WeighedFit& fit : fits)
-    unlikely.push_back(fit.unlikeliness(k, freedom_, kLeastNoise2));
+    unlikely.push_back(fit.minus_two_log_likelihood(k, freedom_, kLeastNoise2));
   const auto likeliest = std::min_element(unlikely.begin(), unlikely.end());
   const auto sd_of = [&](const WeighedFit& fit) {
     return std::sqrt(std::max({fit.left(k, k) / freedom_, noise2, kLeastNoise2}));
@@ -154,7 +154,7 @@ Eigen::VectorXd DriftFit::drift(double time_s) const {
 
 bool DriftFit::taken(std::size_t series) const {
   const Estimate& of = estimates_[series];
-  return (of.scores.array().abs() < kTaken * of.sd).all();
+  return (of.scores.array().abs() < kLeastScore * of.sd).all();
 }
 
 std::vector<Eigen::MatrixXd> DriftFit::parts(const std::vector<double>& time_s) {

@@ -48,7 +48,8 @@ Eigen::VectorXd WeighedFit::shapes(const Eigen::VectorXd& polynomials) const {
   return root.transpose().triangularView<Eigen::Lower>().solve(polynomials);
 }
 
-double WeighedFit::unlikeliness(Eigen::Index series, double freedom, double least_square) const {
+double WeighedFit::minus_two_log_likelihood(Eigen::Index series, double freedom,
+                                            double least_square) const {
   return log_determinants +
          freedom * natural_log(std::max(left(series, series) / freedom, least_square));
 }

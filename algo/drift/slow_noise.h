@@ -43,7 +43,7 @@ struct WeighedFit {
   // Returns -2 log(likelihood) of a series, up to a constant. It is the restricted likelihood
   // (REML; Patterson, Thompson 1971): the likelihood of the residuals after the fit of the places
   // and of the highest order.
-  double unlikeliness(Eigen::Index series, double freedom, double least_square) const;
+  double minus_two_log_likelihood(Eigen::Index series, double freedom, double least_square) const;
 };
 WeighedFit weighed_fit(const DriftRows& rows, const SlowNoise& noise);
 

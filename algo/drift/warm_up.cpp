@@ -57,7 +57,7 @@ DriftWindow window_of(const ParkedSeries& series, double step_s, std::size_t beg
   return {line.slope(), u, verdict_of(line.slope(), u, series.limit_per_s)};
 }
 
-WithTemperature with_temperature(const ParkedReadings& readings, const ParkedSeries& series) {
+TemperatureDependence with_temperature(const ParkedReadings& readings, const ParkedSeries& series) {
   const Line line = line_of(
       series.value, [&](std::size_t i) { return readings.temperature_C[i]; }, 0,
       series.value.size());

@@ -35,16 +35,16 @@ struct DriftWindow {
   DriftVerdict verdict = DriftVerdict::unknown;
 };
 
-struct WithTemperature {
+struct TemperatureDependence {
   double slope_per_K = 0, correlation = 0;  // NaN: temperature or reading is constant
 };
 
 struct WarmUp {
   std::vector<double> begin_s;  // start of each window; time since the first reading
   double window_s = 0;
-  std::vector<std::vector<DriftWindow>> windows;  // [series][window]
-  std::vector<WithTemperature> with_temperature;  // [series]; empty: no temperature
-  bool limited = false;                           // whether any series has a limit
+  std::vector<std::vector<DriftWindow>> windows;        // [series][window]
+  std::vector<TemperatureDependence> with_temperature;  // [series]; empty: no temperature
+  bool limited = false;                                 // whether any series has a limit
   // After this time, the rates of all series with a limit are below their limits in all windows.
   // There are at least kFewestBelow such windows, with a total length of at least kShortestBelow_s.
   // Empty: not ready, or no limit.

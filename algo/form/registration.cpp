@@ -37,7 +37,7 @@ constexpr double kPlaceResidualLimit =
     4;  // times the mean absolute height of A: a larger residual of one place enters as this limit
 // The residual at a pose that the search finds must be less than this factor times the residual at
 // the pose found before, and less than this factor times the mean absolute height of A.
-constexpr double kMuchBetter = 0.5;
+constexpr double kAcceptedResidualRatio = 0.5;
 
 // The pose with the smallest residual in a grid of shifts and turns.
 MapPose searched(const Places& a, const Surface& b) {
@@ -98,7 +98,7 @@ class Registration {
 
   MapPose found() {
     MapPose pose = fitted_at_rest();
-    PoseFit fit = fit_at(search_places_, b_, pose);
+    PoseFit fit = plane_fit_at_pose(search_places_, b_, pose);
     if (search(fit))
       pose =
           fitted_from(fit_places_, b_, fit.pose, evidence_.determined(b_, fit.pose), pixel_m_, 20)
@@ -109,8 +109,8 @@ class Registration {
       directions = evidence_.determined(b_, pose);
     }
     undetermined_ = 3 - static_cast<std::size_t>(directions.cols());
-    const PoseFit moved = fit_at(search_places_, b_, pose),
-                  at_rest = fit_at(search_places_, b_, {});
+    const PoseFit moved = plane_fit_at_pose(search_places_, b_, pose),
+                  at_rest = plane_fit_at_pose(search_places_, b_, {});
     const double before_m = left(at_rest, common(at_rest, moved)).size_m;
     if (before_m > 0) residual_ratio_ = left(moved, common(moved, at_rest)).size_m / before_m;
     moved_m_ =
@@ -135,13 +135,14 @@ class Registration {
   MapPose fitted_at_rest() const {
     MapPose pose;
     Eigen::MatrixXd directions = evidence_.determined(b_, pose);
-    bool has_lost = false;
+    bool has_restarted = false;
     for (int again = 0; again < 5 && directions.cols() > 0; ++again) {
       pose = fitted_from(fit_places_, b_, pose, directions, pixel_m_, 20).pose;
       const Eigen::MatrixXd now = evidence_.determined(b_, pose);
-      if (now.cols() == directions.cols() || (has_lost && now.cols() > directions.cols())) break;
+      if (now.cols() == directions.cols() || (has_restarted && now.cols() > directions.cols()))
+        break;
       if (now.cols() < directions.cols()) {
-        has_lost = true;
+        has_restarted = true;
         pose = {};
       }
       directions = now;
@@ -205,10 +206,11 @@ class Registration {
   bool is_much_better(const PoseFit& other, const PoseFit& fit) const {
     if (overlap(other) < kSearchOverlap) return false;
     const std::vector<bool> counts = measured(other);
-    if (!(left(other, counts).size_m < kMuchBetter * left(own_, counts).size_m)) return false;
+    if (!(left(other, counts).size_m < kAcceptedResidualRatio * left(own_, counts).size_m))
+      return false;
     const MeanLeft there = left(other, common(other, fit)), here = left(fit, common(fit, other));
     if (std::min(there.share, here.share) < kLeastOverlap) return overlap(fit) < kSearchOverlap;
-    return there.size_m < kMuchBetter * here.size_m;
+    return there.size_m < kAcceptedResidualRatio * here.size_m;
   }
   bool is_found(const PoseFit& fit) const {
     const std::vector<bool> counts = measured(fit);
@@ -220,18 +222,18 @@ class Registration {
   // better.
   bool search(PoseFit& fit) const {
     if (is_found(fit) || !evidence_.has_shape()) return false;
-    bool is_elsewhere = false;
+    bool has_better_pose = false;
     const auto take = [&](const MapPose& start) {
       PoseFit other = fitted_from_other_start(start);
       if (!is_much_better(other, fit)) return;
       fit = std::move(other);
-      is_elsewhere = true;
+      has_better_pose = true;
     };
     take({});
     if (!is_found(fit)) take(searched(search_places_, b_));
     if (!is_found(fit))
       for (const MapPose& start : turned_starts(places_of(flat_, kForTurns), b_)) take(start);
-    return is_elsewhere;
+    return has_better_pose;
   }
 
   const Surface& b_;

@@ -12,7 +12,7 @@ constexpr std::size_t kForSlopes = 6;  // additional rounds of extrapolation, fo
 constexpr double kOnPixel = 1e-9;      // in pixels: a place nearer to a pixel uses only this pixel
 // In pixels: at a place nearer than this to one pixel, the next pixel may be missing. Without this
 // tolerance, the rounding of a movement would remove the outermost pixels.
-constexpr double kLittle = 0.01;
+constexpr double kBorderTolerance = 0.01;
 
 // Weights of the pixels -2 ... 3 of a row for the height at t in [0, 1] between pixels 0 and 1, and
 // for its derivative.
@@ -146,8 +146,8 @@ bool Surface::at(double x_m, double y_m, std::size_t rings, SurfacePoint& point)
   const double tx = x - static_cast<double>(i), ty = y - static_cast<double>(j);
   const std::uint8_t* const ring = ring_.data() + j * nx_ + i;
   std::uint8_t farthest = 0;
-  const bool left = tx<1 - kLittle, right = tx> kLittle,
-             below = ty<1 - kLittle, above = ty> kLittle;
+  const bool left = tx<1 - kBorderTolerance, right = tx> kBorderTolerance,
+             below = ty<1 - kBorderTolerance, above = ty> kBorderTolerance;
   if (left && below) farthest = std::max(farthest, ring[0]);
   if (right && below) farthest = std::max(farthest, ring[1]);
   if (left && above) farthest = std::max(farthest, ring[nx_]);

@@ -128,7 +128,7 @@ std::size_t TurnSpectrum::undulations(double share) const {
   return found;
 }
 
-PassedBand TurnSpectrum::left_out() const {
+MotionAboveBand TurnSpectrum::left_out() const {
   const auto points = static_cast<double>(turns_ * work_.size());
   return {most_ - least_, points > 0 ? std::sqrt(squares_ / points) : 0};
 }

@@ -26,7 +26,7 @@ class Dft {
   mutable std::vector<std::complex<double>> out_, room_;
 };
 
-struct PassedBand {
+struct MotionAboveBand {
   double pv = 0, rms = 0;  // of the motion above the band
 };
 
@@ -47,7 +47,7 @@ class TurnSpectrum {
   // The highest harmonic whose amplitude in any turn is at least `share` times the largest
   // amplitude of all harmonics and turns. 0: no motion.
   std::size_t undulations(double share) const;
-  PassedBand left_out() const;
+  MotionAboveBand left_out() const;
   std::size_t turns() const { return turns_; }
 
  private:

@@ -81,10 +81,11 @@ double propagated(const std::vector<double>& x, const std::vector<TargetMean>& s
 
 // [run][target]: differences of the visits of a target from the mean of all visits from the same
 // side, m.
-using OffMean = std::map<int, std::map<int, std::vector<double>>>;
+using DeviationsFromMean = std::map<int, std::map<int, std::vector<double>>>;
 
-OffMean off_the_mean(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
-                     std::size_t named) {
+DeviationsFromMean deviations_from_mean(const MovingAxis& moving,
+                                        const std::vector<MeasuredPoint>& points,
+                                        std::size_t named) {
   const auto value = [&](const MeasuredPoint& p) {
     return named_from_local(moving, p.errors.local)[named];
   };
@@ -97,7 +98,7 @@ OffMean off_the_mean(const MovingAxis& moving, const std::vector<MeasuredPoint>&
     mean.sum += value(p);
     mean.n += 1;
   }
-  OffMean off;
+  DeviationsFromMean off;
   for (const MeasuredPoint& p : points) {
     const Mean& mean = means[{p.target, p.point.direction}];
     if (mean.n > 1) off[p.run][p.target].push_back(value(p) - mean.sum / mean.n);
@@ -121,7 +122,7 @@ double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint
   for (const MeasuredPoint& p : points)
     travel_m.emplace(p.target, moving.sides.moving_body_travel_m(p.point.position_m));
   std::vector<double> slopes;
-  for (const auto& [run, targets] : off_the_mean(moving, points, named)) {
+  for (const auto& [run, targets] : deviations_from_mean(moving, points, named)) {
     std::vector<double> x, y;
     for (const auto& [target, off] : targets) {
       x.push_back(travel_m[target]);

@@ -24,13 +24,13 @@ SquarenessLine lines_squareness(const ReferenceLine& a, const ReferenceLine& b,
 
 }  // namespace
 
-Result<SquarenessLines> squareness_lines(const Run& run_a, const Run& run_b,
-                                         const Squareness& fitted) {
+Result<SquarenessByLine> squareness_lines(const Run& run_a, const Run& run_b,
+                                          const Squareness& fitted) {
   MDOF_TRY(const ReferenceLines a, lines_along(run_a, fitted.axes.b));
   MDOF_TRY(const ReferenceLines b, lines_along(run_b, fitted.axes.a));
-  return SquarenessLines{lines_squareness(a.end_point, b.end_point, fitted),
-                         {fitted.slope_a_rad, fitted.slope_b_rad, fitted.error_rad},
-                         lines_squareness(a.minimum_zone, b.minimum_zone, fitted)};
+  return SquarenessByLine{lines_squareness(a.end_point, b.end_point, fitted),
+                          {fitted.slope_a_rad, fitted.slope_b_rad, fitted.error_rad},
+                          lines_squareness(a.minimum_zone, b.minimum_zone, fitted)};
 }
 
 }  // namespace mdof::algo

@@ -11,7 +11,7 @@ namespace mdof::algo {
 // Fits the reference lines to the straightness of the two runs of `fitted` (means of both
 // approaches; the reference point is the fixture). least_squares has the values of `fitted`. Error:
 // a run with fewer than three targets.
-Result<SquarenessLines> squareness_lines(const Run& run_a, const Run& run_b,
-                                         const Squareness& fitted);
+Result<SquarenessByLine> squareness_lines(const Run& run_a, const Run& run_b,
+                                          const Squareness& fitted);
 
 }  // namespace mdof::algo

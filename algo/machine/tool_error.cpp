@@ -48,8 +48,8 @@ Effect effect_of_body(const MachineFrame& frame, std::size_t k, const Eigen::Vec
   return {unit(k).cross(at - holding_point(frame, travel)), unit(k)};
 }
 
-Effect effect_of_line(const MachineFrame& frame, std::size_t k, const Eigen::Vector3d& at,
-                      double travel) {
+Effect effect_of_location(const MachineFrame& frame, std::size_t k, const Eigen::Vector3d& at,
+                          double travel) {
   if (frame.kind == FrameKind::linear)
     return {unit(k).cross(unit(frame.direction)) * travel, Eigen::Vector3d::Zero()};
   const Eigen::Matrix3d turn = turn_about(frame.direction, travel);
@@ -186,7 +186,7 @@ std::vector<ErrorDerivative> derivatives(const Machine& machine, const Command& 
     for (std::size_t k = 0; k < kBodyErrors; ++k)
       add(k, false, effect_of_body(frame, k, w.at[i], travel));
     for (std::size_t k = 0; k < kBodyErrors; ++k)
-      if (has_location(frame, k)) add(k, true, effect_of_line(frame, k, w.at[i], travel));
+      if (has_location(frame, k)) add(k, true, effect_of_location(frame, k, w.at[i], travel));
   }
   return all;
 }

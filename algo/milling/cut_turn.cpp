@@ -86,7 +86,7 @@ class Turn {
   // calculated for the deflection at this angle. If a limit is within a step, only a part of the
   // step counts. With complete steps only, there may be no equilibrium of force and deflection.
   Engagement engagement(const Tooth& t, std::size_t n, const Deflection& u) const {
-    const double free = t.edge.free_edge(u), wall = t.edge.wall_edge();
+    const double free = t.edge.free_side_angle(u), wall = t.edge.wall_side_angle();
     const double low = t.angle[n] - step_rad_ / 2, high = low + step_rad_;
     const double from = std::max(low, plan_.is_up ? wall : free);
     const double to = std::min(high, plan_.is_up ? free : wall);
@@ -229,9 +229,9 @@ class Turn {
     const Tooth& t = teeth_.front();
     turn.entry_rad = turn.exit_rad = std::numeric_limits<double>::quiet_NaN();  // no cut
     for (std::size_t n = 0; n < steps(); ++n) {
-      const double h = thickness(t, 0, n), free = t.edge.free_edge(deflection(n, 0));
+      const double h = thickness(t, 0, n), free = t.edge.free_side_angle(deflection(n, 0));
       if (!(h > 0) || engagement(t, n, deflection(n, 0)).share == 0) continue;
-      const double wall = t.edge.wall_edge(), half = step_rad_ / 2;
+      const double wall = t.edge.wall_side_angle(), half = step_rad_ / 2;
       const auto reach = [&](std::size_t beside) {
         const double other = thickness(t, 0, beside);
         return other > 0 ? half : step_rad_ * h / (h - other);

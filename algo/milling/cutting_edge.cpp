@@ -124,7 +124,7 @@ Chip CuttingEdge::chip(double angle_rad, const Chip& rigid, const Deflection& no
   return chip;
 }
 
-double CuttingEdge::free_edge(const Deflection& there) const {
+double CuttingEdge::free_side_angle(const Deflection& there) const {
   const double r = plan_.radius_m(), free = r - plan_.radial_depth_m;
   const double sign = plan_.is_up ? 1 : -1;
   const auto at = [&](double offset_y) {
@@ -137,7 +137,7 @@ double CuttingEdge::free_edge(const Deflection& there) const {
   return edge;
 }
 
-double CuttingEdge::wall_edge() const {
+double CuttingEdge::wall_side_angle() const {
   const double reach = plan_.chip == ChipModel::trochoid ? kWallAngles : 0;
   return plan_.is_up ? 0 - reach : kHalfTurn_rad + reach;  // 0 - 0 is +0
 }

@@ -45,10 +45,10 @@ class CuttingEdge {
 
   // Returns the angle φ at which the tooth leaves the workpiece (up cut) or enters it (down cut)
   // with this deflection. Eq. 5, 6, 10 and 11 with corrected signs.
-  double free_edge(const Deflection& there) const;
+  double free_side_angle(const Deflection& there) const;
   // Returns the angle φ at the wall, at which the tooth enters (up cut) or leaves (down cut) the
   // workpiece.
-  double wall_edge() const;
+  double wall_side_angle() const;
 
   // Position of the tooth relative to the spindle axis.
   double x(double angle_rad) const;

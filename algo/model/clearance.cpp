@@ -21,9 +21,9 @@ double approach_of(const FixtureProbe& probe, const Vec3& along) {
   return probe.n_C.dot(v) / probe.n_C.dot(probe.u_M);
 }
 
-ProbeInTheWay probe_clearance(const Rig& rig, std::size_t k, double approach) {
+ApproachedProbe probe_clearance(const Rig& rig, std::size_t k, double approach) {
   const Probe& probe = rig.probes[k];
-  ProbeInTheWay out{probe.id, probe.range_m / 2 / std::abs(approach), {}, 0};
+  ApproachedProbe out{probe.id, probe.range_m / 2 / std::abs(approach), {}, 0};
   double standoff_m = rig.physics ? rig.physics->probes.at(k).standoff_m : 0;
   if (!(standoff_m > 0) && probe.calibration.reads_gap)
     standoff_m = from_um(probe.calibration.offset_um);  // reading at the nominal surface
@@ -65,7 +65,7 @@ std::string clearance_text(const MotionClearance& motion) {
            "with a tilt of 1 mrad, by 1 um for each mm of travel";
   std::string ids, senses, contact;
   double least_m = motion.probes.front().range_m;
-  for (const ProbeInTheWay& probe : motion.probes) {
+  for (const ApproachedProbe& probe : motion.probes) {
     ids += (ids.empty() ? "" : ", ") + probe.id;
     least_m = std::min(least_m, probe.range_m);
     senses += (senses.empty() ? "" : ", ") + probe.id +

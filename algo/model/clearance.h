@@ -13,7 +13,7 @@
 namespace mdof::algo {
 
 // A probe whose distance from the target changes when an axis moves.
-struct ProbeInTheWay {
+struct ApproachedProbe {
   std::string id;
   double range_m = 0;  // travel of the target from its nominal position to the end of the range
   // Travel of the target until it touches the probe; empty: the gap at the nominal position is
@@ -26,7 +26,8 @@ struct ProbeInTheWay {
 
 struct MotionClearance {
   Axis axis = Axis::x;
-  std::vector<ProbeInTheWay> probes;  // empty: the motion is parallel to the surfaces of all probes
+  std::vector<ApproachedProbe>
+      probes;  // empty: the motion is parallel to the surfaces of all probes
 };
 
 // Returns the clearances for motions along X, Y and Z. The target starts at its nominal position

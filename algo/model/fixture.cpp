@@ -50,7 +50,7 @@ Result<const TargetPlane*> named_plane(const Rig& rig, const Probe& probe) {
 // the probe.
 Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
   // Cosines of angles between direction and normal.
-  constexpr double kLooksAt = 0.5, kMargin = 0.15;
+  constexpr double kLeastFacingCosine = 0.5, kMargin = 0.15;
   if (!probe.plane.empty()) return named_plane(rig, probe);
   if (rig.planes.empty()) return nullptr;
   const TargetPlane *best = nullptr, *second = nullptr;
@@ -62,7 +62,7 @@ Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
       second = &plane;
     }
   }
-  if (cosine(*best, probe) <= kLooksAt)
+  if (cosine(*best, probe) <= kLeastFacingCosine)
     return bad_input(
         rig.source + ": probe \"" + probe.id +
         "\" does not point at any [[plane]] of the rig (the direction of the probe is more than "

@@ -14,7 +14,7 @@ constexpr double kReject = 8.0, kStrictFactor = 12.0, kMadToSd = 1.4826;
 constexpr std::size_t kNeighbours = 5;
 // Factor for the distances of the first and the last readings from the median of their neighbours.
 // These readings have neighbours on one side only, so the distances also contain the curvature.
-constexpr double kEnds = 0.5;
+constexpr double kEndReadingFactor = 0.5;
 constexpr std::size_t kUnknowns = 3;
 
 // Returns the slope between the medians of the two halves. A few spikes do not change the medians.
@@ -41,7 +41,7 @@ std::vector<double> deviations_of(std::span<const double> place, std::span<const
     std::copy_n(level.begin() + static_cast<std::ptrdiff_t>(first), kNeighbours, near.begin());
     std::nth_element(near.begin(), near.begin() + kNeighbours / 2, near.end());
     out[i] = level[i] - near[kNeighbours / 2];
-    if (i != first + kNeighbours / 2) out[i] *= kEnds;
+    if (i != first + kNeighbours / 2) out[i] *= kEndReadingFactor;
   }
   return out;
 }

@@ -68,7 +68,7 @@ Notice delays_notice(const std::vector<ReadingLag>& lags, const ProbesOfBins& pr
   double worst_1 = 0;
   for (std::size_t k = 0; k < lags.size(); ++k) {
     const ReadingLag& lag = lags[k];
-    worst_1 = std::max(worst_1, lag.steepest_1 * lag.speed_m_s);
+    worst_1 = std::max(worst_1, lag.largest_slope_1 * lag.speed_m_s);
     if (std::isnan(lag.delay_s)) {
       unknown += (unknown.empty() ? "" : ", ") + probes.ids[k];
       continue;

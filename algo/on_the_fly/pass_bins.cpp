@@ -12,7 +12,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kMostUneven = 0.0075;  // rms deviation from a steady motion, as share of a bin
-constexpr double kNoises = 3;
+constexpr double kNoiseFactor = 3;
 // In resolution steps of the reading; smaller changes are rounding, not spikes.
 constexpr double kCoarseSteps = 3.5;
 constexpr double kCoarseShare = 1e-4;  // share of the range of the probe
@@ -24,8 +24,8 @@ struct Rows {
 // The motion in the rows of a bin.
 struct Way {
   double speed_m_s = 0;
-  double uneven_m = 0;  // rms deviation of the position from a steady motion
-  double noise_m = 0;   // noise of the encoder, from second differences
+  double unsteadiness_m = 0;  // rms deviation of the position from a steady motion
+  double noise_m = 0;         // noise of the encoder, from second differences
 };
 
 class Binning {
@@ -104,7 +104,7 @@ class Binning {
       const double bent = place_m(i) - 2 * place_m(i - 1) + place_m(i - 2);
       bend += bent * bent;
     }
-    way.uneven_m = std::sqrt(square / (count - 2));
+    way.unsteadiness_m = std::sqrt(square / (count - 2));
     way.noise_m = std::sqrt(bend / (6 * (count - 2)));
     return way;
   }
@@ -117,8 +117,8 @@ class Binning {
     };
     const bool hole = n > 1 && missing_ns() > static_cast<std::int64_t>(n - 1) * period_ns_;
     if (n < kLeastReadingsPerBin) return hole ? BinFault::gap : BinFault::too_few;
-    const double most_m = std::hypot(kMostUneven * 2 * half_m_, kNoises * way.noise_m);
-    if (!(way.uneven_m <= most_m) || !(way.speed_m_s * pass_.direction > 0))
+    const double most_m = std::hypot(kMostUneven * 2 * half_m_, kNoiseFactor * way.noise_m);
+    if (!(way.unsteadiness_m <= most_m) || !(way.speed_m_s * pass_.direction > 0))
       return BinFault::speed_changes;
     return hole ? BinFault::gap : BinFault::none;
   }
@@ -169,8 +169,8 @@ class Binning {
     const bool good = !lost && !few;
     bin.point.probe_m.push_back(good ? found.value : kNaN);
     const double u_m = with_resolution(found.u, found.sd, step_m);
-    bin.point.probe_u_m.push_back(good ? with_over_range(u_m, found.value, found.sd, over_range, n)
-                                       : kNaN);
+    bin.point.probe_u_m.push_back(
+        good ? u_with_over_range(u_m, found.value, found.sd, over_range, n) : kNaN);
     bin.point.probe_sd_m.push_back(good ? found.sd : kNaN);
     bin.slope.push_back(good ? found.slope / half_m_ : kNaN);
   }

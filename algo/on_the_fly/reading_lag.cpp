@@ -47,7 +47,7 @@ std::vector<Difference> differences_of(const std::vector<PassBins>& passes, std:
       way.slope_1 += bin.slope[probe];
       way.speed_m_s += bin.speed_m_s;
       way.n += 1;
-      lag.steepest_1 = std::max(lag.steepest_1, std::abs(bin.slope[probe]));
+      lag.largest_slope_1 = std::max(lag.largest_slope_1, std::abs(bin.slope[probe]));
       speeds_m_s += bin.speed_m_s;
       n += 1;
     }
@@ -98,7 +98,7 @@ void fit(const std::vector<Difference>& rows, ReadingLag& lag) {
   const Eigen::VectorXd residuals = odd - lag.delay_s * changes;
   const double variance = residuals.squaredNorm() / static_cast<double>(n - 3);
   lag.u_delay_s = std::sqrt(variance / square) * widened_by(residuals);
-  lag.effect_m = std::abs(lag.delay_s) * lag.speed_m_s * lag.steepest_1;
+  lag.effect_m = std::abs(lag.delay_s) * lag.speed_m_s * lag.largest_slope_1;
   lag.significant = std::abs(lag.delay_s) > kSignificant * lag.u_delay_s && lag.effect_m > kLeast_m;
 }
 

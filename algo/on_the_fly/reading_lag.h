@@ -13,10 +13,10 @@ struct ReadingLag {
   // Delay of the probe's readings relative to the encoder, in addition to the declared delay, which
   // is already removed. NaN: the delay cannot be determined.
   double delay_s = 0, u_delay_s = 0;
-  double speed_m_s = 0;      // mean speed of the passes
-  double steepest_1 = 0;     // largest |slope| of the readings over the position
-  double effect_m = 0;       // largest change of a reading due to the delay, in one direction
-  bool significant = false;  // the delay exceeds five times its u, and the effect exceeds 2 nm
+  double speed_m_s = 0;        // mean speed of the passes
+  double largest_slope_1 = 0;  // largest |slope| of the readings over the position
+  double effect_m = 0;         // largest change of a reading due to the delay, in one direction
+  bool significant = false;    // the delay exceeds five times its u, and the effect exceeds 2 nm
 };
 
 // Returns the delay of each probe. With a delay tau, a reading belongs to the position that the

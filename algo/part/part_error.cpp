@@ -8,7 +8,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kForTrials = 1000;  // approximate number of points of the path in each trial
+constexpr std::size_t kPointsPerTrial =
+    1000;  // approximate number of points of the path in each trial
 
 // Returns a normally distributed random number with variance 1 for a trial and a cause.
 double drawn(std::uint64_t seed, std::size_t trial, std::size_t cause) {
@@ -173,7 +174,7 @@ PartError part_error(const PartPath& path, const std::vector<PartCause>& causes,
   result.p95_m = quantile_95(found);
   // The trials may use fewer points than the estimate. So they are compared with the error at the
   // same points without random numbers.
-  const std::size_t every = std::max<std::size_t>(1, path.at_m.size() / kForTrials);
+  const std::size_t every = std::max<std::size_t>(1, path.at_m.size() / kPointsPerTrial);
   const std::vector<double> thinned = sizes(path, all, xi, every);
   const double p95_m = quantile_95(thinned),
                max_m = *std::max_element(thinned.begin(), thinned.end());

@@ -29,15 +29,16 @@ void widen(std::optional<ReadingSpan>& span, double reading_m) {
   span->most_m = std::max(span->most_m, reading_m);
 }
 
-Notices stretch_notices(const Rig& rig, const std::vector<std::optional<ReadingSpan>>& spans) {
+Notices calibrated_range_notices(const Rig& rig,
+                                 const std::vector<std::optional<ReadingSpan>>& spans) {
   Notices found;
   for (std::size_t k = 0; k < rig.probes.size(); ++k) {
     const Calibration& c = rig.probes[k].calibration;
     if (!c.calibrated_um || !spans[k]) continue;
     const auto [begin_um, end_um] = displacements_um(c);
-    const double let_pass_um = kAllowedExcess * (end_um - begin_um);
+    const double allowed_excess_um = kAllowedExcess * (end_um - begin_um);
     const double least_um = to_um(spans[k]->least_m), most_um = to_um(spans[k]->most_m);
-    if (least_um >= begin_um - let_pass_um && most_um <= end_um + let_pass_um) continue;
+    if (least_um >= begin_um - allowed_excess_um && most_um <= end_um + allowed_excess_um) continue;
     found.push_back(notice(NoticeCode::beyond_calibration, rig.probes[k].id,
                            {{"from_um", least_um},
                             {"to_um", most_um},
@@ -47,12 +48,12 @@ Notices stretch_notices(const Rig& rig, const std::vector<std::optional<ReadingS
   return found;
 }
 
-Notices stretch_notices(const Rig& rig, const std::vector<MeasuredPoint>& points) {
+Notices calibrated_range_notices(const Rig& rig, const std::vector<MeasuredPoint>& points) {
   std::vector<std::optional<ReadingSpan>> spans(rig.probes.size());
   for (const MeasuredPoint& p : points)
     for (std::size_t k = 0; p.errors.valid && k < spans.size(); ++k)
       widen(spans[k], p.point.probe_m[k]);
-  return stretch_notices(rig, spans);
+  return calibrated_range_notices(rig, spans);
 }
 
 }  // namespace mdof::algo

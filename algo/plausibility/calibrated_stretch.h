@@ -22,9 +22,10 @@ void widen(std::optional<ReadingSpan>& span, double reading_m);
 
 // Returns a notice for each probe with readings outside its calibrated range by more than a tenth
 // of this range. `spans`: [probe]; empty: the probe has no readings.
-Notices stretch_notices(const Rig& rig, const std::vector<std::optional<ReadingSpan>>& spans);
+Notices calibrated_range_notices(const Rig& rig,
+                                 const std::vector<std::optional<ReadingSpan>>& spans);
 
 // As above, for the readings of all points whose errors are valid.
-Notices stretch_notices(const Rig& rig, const std::vector<MeasuredPoint>& points);
+Notices calibrated_range_notices(const Rig& rig, const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

@@ -8,7 +8,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLetPass_m = 50e-6;
+constexpr double kAllowedOutside_m = 50e-6;
 
 struct Reach {
   double least_m = 0, most_m = 0;
@@ -31,14 +31,14 @@ std::string range_text(double from_m, double to_m) {
 
 // Returns a text with the probes that measure outside the map, "probe A reads at 1 to 2 mm, ...";
 // empty: no probe does so.
-std::string read_outside(std::size_t plane, const std::vector<double>& covered_m, bool first,
-                         const Fixture& fixture, double least_m, double most_m) {
+std::string probes_outside_map(std::size_t plane, const std::vector<double>& covered_m, bool first,
+                               const Fixture& fixture, double least_m, double most_m) {
   std::string outside;
   for (const FixtureProbe& probe : fixture.probes) {
     if (probe.plane != plane) continue;
     const Reach reach = reach_of(probe, first, least_m, most_m);
-    if (reach.least_m >= covered_m.front() - kLetPass_m &&
-        reach.most_m <= covered_m.back() + kLetPass_m)
+    if (reach.least_m >= covered_m.front() - kAllowedOutside_m &&
+        reach.most_m <= covered_m.back() + kAllowedOutside_m)
       continue;
     outside += (outside.empty() ? "probe " : ", probe ") + probe.id + " reads at " +
                range_text(reach.least_m, reach.most_m);
@@ -55,7 +55,7 @@ Notices map_notices(const Rig& rig, const Fixture& fixture, double least_m, doub
     for (const bool first : {true, false}) {
       const std::vector<double>& covered_m = first ? map.first_m : map.second_m;
       if (map.empty() || covered_m.size() < 2) continue;
-      const std::string outside = read_outside(i, covered_m, first, fixture, least_m, most_m);
+      const std::string outside = probes_outside_map(i, covered_m, first, fixture, least_m, most_m);
       if (outside.empty()) continue;
       found.push_back(notice(NoticeCode::map_too_short, rig.planes[i].id,
                              {{"coordinate", first ? "flatness_first_mm" : "flatness_second_mm"},

@@ -18,10 +18,10 @@ constexpr std::size_t kFewestSame = 6, kFewestPlaces = 3;
 constexpr std::size_t kFewestClipped = 3;
 // Largest difference of means of equal numbers, due to rounding.
 constexpr double kExact_m = 1e-14;
-constexpr double kWithinNoise = 8;          // times the u of the mean of a stop
-constexpr double kOthersMove = 50;          // times the noise limit of the constant probe
-constexpr double kRestless = 30;            // times the usual sd in the stops
-constexpr std::size_t kFewestRestless = 3;  // probes
+constexpr double kWithinNoise = 8;           // times the u of the mean of a stop
+constexpr double kOthersMove = 50;           // times the noise limit of the constant probe
+constexpr double kRestlessNoiseFactor = 30;  // times the usual sd in the stops
+constexpr std::size_t kFewestRestless = 3;   // probes
 
 using Stops = std::vector<const MeasuredPoint*>;
 
@@ -140,7 +140,7 @@ void note_frozen_encoder(const RunToJudge& run, Notices& out) {
   for (const MeasuredPoint& p : points) {
     std::size_t restless = 0;
     for (std::size_t k = 0; k < p.point.probe_sd_m.size() && k < probes; ++k)
-      restless += usual_m[k] > 0 && p.point.probe_sd_m[k] > kRestless * usual_m[k];
+      restless += usual_m[k] > 0 && p.point.probe_sd_m[k] > kRestlessNoiseFactor * usual_m[k];
     if (restless < kFewestRestless || 2 * restless < probes) continue;
     out.push_back(notice(NoticeCode::encoder_stood_still, "",
                          {{"position_mm", to_mm(p.point.position_m)},

@@ -23,7 +23,7 @@ constexpr double kNoisiest_m = 1e-6;
 constexpr double kThousandth = 1e-3;
 // Smallest gap (middle between the extremes), as share of the range, of a probe that reads a gap
 // and has no offset.
-constexpr double kOffZero = 0.1;
+constexpr double kLeastMeanGapShare = 0.1;
 
 double largest(const ProbeFigures& p) {
   return std::max(std::abs(p.min_m), std::abs(p.max_m));
@@ -45,7 +45,7 @@ bool looks_like_nm(const ProbeFigures& figures, const Probe& probe) {
 bool lacks_offset(const ProbeFigures& figures, const Probe& probe) {
   const Calibration& c = probe.calibration;
   return c.reads_gap && c.offset_um == 0 && figures.points > 0 && figures.max_m < 0 &&
-         -0.5 * (figures.min_m + figures.max_m) > kOffZero * probe.range_m;
+         -0.5 * (figures.min_m + figures.max_m) > kLeastMeanGapShare * probe.range_m;
 }
 
 void judge_probes(const Rig& rig, const Plausibility& figures, Notices& out) {

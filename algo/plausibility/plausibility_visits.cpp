@@ -14,10 +14,8 @@
 namespace mdof::algo {
 namespace {
 
-// Notices of one kind; if there are more, they are combined to one.
-constexpr std::size_t kMostNamed = 6;
 // A run with a longer travel should have more than one stop.
-constexpr double kWorthATravel_m = 1e-3;
+constexpr double kLeastTravelOfStops_m = 1e-3;
 
 const char* approach(int direction) {
   return direction > 0 ? "forward" : "reverse";
@@ -63,7 +61,7 @@ class MissingVisits {
     never_visited(out);
     // Visits that are missing because the log began or ended within a pass have a separate notice.
     Cells holes, beyond;
-    for (const Cell& cell : missing()) (beyond_the_log(cell) ? beyond : holes).push_back(cell);
+    for (const Cell& cell : missing()) (is_outside_log(cell) ? beyond : holes).push_back(cell);
     put(out, NoticeCode::visit_missing, holes);
     put(out, NoticeCode::visit_outside_log, beyond);
     Cells twice, unsolved;
@@ -95,7 +93,7 @@ class MissingVisits {
     return !(cell.direction > 0 && cell.target == 1) &&
            !(cell.direction < 0 && cell.target == sequence_.targets);
   }
-  bool beyond_the_log(const Cell& cell) const {
+  bool is_outside_log(const Cell& cell) const {
     if (!sequence_.by_passes) return false;
     const auto in_pass_of = [&](const MeasuredPoint& p) {
       return cell.run == p.run && cell.direction == p.point.direction;
@@ -186,7 +184,7 @@ void note_single_place(const RunToJudge& run, Notices& out) {
   std::set<int> places;
   for (const auto& p : run.sequence.points) places.insert(p.target);
   const double travel_m = run.dwells.encoder_max_m - run.dwells.encoder_min_m;
-  if (places.size() != 1 || travel_m < kWorthATravel_m) return;
+  if (places.size() != 1 || travel_m < kLeastTravelOfStops_m) return;
   out.push_back(notice(NoticeCode::stops_at_one_place, "",
                        {{"position_mm", to_mm(run.sequence.points.front().target_m)},
                         {"travel_mm", to_mm(travel_m)},

@@ -10,7 +10,8 @@ namespace {
 // steps.
 constexpr double kAlike = 1.05;
 constexpr std::size_t kFewest = 3;
-constexpr double kDithers = 0.5;  // with this sd, in steps, the mean has no rounding error
+constexpr double kNoiseWithoutRounding =
+    0.5;  // with this sd, in steps, the mean has no rounding error
 
 }  // namespace
 
@@ -53,7 +54,7 @@ void ProbeResolution::add(const FrameBlock& frames, std::size_t first, std::size
 }
 
 double with_resolution(double u, double sd, double step) {
-  if (sd >= kDithers * step) return u;
+  if (sd >= kNoiseWithoutRounding * step) return u;
   return std::sqrt(u * u + step * step / 12);
 }
 

@@ -24,8 +24,8 @@ constexpr double kCreepFactor = 5.0;
 constexpr std::size_t kRowsForPeriod = 33;
 constexpr std::size_t kMinScansPerSlot = 4;
 constexpr std::int64_t kHolePeriods = 5;  // > kMinScansPerSlot: a hole is longer than a slot
-constexpr std::int64_t kUnseen_ns = 500'000'000;  // the axis may reverse in this time
-constexpr double kMostCreep_m = 50e-6;            // largest creep of a stop that becomes a point
+constexpr std::int64_t kShortestUnobserved_ns = 500'000'000;  // the axis may reverse in this time
+constexpr double kMostCreep_m = 50e-6;  // largest creep of a stop that becomes a point
 constexpr std::size_t kPathLength = 64;
 constexpr std::size_t kDropRows = 4096;  // rows that are dropped together
 
@@ -253,11 +253,12 @@ void DwellDetector::begin_dwell() {
   // are so long that the axis can move past an end target and return within one slot.
   const bool is_slow = slot_ns_ > static_cast<std::int64_t>(options_.window_s * 1e9) /
                                       static_cast<std::int64_t>(kSlotsPerWindow);
-  const bool went_off = is_slow && (left_m_ - range_since_stop_.min_m > options_.approach_m ||
-                                    range_since_stop_.max_m - left_m_ > options_.approach_m);
+  const bool has_left_target =
+      is_slow && (left_m_ - range_since_stop_.min_m > options_.approach_m ||
+                  range_since_stop_.max_m - left_m_ > options_.approach_m);
   const bool same_stop = left_ns_ != 0 && slots_.front().begin_ns - left_ns_ <= 2 * slot_ns_ &&
                          std::abs(slots_.back().middle() - left_m_) < options_.approach_m &&
-                         !went_off;
+                         !has_left_target;
   if (!same_stop) direction_ = direction_to(slots_.back().middle());
   if (same_stop) travelled_range_ = last_stop_is_point_ ? Way{left_m_, left_m_} : range_to_stop_;
   range_to_stop_ = travelled_range_;
@@ -359,7 +360,7 @@ void DwellDetector::pass_hole() {
   note({DwellEventKind::hole, last_ns_, before_m, buffer_.encoder_m[row_] - before_m,
         ns_to_s(length_ns)});
   const bool reported = !breaks_.empty() && breaks_.front() <= last_ns_;
-  if (length_ns > std::max(kUnseen_ns, 2 * hole_ns_) && !reported) {
+  if (length_ns > std::max(kShortestUnobserved_ns, 2 * hole_ns_) && !reported) {
     breaks_.push_front(last_ns_);
   }
 }

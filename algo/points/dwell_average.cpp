@@ -91,7 +91,7 @@ void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size
   watch_.take_stop(probe, mean, step);
   point.probe_m.push_back(mean.mean);
   const double u_m = with_resolution(mean.u, mean.sd, step);
-  point.probe_u_m.push_back(with_over_range(u_m, mean.mean, mean.sd, over_range, to - from));
+  point.probe_u_m.push_back(u_with_over_range(u_m, mean.mean, mean.sd, over_range, to - from));
   point.probe_sd_m.push_back(mean.sd);
 }
 

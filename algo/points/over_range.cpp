@@ -28,8 +28,8 @@ bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, do
          over.is_near(mean_m, spread_m);
 }
 
-double with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,
-                       std::size_t readings) {
+double u_with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,
+                         std::size_t readings) {
   if (over.count == 0 || !over.is_near(mean_m, sd_m)) return u_m;
   const double share = static_cast<double>(over.count) / static_cast<double>(readings);
   return std::hypot(u_m, kBiasOfShare * share * sd_m);

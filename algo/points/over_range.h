@@ -29,7 +29,7 @@ bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, do
 // share of these readings. For normally distributed readings the bias is sd phi(a)/Phi(a) with
 // Phi(-a) = p; phi is the density and Phi the distribution function of the normal distribution. The
 // bias is less than 4 p sd, or below 0.0004 sd.
-double with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,
-                       std::size_t readings);
+double u_with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,
+                         std::size_t readings);
 
 }  // namespace mdof::algo

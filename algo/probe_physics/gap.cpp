@@ -20,7 +20,7 @@ double tilt_area(const ProbePhysics& physics, double tilt_square) {
 
 }  // namespace
 
-double tilt_excess_m(const ProbePhysics& physics, double tilt_square, double gap_m) {
+double gap_decrease_by_tilt_m(const ProbePhysics& physics, double tilt_square, double gap_m) {
   return tilt_area(physics, tilt_square) / gap_m;
 }
 

@@ -22,7 +22,7 @@ namespace mdof::algo {
 Eigen::Vector3d tilt_of(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC);
 
 // Returns k (r θ)²/(4 d), the decrease of the shown gap due to the tilt of the target.
-double tilt_excess_m(const ProbePhysics& physics, double tilt_square, double gap_m);
+double gap_decrease_by_tilt_m(const ProbePhysics& physics, double tilt_square, double gap_m);
 
 // Returns the gap d for a shown gap (the inverse of the formula above). `permittivity_ratio` =
 // ε/ε_cal.

@@ -41,7 +41,7 @@ ReadingCorrection::ReadingCorrection(const Rig& rig, const Solver& solver, Which
     if (!which.tilt) of.sensing_radius_m = 0;
     const double nominal =
         tilt_of(solver.fixture().probes[k], Eigen::Matrix3d::Identity()).squaredNorm();
-    zero_shown_m_.push_back(of.standoff_m - tilt_excess_m(of, nominal, of.standoff_m));
+    zero_shown_m_.push_back(of.standoff_m - gap_decrease_by_tilt_m(of, nominal, of.standoff_m));
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 // Largest share of visits that are not in the order of the cycle.
 constexpr double kMostOutOfOrder = 0.15;
 // Number of such visits that are always allowed: one repeated target.
-constexpr double kAlwaysForgiven = 3;
+constexpr double kMostUnorderedVisits = 3;
 // Smallest mean number of consecutive visits at a target in a pilgrim cycle.
 constexpr double kLeastAtOnce = 1.5;
 
@@ -171,7 +171,7 @@ CycleFound recognise_cycle(const std::vector<Visit>& visits, int targets) {
   if (is_pilgrim(visits, targets)) return {Cycle::pilgrim, false, std::move(by_visits)};
   RunNumbers passes = runs_by_passes(visits, targets);
   const int wrong = out_of_order(visits, passes);
-  const bool ordered = wrong <= kAlwaysForgiven || few(wrong, visits.size());
+  const bool ordered = wrong <= kMostUnorderedVisits || few(wrong, visits.size());
   if (ordered && cover_targets(visits, passes, targets))
     return {by_turns(visits, targets), true, std::move(passes)};
   const bool regular = is_balanced(visits, by_visits, targets) && turns_often(visits, targets);

@@ -13,9 +13,9 @@ namespace mdof::algo {
 namespace {
 
 // Share of the typical number of visits; a place with more visits is certainly a target.
-constexpr double kEnough = 0.6;
+constexpr double kCertainTargetShare = 0.6;
 // Places with at least this share of the typical number of visits determine the typical approaches.
-constexpr double kAsMany = 0.75;
+constexpr double kTypicalVisitsShare = 0.75;
 constexpr double kTooNear = 0.6;    // smallest distance to a target, in typical intervals
 constexpr double kTooFar = 1.6;     // largest distance to the end target, in typical intervals
 constexpr std::size_t kFewest = 4;  // places necessary if all places have one visit
@@ -67,7 +67,7 @@ double typical_visits(const std::vector<Place>& places) {
 }
 
 bool is_certain_target(const Place& p, const Typical& typical) {
-  const double enough = kEnough * typical.visits;
+  const double enough = kCertainTargetShare * typical.visits;
   if (typical.both_sides) return p.visits() >= enough && p.forward > 0 && p.reverse > 0;
   return (typical.direction > 0 ? p.forward : p.reverse) >= enough;
 }
@@ -82,7 +82,7 @@ Typical typical_of(std::vector<Place>& places) {
   typical.visits = typical_visits(places);
   int both = 0, one = 0, balance = 0;
   for (const Place& p : places) {
-    if (p.visits() < kAsMany * typical.visits) continue;
+    if (p.visits() < kTypicalVisitsShare * typical.visits) continue;
     ++(p.forward > 0 && p.reverse > 0 ? both : one);
     balance += p.forward - p.reverse;
   }

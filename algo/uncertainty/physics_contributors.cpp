@@ -102,7 +102,7 @@ class Physics {
         physics().tilt ? "u_tilt_factor" : "tilt_factor", factor, 1, "", {of_probe(k, [&](auto j) {
           const Gap gap = at(j, k);
           return factor.u *
-                 tilt_excess_m(unit, gap.tilt.squaredNorm() - zero * gap.gap_m, gap.gap_m);
+                 gap_decrease_by_tilt_m(unit, gap.tilt.squaredNorm() - zero * gap.gap_m, gap.gap_m);
         })});
   }
 
@@ -119,13 +119,13 @@ class Physics {
     for (const Eigen::Vector3d& about : {first, second})
       parts.push_back(of_probe(k, [&](std::size_t j) {
         const Gap gap = at(j, k);
-        return tilt_excess_m(probe, 2 * u.u * about.dot(gap.tilt), gap.gap_m) -
-               tilt_excess_m(probe, 2 * u.u * about.dot(zero.tilt), zero.gap_m);
+        return gap_decrease_by_tilt_m(probe, 2 * u.u * about.dot(gap.tilt), gap.gap_m) -
+               gap_decrease_by_tilt_m(probe, 2 * u.u * about.dot(zero.tilt), zero.gap_m);
       }));
     parts.push_back(of_probe(k, [&](std::size_t j) {
       const double square = 2 * u.u * u.u;
-      return tilt_excess_m(probe, square, at(j, k).gap_m) -
-             tilt_excess_m(probe, square, zero.gap_m);
+      return gap_decrease_by_tilt_m(probe, square, at(j, k).gap_m) -
+             gap_decrease_by_tilt_m(probe, square, zero.gap_m);
     }));
     add(named(ContributorKind::probe_clamp, k), "u_direction_mrad", u, 1e3, "mrad",
         std::move(parts));

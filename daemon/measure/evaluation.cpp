@@ -148,7 +148,7 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
     MDOF_TRY(Run run, store.run(id));
     MDOF_TRY(const Rig rig, rig_of(run.header));
     MDOF_TRY(const StatedAt at, request.reference ? stated_at(rig, *request.reference)
-                                                  : Result<StatedAt>(stated_at_by_default(rig)));
+                                                  : Result<StatedAt>(default_reference(rig)));
     if (!runs.empty() && (rig.machine != options.machine || at != options.stated))
       return bad_input(
           "the rigs of runs " + std::to_string(request.runs.front()) + " and " +
@@ -360,14 +360,14 @@ std::string run_document(const RunMembers& members, const std::string& result_sh
   return json.take();
 }
 
-Result<SquarenessLines> squareness_reference_lines(store::Store& store,
-                                                   const Squareness& squareness) {
+Result<SquarenessByLine> squareness_by_reference_line(store::Store& store,
+                                                      const Squareness& squareness) {
   MDOF_TRY(const Run a, store.run(squareness.run_a));
   MDOF_TRY(const Run b, store.run(squareness.run_b));
   return algo::squareness_lines(a, b, squareness);
 }
 
-std::string squareness_document(const FittedSquareness& fitted, const SquarenessLines& lines) {
+std::string squareness_document(const FittedSquareness& fitted, const SquarenessByLine& lines) {
   const auto& [squareness, budgets, notices] = fitted;
   JsonWriter json;
   json.begin_object();

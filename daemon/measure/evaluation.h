@@ -134,9 +134,9 @@ Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squar
 
 // The squareness for each kind of reference line, calculated on request. The stored squareness uses
 // least-squares lines.
-Result<SquarenessLines> squareness_reference_lines(store::Store& store,
-                                                   const Squareness& squareness);
+Result<SquarenessByLine> squareness_by_reference_line(store::Store& store,
+                                                      const Squareness& squareness);
 // The document of `mdof squareness` and squareness.fit.
-std::string squareness_document(const FittedSquareness& fitted, const SquarenessLines& lines);
+std::string squareness_document(const FittedSquareness& fitted, const SquarenessByLine& lines);
 
 }  // namespace mdof::daemon

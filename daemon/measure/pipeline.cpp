@@ -219,17 +219,18 @@ Status Pipeline::check_dead_probes(Notices& notices) const {
 std::optional<Notice> Pipeline::never_stops() const {
   const auto& targets_m = sequence_.targets_m;
   if (!options_.sequence.targets_m.empty() || targets_m.size() > 2) return std::nullopt;
-  double stood_s = 0;
+  double rest_time_s = 0;
   for (const Point& stop : found_)
-    stood_s += ns_to_s(stop.end_ns - stop.begin_ns) + options_.dwell.settle_s;
+    rest_time_s += ns_to_s(stop.end_ns - stop.begin_ns) + options_.dwell.settle_s;
   const auto& s = dwell_.summary();
-  const double moved_s = static_cast<double>(s.scans) * s.period_s - stood_s;
-  if (moved_s <= stood_s) return std::nullopt;
+  const double moved_s = static_cast<double>(s.scans) * s.period_s - rest_time_s;
+  if (moved_s <= rest_time_s) return std::nullopt;
   const std::string stops_mm =
       plain_number(to_mm(targets_m.front())) +
       (targets_m.size() > 1 ? " and " + plain_number(to_mm(targets_m.back())) : "");
-  return notice(NoticeCode::axis_never_stops, "",
-                {{"moving_percent", 100 * moved_s / (moved_s + stood_s)}, {"stops_mm", stops_mm}});
+  return notice(
+      NoticeCode::axis_never_stops, "",
+      {{"moving_percent", 100 * moved_s / (moved_s + rest_time_s)}, {"stops_mm", stops_mm}});
 }
 
 Result<Run> Pipeline::finish() {

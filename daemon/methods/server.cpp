@@ -185,7 +185,7 @@ Result<ActiveTables> load_active(store::Store& store) {
                    words::text(active.error()).c_str());
       continue;
     }
-    if (active && active->table.without_stated_point) {
+    if (active && active->table.lacks_reference_point) {
       std::fprintf(stderr,
                    "compensation table %lld of axis %c is from an older version and is not served, "
                    "because it states neither its reference point nor the sign of its corrections; "

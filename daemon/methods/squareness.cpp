@@ -22,7 +22,7 @@ void squareness(Methods& m, const Params& params, Reply reply) {
   request.action = caller_action(params, "squareness.fit");
   answer_with_change(m, std::move(reply), [request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(auto found, calculate_squareness(reader, request));
-    MDOF_TRY(const auto by_line, squareness_reference_lines(reader, found.squareness));
+    MDOF_TRY(const auto by_line, squareness_by_reference_line(reader, found.squareness));
     return [fitted = std::move(found), lines = by_line,
             action = request.action](store::Store& store) mutable -> Result<std::string> {
       MDOF_CHECK(store_squareness(store, fitted.squareness, action));

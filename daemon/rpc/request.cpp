@@ -59,7 +59,7 @@ std::string id_text(const element& id, const Source& source) {
   return exact.empty() ? simdjson::minify(id) : exact;
 }
 
-bool may_be_id(const element& id) {
+bool is_valid_id_value(const element& id) {
   return id.is_string() || id.is_number() || id.is_null();
 }
 
@@ -79,8 +79,8 @@ std::optional<std::string> fault_of(const Members& members) {
 }
 
 void read_id(const element& id, const Source& source, std::size_t max_id_bytes, Request& out) {
-  out.id = may_be_id(id) ? id_text(id, source) : "null";
-  if (!may_be_id(id)) out.invalid = "member \"id\" must be a string, a number or null";
+  out.id = is_valid_id_value(id) ? id_text(id, source) : "null";
+  if (!is_valid_id_value(id)) out.invalid = "member \"id\" must be a string, a number or null";
   if (out.id.size() <= max_id_bytes) return;
   out.id = "null";
   out.invalid = "member \"id\" is longer than " + std::to_string(max_id_bytes) + " bytes";

@@ -101,7 +101,7 @@ void bind_statement(Statement& insert, const CompensationTable& t) {
 Status read_statement(const Statement& row, CompensationTable& t) {
   t.sides = {row.text(8) == "fixture", row.text(9) == "-"};
   reference_from(row.text(10), t.stated.reference);
-  t.without_stated_point = row.is_null(11);
+  t.lacks_reference_point = row.is_null(11);
   doubles_from(row.bytes(11), t.stated.point_m);
   MDOF_TRY(t.machine, chain_from(row.text(12), row.text(13)));
   return {};

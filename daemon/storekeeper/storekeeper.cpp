@@ -153,7 +153,7 @@ void Storekeeper::note_full(const Error& error) {
   if (is_full(error)) set(full_, words::text(error));
 }
 
-void Storekeeper::note_space() {
+void Storekeeper::clear_full_state() {
   if (store_ && has_room(options_.database)) set(full_, "");
 }
 
@@ -203,7 +203,7 @@ void Storekeeper::watch_files() {
   watch_database();
   announce_head();
   if (store_ && !store_->damage().empty()) set(damaged_, store_->damage());
-  note_space();
+  clear_full_state();
   for (auto& [run, recording] : recordings_) {
     const std::string lost = recording.file.fault();
     if (!lost.empty())

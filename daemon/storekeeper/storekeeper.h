@@ -66,7 +66,7 @@ class Storekeeper {
     // time, the thread tries to write the pending data again. In between, the thread does other
     // work.
     std::chrono::milliseconds busy_timeout{1000};
-    std::size_t most_waiting = 4096;  // maximum number of pending points
+    std::size_t max_pending_points = 4096;  // maximum number of pending points
   };
   // Functions that the thread "store" calls.
   struct Events {
@@ -105,9 +105,9 @@ class Storekeeper {
   bool record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait);
   // Stores points of a run, then calls `done`. If another program locks the database, the points
   // are pending until that program releases the database; the recording contains their samples. If
-  // more than `most_waiting` points are pending, these points and all later points of the run are
-  // dropped: `done` receives an error, and dropped_points() counts these points. At the end of the
-  // run, all points are stored in a new run that supersedes the run.
+  // more than `max_pending_points` points are pending, these points and all later points of the run
+  // are dropped: `done` receives an error, and dropped_points() counts these points. At the end of
+  // the run, all points are stored in a new run that supersedes the run.
   void append_points(std::int64_t run, std::vector<MeasuredPoint> points,
                      std::function<void(Status)> done);
   // Seals the recording and ends the run. If the result differs from the stored points, the stored
@@ -138,7 +138,7 @@ class Storekeeper {
   Storekeeper(const Options& options, Events events);
   void open_again();
   void note_full(const Error& error);
-  void note_space();
+  void clear_full_state();
   void set(std::string& which, const std::string& reason);
   void set_unopened(StorageState now);
   void report_change(const StorageState& before);

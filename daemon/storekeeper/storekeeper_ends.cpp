@@ -82,8 +82,8 @@ void Storekeeper::take(Ending ending) {
 
 void Storekeeper::wait_for_database(Points points) {
   const std::size_t count = waiting_count_ + points.points.size();
-  if (count > options_.most_waiting) {
-    set(held_, options_.database.string() + kHeld + too_many(options_.most_waiting));
+  if (count > options_.max_pending_points) {
+    set(held_, options_.database.string() + kHeld + too_many(options_.max_pending_points));
     return drop(points);
   }
   if (waiting_points_.empty()) set(held_, options_.database.string() + kHeld);
@@ -96,7 +96,7 @@ void Storekeeper::wait_for_database(Points points) {
 void Storekeeper::drop(const Points& points) {
   overflowed_[points.run] += points.points.size();
   dropped_points_ += points.points.size();
-  points.done(io_error("this point is not stored yet" + too_many(options_.most_waiting)));
+  points.done(io_error("this point is not stored yet" + too_many(options_.max_pending_points)));
 }
 
 // Returns the number of dropped points and removes it. Called once, at the end of the run.

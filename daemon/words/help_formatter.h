@@ -61,16 +61,16 @@ class HelpFormatter : public CLI::Formatter {
   // Joins lines of a paragraph that the source file has broken. Lines that begin with a space are
   // examples and stay.
   static std::string paragraphs(std::string_view text) {
-    constexpr std::size_t kFull = 60;  // a shorter line is the end of a paragraph
+    constexpr std::size_t kFullLineWidth = 60;  // a shorter line is the end of a paragraph
     std::string out;
-    bool goes_on = false;
+    bool line_continues = false;
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       const std::string_view line = text.substr(0, end);
       const bool prose = !line.empty() && line.front() != ' ' && line.back() != ':';
-      if (!out.empty()) out += goes_on && prose ? ' ' : '\n';
+      if (!out.empty()) out += line_continues && prose ? ' ' : '\n';
       out += line;
-      goes_on = prose && text_width(line) >= kFull;
+      line_continues = prose && text_width(line) >= kFullLineWidth;
       text.remove_prefix(std::min(end + 1, text.size()));
     }
     return out.empty() ? out : out + "\n";

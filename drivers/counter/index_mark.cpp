@@ -35,7 +35,7 @@ bool IndexMark::far_from_armed(std::int64_t count) const {
 IndexMark::State IndexMark::take(std::int64_t count) {
   if (!armed()) return state_;
   if (std::abs(count - armed_) <= quarter_ / kMotion) return state_ = State::awaited;
-  if (std::abs(from_mark(count)) > quarter_ / kBeyondMark) return State::astray;
+  if (std::abs(from_mark(count)) > quarter_ / kBeyondMark) return State::unexplained;
   return state_beyond_mark(from_mark(count));
 }
 

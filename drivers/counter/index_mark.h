@@ -18,11 +18,11 @@ namespace mdof::drivers {
 class IndexMark {
  public:
   enum class State {
-    off,      // the mark is not awaited; call arm()
-    awaited,  // arm() was called; the axis has not reached the mark
-    at_mark,  // the counter has loaded the preset; the count has not moved away yet
-    passed,   // counts are relative to the mark, until arm() is called again
-    astray,   // neither a motion nor the mark explains the count; the object ignores this count
+    off,          // the mark is not awaited; call arm()
+    awaited,      // arm() was called; the axis has not reached the mark
+    at_mark,      // the counter has loaded the preset; the count has not moved away yet
+    passed,       // counts are relative to the mark, until arm() is called again
+    unexplained,  // neither a motion nor the mark explains the count; the object ignores this count
   };
   // `bits`: width of the counter (8 ... 62). take() and arm() expect unwrapped counts.
   explicit IndexMark(int bits) : bits_(bits), quarter_(std::int64_t{1} << (bits - 2)) {}

@@ -29,7 +29,7 @@ void set(int fd, int level, int option, T value) {
   ::setsockopt(fd, level, option, &value, sizeof value);  // optional, so errors are ignored
 }
 
-void keep_watch(int fd) {
+void enable_keep_alive(int fd) {
   set(fd, IPPROTO_TCP, TCP_NODELAY, 1);
   set(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, kGiveUp_ms);
   set(fd, SOL_SOCKET, SO_KEEPALIVE, 1);
@@ -96,7 +96,7 @@ Result<ByteStream> connect_tcp(const Endpoint& to, milliseconds timeout) {
       continue;
     }
     ByteStream stream(fd, to.text());
-    keep_watch(fd);
+    enable_keep_alive(fd);
     error = ::connect(fd, a->ai_addr, a->ai_addrlen) == 0 ? 0 : errno;
     if (error == EINPROGRESS) error = finish_connect(fd, until);
     if (error == 0) return stream;

@@ -108,7 +108,7 @@ void LabjackT7::close() {
   registers_.reset();
   stream_.reset();
   reader_ = {};
-  line_ = PacketLine(words_per_scan(settings_));
+  line_ = ScanNumbering(words_per_scan(settings_));
   scans_.clear();
   returned_ = 0;
   broken_ = {};

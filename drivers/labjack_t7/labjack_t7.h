@@ -67,7 +67,7 @@ class LabjackT7 final : public Driver {
   std::optional<Registers> registers_;
   std::optional<ByteStream> stream_;
   PacketReader reader_;
-  PacketLine line_;
+  ScanNumbering line_;
   std::vector<AinCalibration> calibrations_;  // one for each input
   double rate_hz_, ticks_per_scan_ = 0;
 

@@ -154,9 +154,10 @@ class PacketReader {
 using labjack::Scan;
 
 // Numbers the scans in the packets. Scans that the device dropped are counted too.
-class PacketLine {
+class ScanNumbering {
  public:
-  explicit PacketLine(std::size_t words_per_scan) : words_(words_per_scan), line_(words_per_scan) {}
+  explicit ScanNumbering(std::size_t words_per_scan)
+      : words_(words_per_scan), line_(words_per_scan) {}
   // Appends the scans of the packet to `scans`. Error: packets are missing, the device has stopped,
   // or the position of dropped scans is unknown. After an error the stream must be started again.
   Status take(const StreamPacket& packet, std::vector<Scan>& scans);

@@ -63,7 +63,7 @@ Result<bool> PacketReader::next(StreamPacket& packet) {
   return true;
 }
 
-Status PacketLine::check(const StreamPacket& packet) const {
+Status ScanNumbering::check(const StreamPacket& packet) const {
   if (packet.transaction != transaction_)
     return io_error("stream packet " + std::to_string(packet.transaction) +
                     " arrived instead of packet " + std::to_string(transaction_) +
@@ -78,7 +78,7 @@ Status PacketLine::check(const StreamPacket& packet) const {
   return {};
 }
 
-Status PacketLine::take(const StreamPacket& packet, std::vector<Scan>& scans) {
+Status ScanNumbering::take(const StreamPacket& packet, std::vector<Scan>& scans) {
   MDOF_CHECK(check(packet));
   ++transaction_;
   if (packet.status == status::recovered) return line_.take(packet.samples, packet.info, scans);

@@ -95,7 +95,7 @@ void LabjackU6::close() {
   if (handle_ && stream_ && broken_) (void)ask(*handle_, stream_stop());
   stream_.reset();
   handle_.reset();
-  line_ = PacketLine(list_.size());
+  line_ = ScanNumbering(list_.size());
   scans_.clear();
   returned_ = 0;
   broken_ = {};

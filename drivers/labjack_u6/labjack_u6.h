@@ -59,7 +59,7 @@ class LabjackU6 final : public Driver {
   std::vector<Channel> channels_;
   std::optional<usb::Handle> handle_;
   std::optional<usb::InStream> stream_;
-  PacketLine line_;
+  ScanNumbering line_;
   std::array<AinCalibration, 4> calibrations_;  // for the gains 0 ... 3
 
   DeviceClock clock_;  // a tick is a scan

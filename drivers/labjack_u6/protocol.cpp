@@ -118,7 +118,7 @@ Result<StreamData> decode(std::string_view bytes, std::size_t samples) {
   return packet;
 }
 
-Status PacketLine::take(const StreamData& packet, std::vector<Scan>& scans) {
+Status ScanNumbering::take(const StreamData& packet, std::vector<Scan>& scans) {
   MDOF_CHECK(check_order(packet.counter, counter_));
   ++counter_;
   if (packet.error == kRecovered) return line_.take(packet.samples, packet.dropped, scans);

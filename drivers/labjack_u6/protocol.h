@@ -141,9 +141,9 @@ std::string encode(const StreamData& packet);
 Result<StreamData> decode(std::string_view bytes, std::size_t samples);
 
 // Numbers the scans in the packets. Scans that the device dropped are counted too.
-class PacketLine {
+class ScanNumbering {
  public:
-  explicit PacketLine(std::size_t words_per_scan) : line_(words_per_scan) {}
+  explicit ScanNumbering(std::size_t words_per_scan) : line_(words_per_scan) {}
   // Appends the scans that end in the packet to `scans`. Error: packets are missing, the device has
   // stopped, or the position of dropped scans is unknown. After an error the stream must be started
   // again.

@@ -51,7 +51,7 @@ Status Quad8Mark::arm_at(std::int64_t count) {
 
 Result<Quad8Mark::State> Quad8Mark::take(std::int64_t count) {
   const State now = mark_.take(count);
-  if (now == State::astray)
+  if (now == State::unexplained)
     return io_error(path_ + "/count: " + std::to_string(count) +
                     " cannot result from a motion or from the reference mark; check the cable of "
                     "the encoder");

@@ -293,7 +293,7 @@ Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
         " ticks; the QSB was reset, or the serial line is disturbed; reference the axis again");
   const std::int64_t count = count_(reply.data);
   MDOF_TRY(const IndexMark::State mark, watch_mark(count, received_ns));
-  if (mark == IndexMark::State::astray) return take_malformed();
+  if (mark == IndexMark::State::unexplained) return take_malformed();
   malformed_in_a_row_ = 0;
   const auto lines = std::llround(static_cast<double>(step) / options_.interval);
   const std::uint64_t lost = lines > 1 ? static_cast<std::uint64_t>(lines - 1) : 0;
@@ -308,13 +308,13 @@ Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
   return {};
 }
 
-// If one count is astray, its line was damaged. If many successive counts are astray, the count has
-// a new zero.
+// If one count is unexplained, its line was damaged. If many successive counts are unexplained, the
+// count has a new zero.
 Result<IndexMark::State> Qsb::watch_mark(std::int64_t count, std::int64_t received_ns) {
   using State = IndexMark::State;
   const State before = mark_.state();
   const State now = mark_.take(count);
-  if (now == State::astray && malformed_in_a_row_ >= kMalformedAllowed) mark_datum_lost();
+  if (now == State::unexplained && malformed_in_a_row_ >= kMalformedAllowed) mark_datum_lost();
   if (now == State::at_mark && before != now) at_mark_since_ns_ = received_ns;
   if (now == State::passed && before != now) {
     ++marks_found_;

@@ -76,7 +76,7 @@ void write_straightness_lines(JsonWriter& json, const std::vector<StraightnessLi
                [&](const StraightnessLines& of) { write_reference_lines(json, of.lines); });
 }
 
-void write_squareness_lines(JsonWriter& json, const Squareness& of, const SquarenessLines& lines) {
+void write_squareness_lines(JsonWriter& json, const Squareness& of, const SquarenessByLine& lines) {
   json.begin_object();
   write_squareness_line(json, "end_point", of, lines.end_point);
   write_squareness_line(json, "least_squares", of, lines.least_squares);

@@ -20,7 +20,7 @@ void write_straightness_lines(JsonWriter& json, const std::vector<StraightnessLi
 
 // Writes {"end_point": {"EC0Y_urad", "slope_EYX_urad", "slope_EXY_urad"}, "least_squares",
 // "minimum_zone"}. The names depend on the two axes.
-void write_squareness_lines(JsonWriter& json, const Squareness& of, const SquarenessLines& lines);
+void write_squareness_lines(JsonWriter& json, const Squareness& of, const SquarenessByLine& lines);
 
 // Writes into an open object the member "parallelism": {"EYX": {"end_point": {"angle_urad",
 // "slope_a_urad", "slope_b_urad"}, "least_squares", "minimum_zone"}, ...}

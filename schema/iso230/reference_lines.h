@@ -34,7 +34,7 @@ struct SquarenessLine {
   double slope_a_rad = 0, slope_b_rad = 0;
   double error_rad = 0;  // sign as in Squareness
 };
-struct SquarenessLines {
+struct SquarenessByLine {
   SquarenessLine end_point, least_squares, minimum_zone;
 };
 

@@ -34,7 +34,7 @@ Result<StatedAt> stated_at(const Rig& rig, Reference reference) {
                   "tool_point_mm = [x, y, z], the point of the tool in the metrology frame");
 }
 
-StatedAt stated_at_by_default(const Rig& rig) {
+StatedAt default_reference(const Rig& rig) {
   return rig.tool_point_m ? StatedAt{Reference::tool, *rig.tool_point_m} : kAtFixture;
 }
 

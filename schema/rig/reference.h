@@ -32,6 +32,6 @@ struct Rig;
 // Error (usage): the reference is the tool, but the rig has no tool_point_mm.
 Result<StatedAt> stated_at(const Rig& rig, Reference reference);
 // Default reference of a table: the tool point if the rig has a tool point, otherwise the fixture.
-StatedAt stated_at_by_default(const Rig& rig);
+StatedAt default_reference(const Rig& rig);
 
 }  // namespace mdof

@@ -15,10 +15,10 @@ enum class ContributorKind {
 #undef CONTRIBUTOR
 };
 
-// The kind of component 0, 1 or 2: `x_kind`, or one of the two kinds that follow `x_kind` in
-// contributor_names.inc.
-constexpr ContributorKind of_component(ContributorKind x_kind, std::size_t component) {
-  return static_cast<ContributorKind>(static_cast<std::size_t>(x_kind) + component);
+// The kind of component 0, 1 or 2: `first_kind`, or one of the two kinds that follow `first_kind`
+// in contributor_names.inc.
+constexpr ContributorKind of_component(ContributorKind first_kind, std::size_t component) {
+  return static_cast<ContributorKind>(static_cast<std::size_t>(first_kind) + component);
 }
 
 struct ContributorName {

@@ -146,7 +146,7 @@ TEST(ResultsOfNothing, NoPassesShowNoLag) {
   const auto lags = reading_lags({}, 1);
   ASSERT_EQ(lags.size(), 1u);
   EXPECT_TRUE(std::isnan(lags[0].delay_s));
-  EXPECT_EQ(lags[0].steepest_1, 0);
+  EXPECT_EQ(lags[0].largest_slope_1, 0);
   EXPECT_EQ(lags[0].effect_m, 0);
   EXPECT_FALSE(lags[0].significant);
 }

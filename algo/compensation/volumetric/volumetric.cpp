@@ -202,7 +202,7 @@ class Interpolation {
     }
     Vec3 sum{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      MDOF_TRY(const Vec3 left, left_along(node, axis));
+      MDOF_TRY(const Vec3 left, deviation_along(node, axis));
       for (std::size_t k = 0; k < 3; ++k) sum[k] += left[k];
     }
     take(sum);
@@ -222,7 +222,7 @@ class Interpolation {
     for (std::size_t k = 0; k < 3; ++k) left[k] = std::abs(there[k] - straight[k]);
     return left;
   }
-  Result<Vec3> left_along(std::size_t node, std::size_t axis) const {
+  Result<Vec3> deviation_along(std::size_t node, std::size_t axis) const {
     Vec3 most{};
     Vec3 command_m = table_.command_at(node);
     const auto& nodes = table_.command_m[axis];

@@ -179,7 +179,7 @@ bool is_better(const PoseFit& next, const PoseFit& now) {
 
 }  // namespace
 
-PoseFit fit_at(const Places& a, const Surface& b, const MapPose& pose) {
+PoseFit plane_fit_at_pose(const Places& a, const Surface& b, const MapPose& pose) {
   PoseFit fit = left_at(a, b, pose, {});
   remove_fitted_plane(a, fit, kPlaneSteps);
   return fit;
@@ -187,7 +187,7 @@ PoseFit fit_at(const Places& a, const Surface& b, const MapPose& pose) {
 
 PoseFit fitted_from(const Places& a, const Surface& b, const MapPose& start,
                     const Eigen::MatrixXd& directions, double pixel_m, int most) {
-  PoseFit now = fit_at(a, b, start);
+  PoseFit now = plane_fit_at_pose(a, b, start);
   if (directions.cols() == 0) return now;
   const double needed = std::min(now.count, kNeededOverlap * static_cast<double>(a.z_m.size()));
   for (int k = 0; k < most; ++k) {

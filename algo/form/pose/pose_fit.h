@@ -25,7 +25,7 @@ struct PoseFit {
   double count = 0;  // number of places where B is measured
 };
 
-PoseFit fit_at(const Places& a, const Surface& b, const MapPose& pose);
+PoseFit plane_fit_at_pose(const Places& a, const Surface& b, const MapPose& pose);
 
 // Columns of `directions`: orthonormal directions in the coordinates (shift x, shift y, turn times
 // size). `most`: largest number of iterations.

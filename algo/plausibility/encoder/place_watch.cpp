@@ -11,7 +11,8 @@ namespace {
 
 // Allowance for the noise of the encoder, and for spikes that the dwell detection removes.
 constexpr double kNoise_m = 50e-6;
-constexpr double kBack = 0.1;  // ratio of the distances to the last place and to the stray position
+constexpr double kReturnRatio =
+    0.1;  // ratio of the distances to the last place and to the stray position
 
 }  // namespace
 
@@ -34,7 +35,8 @@ bool PlaceWatch::is_placed(std::int64_t time_ns, double position_m) const {
   // After a long time the axis can have reached any position. So a position that the axis can have
   // reached from a stray position is also stray, unless it is near to the last place.
   return !is_stray_ || out_of_reach_m(stray_, time_ns, position_m) > 0 ||
-         std::abs(position_m - last_.position_m) < kBack * std::abs(position_m - stray_.position_m);
+         std::abs(position_m - last_.position_m) <
+             kReturnRatio * std::abs(position_m - stray_.position_m);
 }
 
 std::size_t PlaceWatch::find_placed_end(const FrameBlock& frames, std::size_t from) {

@@ -12,7 +12,7 @@ constexpr std::size_t kLanes = 8;
 constexpr double kAbove = 8;      // times the changes in the rows before and after
 constexpr double kOthers = 0.25;  // largest change of another probe, as share of the step
 // Smallest remaining change after some scans, as share of the step.
-constexpr double kStays = 0.6;
+constexpr double kLeastLastingShare = 0.6;
 constexpr std::size_t kSettled = 3;  // rows of the medians before and after the step
 constexpr double kAxis_m = 2e-6;     // noise of an encoder
 
@@ -82,7 +82,7 @@ std::vector<ProbeStep> find_steps(const FrameBlock& frames, std::size_t begin, s
     std::size_t row = first;
     while (row < last && std::abs(x[row] - x[row - 1]) < most[k]) ++row;
     const double size_m = row < last ? lasting_change(x, begin, row, end) : 0;
-    if (std::abs(size_m) >= kStays * most[k] && size_m * (x[row] - x[row - 1]) > 0)
+    if (std::abs(size_m) >= kLeastLastingShare * most[k] && size_m * (x[row] - x[row - 1]) > 0)
       found.push_back({k, row, size_m});
   }
   return found;

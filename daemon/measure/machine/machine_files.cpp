@@ -68,8 +68,8 @@ Result<OpenedFile> open_named(const FindFile& find, const std::string& name) {
 // Reads the sense of the positioning error. `sense`: values of the sense column; empty if the file
 // has no such column. Error: the sense is unknown and the axis has travel "-". With travel "+",
 // both senses have the same sign.
-Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
-                  const std::vector<double>& sense) {
+Status read_sense_column(MachineFrame& frame, const drivers::CsvTable& csv,
+                         const std::vector<double>& sense) {
   const std::string name = csv.source + ":" + std::to_string(csv.header_line) + ": " +
                            error_name(frame, frame.direction) + ": ";
   for (const double s : sense)
@@ -103,7 +103,7 @@ Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
   MDOF_TRY(const auto csv,
            drivers::read_csv_table(path, {position_column(frame), "deviation" + unit},
                                    {"reverse" + unit, "u" + unit, std::string(kSenseColumn)}));
-  if (is_positioning(frame, k)) MDOF_CHECK(take_sense(frame, csv, csv.columns[4]));
+  if (is_positioning(frame, k)) MDOF_CHECK(read_sense_column(frame, csv, csv.columns[4]));
   f.position = positions_of(frame, csv.columns[0]);
   f.forward = from_key_unit(csv.columns[1]);
   f.reverse = from_key_unit(csv.columns[2]);
@@ -136,7 +136,7 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
     ErrorFunction& f = frame.error[k];
     if (f.known() || !f.file.empty())
       return bad_input(where + " is also in MACHINE.toml; give this error only once");
-    if (is_positioning(frame, k)) MDOF_CHECK(take_sense(frame, csv, csv.columns[sense]));
+    if (is_positioning(frame, k)) MDOF_CHECK(read_sense_column(frame, csv, csv.columns[sense]));
     f.position = positions_of(frame, csv.columns[0]);
     f.forward = forward;
     f.reverse = column(2);

@@ -36,7 +36,7 @@ Status take(MachineFrame& frame, std::size_t k, ErrorFunction function) {
 Status check_set_up(const Machine& machine, const MachineFrame& frame,
                     const CompensationTable& table) {
   const std::string of = axis_of(frame);
-  if (table.without_stated_point || table.stated.reference == Reference::carriage)
+  if (table.lacks_reference_point || table.stated.reference == Reference::carriage)
     return bad_input(of +
                      "the reference point of the table is the carriage, or is unknown; build a "
                      "table whose reference point is the fixture");
@@ -145,7 +145,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
   MDOF_CHECK(check_set_up(machine, frame, table));
   taken.stated.push_back({frame.id, table.stated, table.slope_removed});
   const double zero_m = frame.angles_zero_m.value_or(0);
-  if (!frame.angles_zero_m && is_beyond(table.position_m, zero_m))
+  if (!frame.angles_zero_m && is_far_outside(table.position_m, zero_m))
     append(taken.doubtful, {notice(NoticeCode::angles_zero_assumed, frame.id,
                                    {{"first_mm", to_mm(table.position_m.front())},
                                     {"last_mm", to_mm(table.position_m.back())}})});

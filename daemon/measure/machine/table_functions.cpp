@@ -136,7 +136,7 @@ void add_shared(MachineFrame& frame, const CompensationTable& table, const std::
   }
 }
 
-bool is_beyond(const std::vector<double>& position_m, double at_m) {
+bool is_far_outside(const std::vector<double>& position_m, double at_m) {
   const std::size_t n = position_m.size();
   return n > 1 && (at_m < 2 * position_m[0] - position_m[1] ||
                    at_m > 2 * position_m[n - 1] - position_m[n - 2]);

@@ -49,6 +49,6 @@ void add_shared(MachineFrame& frame, const CompensationTable& table, const std::
                 const std::vector<Errors5>& by_row);
 // Whether at_m is more than one interval before the first or after the last position. The interval
 // is the interval of the two positions at this end.
-bool is_beyond(const std::vector<double>& position_m, double at_m);
+bool is_far_outside(const std::vector<double>& position_m, double at_m);
 
 }  // namespace mdof::daemon

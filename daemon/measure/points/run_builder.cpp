@@ -53,7 +53,7 @@ void RunBuilder::add_plausibility(const SolvedPoints& points, Run& run) const {
   append(notices, algo::visit_notices(whole));
   append(notices, algo::unit_notices(rig_, *run.plausibility));
   append(notices, algo::map_notices(rig_, solver_.fixture(), points.sequence.points));
-  append(notices, algo::stretch_notices(rig_, points.sequence.points));
+  append(notices, algo::calibrated_range_notices(rig_, points.sequence.points));
 }
 
 Run RunBuilder::build(SolvedPoints points) const {

@@ -20,8 +20,9 @@ void SuspectEncoder::push(const SampleBlock& raw) {
 }
 
 void SuspectEncoder::end_stretch() {
-  const double length_s = ns_to_s(stretches_.back().end_ns - stretches_.back().begin_ns);
-  if (length_s < shortest_s_) stretches_.pop_back();
+  const double length_s =
+      ns_to_s(suspect_intervals_.back().end_ns - suspect_intervals_.back().begin_ns);
+  if (length_s < shortest_s_) suspect_intervals_.pop_back();
 }
 
 void SuspectEncoder::take(const SampleBlock& raw, const std::vector<Quality>& quality) {
@@ -32,21 +33,23 @@ void SuspectEncoder::take(const SampleBlock& raw, const std::vector<Quality>& qu
     const bool was = std::exchange(now_, suspect(quality[i]));
     if (was && !now_) end_stretch();
     if (!now_) continue;
-    if (!was) stretches_.push_back({raw.time_ns[i], raw.time_ns[i]});
-    stretches_.back().end_ns = raw.time_ns[i];
+    if (!was) suspect_intervals_.push_back({raw.time_ns[i], raw.time_ns[i]});
+    suspect_intervals_.back().end_ns = raw.time_ns[i];
   }
 }
 
 bool SuspectEncoder::covers(const Point& point) const {
-  return std::any_of(stretches_.begin(), stretches_.end(), [&](const Stretch& stretch) {
-    return stretch.begin_ns <= point.begin_ns && point.end_ns <= stretch.end_ns;
-  });
+  return std::any_of(suspect_intervals_.begin(), suspect_intervals_.end(),
+                     [&](const Stretch& stretch) {
+                       return stretch.begin_ns <= point.begin_ns && point.end_ns <= stretch.end_ns;
+                     });
 }
 
 bool SuspectEncoder::touches(const Point& point) const {
-  return std::any_of(stretches_.begin(), stretches_.end(), [&](const Stretch& stretch) {
-    return stretch.begin_ns <= point.end_ns && point.begin_ns <= stretch.end_ns;
-  });
+  return std::any_of(suspect_intervals_.begin(), suspect_intervals_.end(),
+                     [&](const Stretch& stretch) {
+                       return stretch.begin_ns <= point.end_ns && point.begin_ns <= stretch.end_ns;
+                     });
 }
 
 Notice SuspectEncoder::left_out(std::size_t points, double from_s) const {

@@ -36,7 +36,7 @@ class SuspectEncoder {
   void end_stretch();
 
   double shortest_s_;
-  std::vector<Stretch> stretches_;
+  std::vector<Stretch> suspect_intervals_;
   bool now_ = false;
   std::string device_;
 };

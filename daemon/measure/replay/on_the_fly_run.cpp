@@ -41,7 +41,7 @@ Status OnTheFlyRun::check_room() {
 
 // Each scan in a bin contributes to the position of the bin. A point is therefore removed if the
 // encoder was suspect at any time during the bin.
-Status OnTheFlyRun::leave_suspect_out(algo::Sequence& sequence, Notices& notices) const {
+Status OnTheFlyRun::remove_suspect_points(algo::Sequence& sequence, Notices& notices) const {
   auto& points = sequence.points;
   const auto suspect = [this](const MeasuredPoint& p) { return suspect_.touches(p.point); };
   const auto first = std::find_if(points.begin(), points.end(), suspect);
@@ -81,7 +81,7 @@ Result<Run> OnTheFlyRun::finish() {
   MDOF_CHECK(fly_.check_has_points());
   algo::Sequence sequence = fly_.sequence();
   Notices first = fly_.statements();
-  MDOF_CHECK(leave_suspect_out(sequence, first));
+  MDOF_CHECK(remove_suspect_points(sequence, first));
   std::vector<Point> as_read;
   for (const MeasuredPoint& p : sequence.points) as_read.push_back(p.point);
   correct(sequence);

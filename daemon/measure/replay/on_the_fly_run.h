@@ -29,7 +29,7 @@ class OnTheFlyRun : RunBuilder {
   OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver);
   Status check_room();
   // Removes points during which the encoder was suspect. Error: no point is left.
-  Status leave_suspect_out(algo::Sequence& sequence, Notices& notices) const;
+  Status remove_suspect_points(algo::Sequence& sequence, Notices& notices) const;
   void correct(algo::Sequence& sequence) const;
   Status solve(algo::Sequence& sequence, const algo::Residuals& residuals) const;
 

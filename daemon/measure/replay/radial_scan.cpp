@@ -204,7 +204,7 @@ void add_points(const Columns& columns, const Motion& motion, const Rig& rig, co
     const std::int64_t t = columns.height_m.time_ns[i];
     const double encoder_m = columns.encoder_m.at(t), angle_deg = columns.angle_deg.at(t);
     if (std::isnan(encoder_m) || std::isnan(angle_deg)) {
-      ++out.without_height;
+      ++out.unplaced_heights;
       continue;
     }
     if (!motion.holds(encoder_m)) {

@@ -20,7 +20,7 @@ struct RadialScan {
   std::size_t beyond_targets = 0;  // number of heights before the first target or after the last
                                    // target of the run; not in the map
   // Number of heights without a value of the encoder or the angle; not in the map.
-  std::size_t without_height = 0;
+  std::size_t unplaced_heights = 0;
   double motion_pv_m = 0;  // peak to valley of the readings that the errors of the axis cause;
                            // these readings were subtracted
   // Standard uncertainties of a height. u_noise_m: from the scatter of neighbouring heights, RMS

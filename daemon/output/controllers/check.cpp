@@ -11,7 +11,7 @@
 namespace mdof::controllers {
 namespace {
 
-constexpr int kBetween = 4;  // number of test intervals between two points of the table
+constexpr int kTestIntervals = 4;  // number of test intervals between two points of the table
 constexpr double kRounding_m = 1e-12;
 
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
@@ -124,9 +124,9 @@ class Trial {
     const double first = std::max(series_.position_m.front(), applied_.position_m.front());
     const double last = std::min(series_.position_m.back(), applied_.position_m.back());
     for (std::size_t i = 0; i + 1 < series_.position_m.size(); ++i)
-      for (int k = 0; k <= kBetween; ++k) {
+      for (int k = 0; k <= kTestIntervals; ++k) {
         const double a = series_.position_m[i], b = series_.position_m[i + 1];
-        const double place = a + (b - a) * k / kBetween;
+        const double place = a + (b - a) * k / kTestIntervals;
         if (place >= first - kRounding_m && place <= last + kRounding_m) x.push_back(place);
       }
     return x;
@@ -199,13 +199,14 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
   e.residual = trial.residual(1, false, e.one_way);
   for (const ExportOptions::Ramp& ramp : options.ramps)
     if (format.takes_joints && ramp.axis == applied.along)
-      e.by_ramp = std::max(e.by_ramp, trial.largest_unapplied_error(unapplied_steps(ramp)));
-  e.residual = std::max(e.residual, e.by_ramp);
+      e.error_by_ramp =
+          std::max(e.error_by_ramp, trial.largest_unapplied_error(unapplied_steps(ramp)));
+  e.residual = std::max(e.residual, e.error_by_ramp);
   const double step = format.quantum_m + kRounding_m;
   e.nothing = e.before <= step;
   const double left = e.one_way ? 0 : e.by_reversal;
   e.bound = std::min(
-      thinning + trial.second_order() + step + left + e.by_ramp,
+      thinning + trial.second_order() + step + left + e.error_by_ramp,
       algo::ResidualLimits{residual_limit(options), options.residual_share}.of(e.before, step));
   // If all values are less than the resolution of the numbers in the file, all values are rounded
   // to 0 and nothing is corrected. This happens, for example, if values in mm are read as um.

@@ -35,13 +35,13 @@ struct CheckedError {
   // The error after a reversal whose correction LinuxCNC does not apply, because the ramp of
   // LinuxCNC does not start (ExportOptions::ramps), m or rad. This error is also part of
   // `residual`.
-  double by_ramp = 0;
+  double error_by_ramp = 0;
   // Limit of `residual`. For tables of axes it is the sum of the following terms, but at most the
   // limit in ExportOptions:
   // - the deviation that omitted points cause
   // - the resolution of the numbers in the file
   // - the second-order effect: a correction changes the position at which the error acts
-  // - by_ramp
+  // - error_by_ramp
   // - by_reversal, unless one_way is true
   // For volumetric tables and the squareness it is the limit in ExportOptions.
   double bound = 0;

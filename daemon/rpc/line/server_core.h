@@ -20,7 +20,7 @@ struct ServerCore final : ClientSet<Connection> {
 
  private:
   Clock::time_point give_turn(Clock::time_point now) override;
-  bool awaits_turn() const override { return !order_.empty(); }
+  bool has_waiting_clients() const override { return !order_.empty(); }
   void wake_due() override;
   std::chrono::milliseconds least_limit() const override;
 

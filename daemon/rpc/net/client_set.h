@@ -50,7 +50,7 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
  protected:
   // Gives a turn to the next connection. Returns the time at the end of this turn.
   virtual Clock::time_point give_turn(Clock::time_point now) = 0;
-  virtual bool awaits_turn() const = 0;
+  virtual bool has_waiting_clients() const = 0;
   virtual void wake_due() = 0;  // wakes connections whose value is due
   virtual std::chrono::milliseconds least_limit() const = 0;
 
@@ -76,8 +76,8 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
     constexpr std::chrono::microseconds kSlice{300};
     turns_posted_ = false;
     auto now = Clock::now();
-    for (const auto end = now + kSlice; awaits_turn() && now < end;) now = give_turn(now);
-    if (awaits_turn()) post_turns();
+    for (const auto end = now + kSlice; has_waiting_clients() && now < end;) now = give_turn(now);
+    if (has_waiting_clients()) post_turns();
   }
   // Checks the time limits of all connections. The interval is an eighth of the shortest limit, so
   // that no limit is exceeded by more than an eighth.

@@ -38,11 +38,11 @@ class Service {
   void add_topic(Topic topic);
   // nullptr if the topic does not exist.
   const Topic* topic(std::string_view name) const { return topics_.topic(name); }
-  // From now on, calls `hear` with each event before the subscribers receive the event, also if
-  // there is no subscriber. The HTTP server uses these calls to keep events for browsers that
-  // reconnect. An empty function ends the calls.
+  // From now on, calls `event_callback` with each event before the subscribers receive the event,
+  // also if there is no subscriber. The HTTP server uses these calls to keep events for browsers
+  // that reconnect. An empty function ends the calls.
   using Hear = std::function<void(std::string_view topic, std::string_view json)>;
-  void on_event(Hear hear) { event_listener_ = std::move(hear); }
+  void on_event(Hear event_callback) { event_listener_ = std::move(event_callback); }
   // The interval at which the program should make values of this topic:
   // - all subscribers have the same interval: this interval
   // - the intervals differ, or a subscriber waits for its first value: min_interval of the topic

@@ -106,7 +106,7 @@ tl::expected<void, HttpError> HttpConnection::judge() const {
 void HttpConnection::answer() {
   if (head_->path == "/rpc") return begin_rpc();
   if (head_->path == "/events") return begin_stream();
-  give_file();
+  send_file();
 }
 
 bool HttpConnection::admit(Peer::Http right) {
@@ -181,7 +181,7 @@ std::optional<HttpError> HttpConnection::subscribe_all() {
   return std::nullopt;
 }
 
-void HttpConnection::give_file() {
+void HttpConnection::send_file() {
   const ServedFile& file = *server_.files.find(head_->path);
   const bool gzip = head_->takes_gzip && !file.gzip.empty();
   const std::string& etag = gzip ? file.etag_gzip : file.etag;

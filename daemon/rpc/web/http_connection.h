@@ -57,7 +57,7 @@ class HttpConnection final : public ClientSocket {
   void continue_rpc();
   void begin_stream();
   std::optional<HttpError> subscribe_all();
-  void give_file();
+  void send_file();
   void reply(const HttpReply& reply);
   void refuse(const HttpError& error, std::string fields = "");
   void request_ends(bool keep_alive);

@@ -35,7 +35,7 @@ struct HttpServerCore final : ClientSet<HttpConnection> {
   bool make_room();
   void wake_streams();
   Clock::time_point give_turn(Clock::time_point now) override;
-  bool awaits_turn() const override { return !waiting_.empty(); }
+  bool has_waiting_clients() const override { return !waiting_.empty(); }
   void wake_due() override;
   std::chrono::milliseconds least_limit() const override;
 

@@ -20,7 +20,7 @@ constexpr double kMost_m = 0.5;  // largest distance between a probe or plane an
 constexpr Bounds kExtent_mm = {0.1, 1, 500, 500};     // largest distance between two probes
 constexpr Bounds kRange_um = {1, 5, 20e3, 100e3};     // capacitance probes have 10 µm to 10 mm
 constexpr Bounds kFull_V = {1e-3, 0.05, 100, 1000};   // full range in volts, from um_per_V
-constexpr Bounds kShare = {0, 0, 0.1, 1};             // linearity correction / range
+constexpr Bounds kCorrectionRatio = {0, 0, 0.1, 1};   // linearity correction / range
 constexpr Bounds kFlatness_um = {0, 0, 100, 10e3};    // heights of a target plane
 constexpr Bounds kArtefact_urad = {0, 0, 10e3, 1e5};  // angle error of a square
 
@@ -108,7 +108,7 @@ void Check::check_calibration(std::size_t k) {
   double most_um = 0;
   for (const auto& [reading_um, correction_um] : c.linearity)
     most_um = std::max(most_um, std::abs(correction_um));
-  within(kShare, most_um / range_um, "probe", k, "linearity",
+  within(kCorrectionRatio, most_um / range_um, "probe", k, "linearity",
          " times the range is an unusual linearity correction of the probe \"" + probe.id +
              "\"; give pairs [reading_um, correction_um]");
   const double low_um = c.valid_um ? (*c.valid_um)[0] : c.reads_gap ? 0 : -range_um / 2;

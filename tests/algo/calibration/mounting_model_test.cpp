@@ -131,7 +131,7 @@ TEST(MountingModel, EncoderUncertaintyEntersThroughTilts) {
   pose(3 + 1) = 2;  // the second clamping is pitched by 20 mrad
   EXPECT_NEAR(model.clamping_angles(pose, 1)[kEy], 0.02, 1e-15);
   EXPECT_EQ(model.clamping_angles(pose, 0), Errors5{});
-  model.widen_by_encoder(pose, 1e-6);
+  model.add_encoder_uncertainty(pose, 1e-6);
   for (const TraverseReading& seen : model.readings()) {
     const bool is_pitched = seen.clamping == 1 && seen.probe < 3 && seen.traverse % 2 == 0;
     // Travel along Y towards the side plane.

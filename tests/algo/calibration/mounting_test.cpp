@@ -17,7 +17,7 @@ namespace {
 
 using test::TiltedTarget;
 
-constexpr double kPlace_m = 50e-6, kWay_rad = 2e-3, kTilt_rad = 5e-3;
+constexpr double kPlace_m = 50e-6, kUDirection_rad = 2e-3, kTilt_rad = 5e-3;
 const std::string kDeclared = "u_position_mm = 0.05\nu_direction_mrad = 2\n";
 
 Rig rig_with(const std::string& of_probes) {
@@ -67,7 +67,7 @@ TEST(Mounting, ExactReadingsGiveRelativePositions) {
 // must name the combinations that the clampings do not determine.
 TEST(Mounting, NoisyReadingsGiveTheExpectedUncertainties) {
   std::mt19937_64 rng(2);
-  TiltedTarget target(rng, kPlace_m, kWay_rad, 3e-6);
+  TiltedTarget target(rng, kPlace_m, kUDirection_rad, 3e-6);
   target.clamp(6, kTilt_rad, rng);
   const Rig rig = rig_with(kDeclared);
   const auto fit = fit_mounting(rig, target.logs(rng));
@@ -79,7 +79,7 @@ TEST(Mounting, NoisyReadingsGiveTheExpectedUncertainties) {
   for (const MountedProbe& probe : found.probes) {
     EXPECT_TRUE(probe.position_seen);
     EXPECT_FALSE(probe.direction_seen) << "and the rig's stays";
-    EXPECT_NEAR(probe.u_direction_rad, kWay_rad, 1e-4);
+    EXPECT_NEAR(probe.u_direction_rad, kUDirection_rad, 1e-4);
     for (const double u : probe.u_position_m) EXPECT_LT(u, 2.5e-6);
   }
   for (const char* says :
@@ -104,7 +104,7 @@ TEST(Mounting, IntervalsCoverTheTruth) {
   int inside = 0, all_inside = 0, n = 0;
   double distance = 0;
   for (int trial = 0; trial < 500; ++trial) {
-    TiltedTarget target(rng, kPlace_m, kWay_rad, 3e-6);
+    TiltedTarget target(rng, kPlace_m, kUDirection_rad, 3e-6);
     target.clamp(4, kTilt_rad, rng);
     const auto fit = fit_mounting(rig, target.logs(rng));
     ASSERT_TRUE(fit) << fit.error().message;
@@ -230,7 +230,7 @@ TEST(Mounting, CalibrationReducesInducedErrorsTwentyfold) {
   std::uniform_real_distribution<> angle(-1e-3, 1e-3), shift(-50e-6, 50e-6), travel(0, 0.01);
   std::array<double, 5> before{}, after{};
   for (int machine = 0; machine < 40; ++machine) {
-    TiltedTarget target(rng, kPlace_m, kWay_rad, 3e-6);
+    TiltedTarget target(rng, kPlace_m, kUDirection_rad, 3e-6);
     target.clamp(6, kTilt_rad, rng);
     const auto fit = fit_mounting(rig, target.logs(rng)).value();
     Rig calibrated = rig;
@@ -352,7 +352,7 @@ TEST(Mounting, MatrixContainsTheDeterminedDirections) {
   double distance = 0, strongest = 0;
   int seen = 0;
   for (int trial = 0; trial < 80; ++trial) {
-    TiltedTarget target(rng, kPlace_m, kWay_rad, 3e-6);
+    TiltedTarget target(rng, kPlace_m, kUDirection_rad, 3e-6);
     target.noise_m = 1e-9;
     target.range_m = 4e-3;
     target.clamp(6, 0.06, rng);

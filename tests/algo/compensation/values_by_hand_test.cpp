@@ -59,7 +59,7 @@ constexpr double kLevelForward = (18 - 2 / 3.) / 2, kLevelReverse = (50 - 6 / 3.
 // Half of (forward minus reverse) deviates from its mean by -1.5, -0.5, -1 in run 1, on average by
 // -1, and in run 2 by +1. This is a variance of 2, less (3.5/3 - 1)/2 from the visits; the mean of
 // both runs has half of it.
-constexpr double kApart = (2 - (3.5 / 3 - 1) / 2) / 2;
+constexpr double kVarianceOfMeanHalfReversal = (2 - (3.5 / 3 - 1) / 2) / 2;
 
 void expect_u(const SeriesOfErrors& u, const std::vector<double>& variances) {
   for (std::size_t k = 0; k < 5; ++k) {
@@ -83,11 +83,13 @@ TEST(TableUncertaintyByHand, MatchesForValuesAsMeasured) {
 TEST(TableUncertaintyByHand, MatchesForValuesReferredToTheStart) {
   const std::vector<Reference> from_start(3, Reference{1, 0, 0});
   const double start_variance = (kMeanVarianceForward + kMeanVarianceReverse) / 4;
-  const auto later = [&](double own) { return own + start_variance + kApart; };
+  const auto later = [&](double own) { return own + start_variance + kVarianceOfMeanHalfReversal; };
   expect_u(expected_series_u(table_visits(), Approach::forward, from_start),
-           {start_variance + kApart, later(kMeanVarianceForward), later(kMeanVarianceForward)});
+           {start_variance + kVarianceOfMeanHalfReversal, later(kMeanVarianceForward),
+            later(kMeanVarianceForward)});
   expect_u(expected_series_u(table_visits(), Approach::reverse, from_start),
-           {start_variance + kApart, later(kMeanVarianceReverse), later(kMeanVarianceReverse)});
+           {start_variance + kVarianceOfMeanHalfReversal, later(kMeanVarianceReverse),
+            later(kMeanVarianceReverse)});
 }
 
 // Each visit is entered twice. The sum of squares doubles and the degrees of
@@ -101,8 +103,9 @@ TEST(TableUncertaintyByHand, VisitsOfARunAreAveraged) {
   const double forward = kMeanVarianceForward / 4,
                start_variance = (kMeanVarianceForward + kMeanVarianceReverse) / 16;
   expect_u(expected_series_u(points, Approach::forward, from_start),
-           {start_variance + kApart, forward + start_variance + kApart,
-            forward + start_variance + kApart});
+           {start_variance + kVarianceOfMeanHalfReversal,
+            forward + start_variance + kVarianceOfMeanHalfReversal,
+            forward + start_variance + kVarianceOfMeanHalfReversal});
 }
 
 // At the first target the line has the weights 5/6, 1/3 and -1/6, in the middle 1/3 for each
@@ -114,7 +117,7 @@ TEST(TableUncertaintyByHand, MatchesForValuesReferredToTheLine) {
       {5 / 6., 1 / 3., -1 / 6.}, {1 / 3., 1 / 3., 1 / 3.}, {-1 / 6., 1 / 3., 5 / 6.}};
   std::vector<double> variances;
   for (std::size_t i = 0; i < 3; ++i) {
-    double variance = kApart;
+    double variance = kVarianceOfMeanHalfReversal;
     for (std::size_t j = 0; j < 3; ++j) {
       EXPECT_NEAR(line[i][j], share[i][j], 1e-12);
       const double own = (i == j ? 1 : 0) - share[i][j] / 2, other = share[i][j] / 2;

@@ -92,8 +92,9 @@ TEST(WeighedFitByMatrices, EqualsGeneralisedLeastSquares) {
     for (Eigen::Index k = 0; k < 2; ++k) {
       const double likelihood =
           std::log(V.determinant()) + std::log(normal.determinant()) + 7 * std::log(left(k, k) / 7);
-      EXPECT_NEAR(fit.unlikeliness(k, 7, 0), likelihood, 1e-8);
-      EXPECT_NEAR(fit.unlikeliness(k, 7, 100), fit.log_determinants + 7 * std::log(100), 1e-8);
+      EXPECT_NEAR(fit.minus_two_log_likelihood(k, 7, 0), likelihood, 1e-8);
+      EXPECT_NEAR(fit.minus_two_log_likelihood(k, 7, 100), fit.log_determinants + 7 * std::log(100),
+                  1e-8);
     }
   }
 }

@@ -20,12 +20,12 @@ SurfaceMap map_of(F&& z, double d_m = 0.2e-3, std::size_t n = 201) {
   return map;
 }
 
-struct Walked {
+struct PathAndCounts {
   std::vector<PathPoint> points;
   SpiralCounts counts;
 };
-Walked walk(const SurfaceMap& map, const SpiralRequest& request) {
-  Walked walked;
+PathAndCounts walk(const SurfaceMap& map, const SpiralRequest& request) {
+  PathAndCounts walked;
   const auto path = SpiralPath::over(map, request);
   EXPECT_TRUE(path) << path.error().message;
   walked.counts = *path->each([&](const PathPoint& p) {
@@ -47,7 +47,7 @@ XY place(const PathPoint& p, std::size_t per_turn) {
 
 TEST(SpiralPath, RunsInwardWithGrowingAngles) {
   const auto tilted = [](double x, double y) { return 1e-3 * x + 2e-3 * y; };
-  const Walked walked = walk(map_of(tilted), {0, 0, 15e-3, 0.1e-3, 90, 0, 3});
+  const PathAndCounts walked = walk(map_of(tilted), {0, 0, 15e-3, 0.1e-3, 90, 0, 3});
   ASSERT_EQ(walked.points.size(), 150u * 90 + 1);
   EXPECT_EQ(walked.points.front().rho_m, 15e-3);
   EXPECT_NEAR(walked.points.back().rho_m, 0, 1e-15);
@@ -66,7 +66,7 @@ TEST(SpiralPath, OffsetsASphereByTheRoundTool) {
   const auto ball = [](double x, double y) { return std::sqrt(kR * kR - x * x - y * y) - kR; };
   for (const double sign : {1.0, -1.0}) {
     const SurfaceMap map = map_of([&](double x, double y) { return sign * ball(x, y); });
-    const Walked walked = walk(map, {0, 0, 18e-3, 0.5e-3, 60, r, 3});
+    const PathAndCounts walked = walk(map, {0, 0, 18e-3, 0.5e-3, 60, r, 3});
     double compensated = 0;
     for (const PathPoint& p : walked.points) {
       const double R = kR + sign * r, expected = sign * (std::sqrt(R * R - p.rho_m * p.rho_m) - R);
@@ -79,7 +79,7 @@ TEST(SpiralPath, OffsetsASphereByTheRoundTool) {
 }
 
 TEST(SpiralPath, CountsPointsWhereTheToolDoesNotFit) {
-  const Walked walked =
+  const PathAndCounts walked =
       walk(map_of([](double x, double) { return 20e-6 * std::cos(x / 0.3e-3); }, 0.05e-3),
            {0, 0, 4e-3, 0.2e-3, 60, 8e-3, 3});
   EXPECT_GT(walked.counts.too_sharp, 0u);
@@ -97,7 +97,7 @@ TEST(SpiralPath, LargeToolRestsOnTheWallsOfAGroove) {
   const auto groove = [](double x, double y) {
     return 50e-6 * std::cos(2 * std::numbers::pi * std::hypot(x, y) / kWave);
   };
-  const Walked walked = walk(map_of(groove, 0.05e-3), {0, 0, 2.5e-3, 0.1e-3, 8, r, 3});
+  const PathAndCounts walked = walk(map_of(groove, 0.05e-3), {0, 0, 2.5e-3, 0.1e-3, 8, r, 3});
   double deepest = 0, most_apart = 0;
   for (const PathPoint& p : walked.points) {
     double expected = -1;
@@ -121,7 +121,7 @@ TEST(SpiralPath, LargeToolRestsOnTheWallsOfOneRow) {
   constexpr std::size_t n = 1501;
   SurfaceMap row{"row", -kPixel * (n - 1) / 2, 0, kPixel, kPixel, n, 1, {}, {}};
   for (std::size_t i = 0; i < n; ++i) row.z_m.push_back(groove(row.x_m(i)));
-  const Walked walked = walk(row, {0, 0, 5e-3, 0.13e-3, 4, r, 0});
+  const PathAndCounts walked = walk(row, {0, 0, 5e-3, 0.13e-3, 4, r, 0});
   std::size_t on_row = 0, sharp = 0;
   for (const PathPoint& p : walked.points) {
     if (p.index % 2 != 0) continue;
@@ -154,7 +154,7 @@ TEST(SpiralPath, EdgesAreExtendedAndBridged) {
     for (std::size_t i = 0; i < map.nx; ++i)
       if (std::abs(map.y_m(j)) > half + 1e-9) map.z_m[j * map.nx + i] = SurfaceMap::kMissing;
   const std::size_t per_turn = 720;
-  const Walked walked = walk(map, {0, 0, 20e-3, 1e-3, per_turn, 0, 3});
+  const PathAndCounts walked = walk(map, {0, 0, 20e-3, 1e-3, per_turn, 0, 3});
   std::size_t counted[3] = {0, 0, 0};
   double steepest = 0, step = 0;
   for (std::size_t k = 0; k < walked.points.size(); ++k) {
@@ -187,7 +187,7 @@ TEST(SpiralPath, EdgesAreExtendedAndBridged) {
   // The path is beside the part at its beginning. Its heights continue from the end of the first
   // turn.
   const double shift_m = half + 6 * d;
-  const Walked beside = walk(map, {0, -shift_m, 20e-3, 1e-5, per_turn, 0, 3});
+  const PathAndCounts beside = walk(map, {0, -shift_m, 20e-3, 1e-5, per_turn, 0, 3});
   ASSERT_EQ(beside.points.front().on_part, OnPart::bridged);
   EXPECT_NEAR(beside.points[0].z_m, beside.points[per_turn].z_m, 0.01e-6);
   EXPECT_NEAR(beside.points[1].z_m - beside.points[0].z_m,
@@ -241,7 +241,7 @@ TEST(SpiralPath, RefusesAPathBesideThePart) {
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)
       if (std::hypot(map.x_m(i), map.y_m(j)) < 6e-3) map.z_m[j * map.nx + i] = SurfaceMap::kMissing;
-  const Walked walked = walk(map, {0, 0, 12e-3, 0.1e-3, 90, 0, 3});
+  const PathAndCounts walked = walk(map, {0, 0, 12e-3, 0.1e-3, 90, 0, 3});
   for (const PathPoint& p : walked.points) ASSERT_LE(std::abs(p.z_m), 12.1e-6);
   EXPECT_EQ(walked.points.back().on_part, OnPart::bridged);
 }

@@ -246,7 +246,7 @@ TEST(Squareness, EachLineCombinesBothSlopesAndTheArtefact) {
   const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um),
                   y = run_of(Axis::y, kAxis2_m, kAxis2_um);
   const Squareness s = squareness(x, y, {2e-6, 0.5e-6, -1}).value();
-  const SquarenessLines lines = squareness_lines(x, y, s).value();
+  const SquarenessByLine lines = squareness_lines(x, y, s).value();
   EXPECT_EQ(lines.least_squares.error_rad, s.error_rad);
   EXPECT_NEAR(lines.end_point.error_rad * 1e6, 18.444444 - 8.333333 - 2, 1e-5);
   EXPECT_NEAR(lines.minimum_zone.error_rad * 1e6, 16.666667 - 7.833333 - 2, 1e-5);
@@ -267,8 +267,8 @@ TEST(Squareness, EachLineRefersToTheFixture) {
   const mdof::Run at_carriage = restate(x, {Reference::carriage, {}});
   ASSERT_GT(std::abs(at_carriage.points[9].errors.local[kDy] - x.points[9].errors.local[kDy]),
             1e-6);
-  const SquarenessLines here = squareness_lines(x, y, {}).value(),
-                        there = squareness_lines(at_carriage, y, {}).value();
+  const SquarenessByLine here = squareness_lines(x, y, {}).value(),
+                         there = squareness_lines(at_carriage, y, {}).value();
   EXPECT_NEAR(there.end_point.error_rad, here.end_point.error_rad, 1e-11);
   EXPECT_NEAR(there.minimum_zone.error_rad, here.minimum_zone.error_rad, 1e-11);
 }

@@ -43,12 +43,12 @@ void declare_u(Machine& machine, test::RandomMachines& random) {
   }
 }
 
-struct WorstOfMap {
+struct LargestOfMap {
   double error_m = 0, u = 0;
 };
 
 void compare_with_points(const Machine& machine, const PlaneMapRequest& request,
-                         WorstOfMap& worst) {
+                         LargestOfMap& worst) {
   const auto map = plane_map(machine, request);
   ASSERT_TRUE(map) << map.error().message;
   Eigen::Vector3d largest_u = Eigen::Vector3d::Zero();
@@ -73,7 +73,7 @@ void compare_with_points(const Machine& machine, const PlaneMapRequest& request,
 
 TEST(PlaneMap, MatchesItsSinglePoints) {
   test::RandomMachines random(11);
-  WorstOfMap worst;
+  LargestOfMap worst;
   for (int i = 0; i < 300; ++i) {
     auto machine = random.machine(i % 2 ? "XYZACmnop" : "XYZ", 50e-6, 1e-3, 0.3);
     declare_u(machine, random);

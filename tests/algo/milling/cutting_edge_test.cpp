@@ -149,13 +149,13 @@ TEST(CuttingEdge, TrochoidLeavesTheWorkAtItsSide) {
       plan.radial_depth_m = 0.18e-3;
       const CuttingEdge edge(plan, tooth, 0.1e-3);
       const double side = plan.radius_m() - 0.18e-3;
-      EXPECT_NEAR(edge.y(edge.free_edge({1e-6, 3e-6})) + 3e-6, up ? side : -side, 1e-12);
-      EXPECT_NEAR(edge.wall_edge(), up ? -kHalfTurn_rad / 2 : 1.5 * kHalfTurn_rad, 1e-15);
+      EXPECT_NEAR(edge.y(edge.free_side_angle({1e-6, 3e-6})) + 3e-6, up ? side : -side, 1e-12);
+      EXPECT_NEAR(edge.wall_side_angle(), up ? -kHalfTurn_rad / 2 : 1.5 * kHalfTurn_rad, 1e-15);
     }
   MillingPlan slot = three_teeth(ChipModel::sine, DeflectionModel::rigid);
   slot.radial_depth_m = slot.diameter_m;
-  EXPECT_NEAR(CuttingEdge(slot, 0, 0).free_edge({0, 1e-6}), kHalfTurn_rad, 1e-15);
-  EXPECT_EQ(CuttingEdge(slot, 0, 0).wall_edge(), 0);
+  EXPECT_NEAR(CuttingEdge(slot, 0, 0).free_side_angle({0, 1e-6}), kHalfTurn_rad, 1e-15);
+  EXPECT_EQ(CuttingEdge(slot, 0, 0).wall_side_angle(), 0);
 }
 
 // Expected compliance: the sum, over short pieces of the tool, of the product of both lever arms
@@ -284,9 +284,9 @@ TEST(Wall, IsTheEnvelopeOfAllTeeth) {
 TEST(CuttingEdge, BentAwayBeyondTheDepthCutsNothing) {
   MillingPlan plan = three_teeth(ChipModel::sine, DeflectionModel::rigid);
   plan.radial_depth_m = 1e-6;
-  EXPECT_EQ(CuttingEdge(plan, 0, 0).free_edge({0, -5e-6}), 0);
+  EXPECT_EQ(CuttingEdge(plan, 0, 0).free_side_angle({0, -5e-6}), 0);
   plan.is_up = false;
-  EXPECT_EQ(CuttingEdge(plan, 0, 0).free_edge({0, 5e-6}), kHalfTurn_rad);
+  EXPECT_EQ(CuttingEdge(plan, 0, 0).free_side_angle({0, 5e-6}), kHalfTurn_rad);
 }
 
 }  // namespace

@@ -60,16 +60,16 @@ TEST(Beam, ShearAddsTwoPercentAtFiveDiameters) {
 TEST(CuttingEdge, RigidWindowMatchesTheCircle) {
   const MillingPlan plan = plain(ChipModel::sine, DeflectionModel::rigid);
   const double exit = std::acos((0.25 - 0.3) / 0.25);
-  EXPECT_NEAR(CuttingEdge(plan, 0, 0).free_edge({}), exit, 1e-15);
+  EXPECT_NEAR(CuttingEdge(plan, 0, 0).free_side_angle({}), exit, 1e-15);
   MillingPlan down = plan;
   down.is_up = false;
-  EXPECT_NEAR(CuttingEdge(down, 0, 0).free_edge({}), kPi - exit, 1e-15);
+  EXPECT_NEAR(CuttingEdge(down, 0, 0).free_side_angle({}), kPi - exit, 1e-15);
   // If the tool is bent into the wall by 3 µm, an up cut leaves the work later and a down cut
   // enters the work later.
-  EXPECT_NEAR(CuttingEdge(plan, 0, 0).free_edge({0, 3e-6}), std::acos((-50e-6 - 3e-6) / 250e-6),
-              1e-15);
-  EXPECT_NEAR(CuttingEdge(down, 0, 0).free_edge({0, 3e-6}), std::acos((50e-6 - 3e-6) / 250e-6),
-              1e-15);
+  EXPECT_NEAR(CuttingEdge(plan, 0, 0).free_side_angle({0, 3e-6}),
+              std::acos((-50e-6 - 3e-6) / 250e-6), 1e-15);
+  EXPECT_NEAR(CuttingEdge(down, 0, 0).free_side_angle({0, 3e-6}),
+              std::acos((50e-6 - 3e-6) / 250e-6), 1e-15);
 }
 
 // Eq. 8 (Bao and Tansel) is compared with the exact trochoid. Without run-out, the difference is

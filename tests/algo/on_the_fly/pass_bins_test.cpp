@@ -15,9 +15,9 @@ constexpr std::int64_t kPeriod_ns = 1'000'000;
 
 // A pass with one probe. `place_m`: position in m at a time in s. `reading_m`: reading in m at a
 // position in m. The pass has a row at each whole ms for which `scanned` is true.
-FrameBlock pass_over(double seconds, const std::function<double(double)>& place_m,
-                     const std::function<bool(std::int64_t)>& scanned,
-                     const std::function<double(double)>& reading_m) {
+FrameBlock simulated_pass(double seconds, const std::function<double(double)>& place_m,
+                          const std::function<bool(std::int64_t)>& scanned,
+                          const std::function<double(double)>& reading_m) {
   FrameBlock frames = empty_frames(1);
   for (std::int64_t ms = 0; ms < static_cast<std::int64_t>(1000 * seconds); ++ms) {
     if (!scanned(ms)) continue;
@@ -48,7 +48,7 @@ TEST(PassBins, SpeedIsCorrectWithAndWithoutMissingScans) {
   const auto gaps = [](std::int64_t ms) { return ms % 7 != 0 && ms % 50 > 12; };
   for (const int direction : {1, -1})
     for (const bool some_are_missing : {false, true}) {
-      const auto frames = pass_over(
+      const auto frames = simulated_pass(
           1.5, [&](double t) { return direction > 0 ? 10e-3 * t : 15e-3 - 10e-3 * t; },
           some_are_missing ? gaps : each, [](double x) { return 4e-6 + 2e-3 * x; });
       const PassBins bins = found_in(frames, direction);
@@ -80,7 +80,7 @@ TEST(PassBins, LeavesOutAnAccelerationAboveTheLimit) {
   const double speed = 10e-3, T = 0.1;
   const double limit = 0.0075 * 1e-3 * 12 * std::sqrt(5.0) / (T * T);
   for (const double share : {0.9, 1.1}) {
-    const auto frames = pass_over(
+    const auto frames = simulated_pass(
         1.2,
         [&](double t) {
           return 5e-3 + speed * (t - 0.5) + share * limit * (t - 0.5) * (t - 0.5) / 2;
@@ -112,7 +112,7 @@ TEST(PassBins, EncoderNoiseIsNoChangeOfSpeed) {
     state = state * 1664525u + 1013904223u;
     return (static_cast<double>(state >> 8) / 16777216.0 - 0.5) * std::sqrt(12.0);
   };
-  const auto frames = pass_over(
+  const auto frames = simulated_pass(
       1.2, [&](double t) { return 10e-3 * t + 12e-6 * noise(); }, each, nothing);
   const PassBins found = found_in(frames, 1);
   EXPECT_EQ(found.bins.size() + found.left_out.size(), 2U);
@@ -125,17 +125,18 @@ TEST(PassBins, ReportsTooFewScansAndGaps) {
     return [=](std::int64_t ms) { return ms < from || ms >= to; };
   };
   // 60 of 101 scans are missing.
-  auto found = found_in(pass_over(1.2, way, at(460, 520), nothing), 1);
+  auto found = found_in(simulated_pass(1.2, way, at(460, 520), nothing), 1);
   ASSERT_EQ(found.left_out.size(), 1U);
   EXPECT_EQ(found.left_out[0].fault, BinFault::gap);
   EXPECT_EQ(found.left_out[0].position_m, 5e-3);
   EXPECT_NEAR(static_cast<double>(found.left_out[0].scans), 41, 1);
-  found = found_in(pass_over(1.2, way, at(460, 500), nothing), 1);  // 40 of 101 scans are missing
+  found =
+      found_in(simulated_pass(1.2, way, at(460, 500), nothing), 1);  // 40 of 101 scans are missing
   ASSERT_EQ(found.bins.size(), 2U);
   EXPECT_EQ(to_string(found.bins[0].point.flags), "gap");
   EXPECT_TRUE(found.bins[1].point.flags.empty());
   // A bin has 5 or 6 scans at 0.2 m/s.
-  found = found_in(pass_over(
+  found = found_in(simulated_pass(
                        0.1, [](double t) { return 0.2 * t; }, each, nothing),
                    1);
   ASSERT_EQ(found.left_out.size(), 2U);
@@ -145,7 +146,7 @@ TEST(PassBins, ReportsTooFewScansAndGaps) {
 // Rows between the readings of a slow probe are interpolated and give no information. A missing row
 // is flagged.
 TEST(PassBins, FitOnlyFreshReadings) {
-  auto frames = pass_over(
+  auto frames = simulated_pass(
       1.2, [](double t) { return 10e-3 * t; }, each, [](double x) { return 1e-6 + 2e-3 * x; });
   frames.probe_is_new.assign(1, std::vector<std::uint8_t>(frames.size(), 1));
   for (std::size_t i = 0; i < frames.size(); ++i)
@@ -187,7 +188,7 @@ TEST(PassBins, FitOnlyFreshReadings) {
 // The bin at 5 mm is from 450 to 550 ms. A gap of ten scans before the bin does not flag it.
 TEST(PassBins, GapFlagsOnlyItsBin) {
   const auto flags_of = [](std::int64_t from_ms, std::int64_t to_ms) {
-    const auto frames = pass_over(
+    const auto frames = simulated_pass(
         1.5, [](double t) { return 10e-3 * t; },
         [&](std::int64_t ms) { return ms < from_ms || ms >= to_ms; }, nothing);
     const PassBins bins = found_in(frames, 1);
@@ -205,7 +206,7 @@ TEST(PassBins, GapFlagsOnlyItsBin) {
 // few.
 TEST(PassBins, TwoScansAtTheEndsLeaveAGap) {
   for (const bool both : {true, false}) {
-    const auto frames = pass_over(
+    const auto frames = simulated_pass(
         1.5, [](double t) { return 10e-3 * t; },
         [&](std::int64_t ms) { return ms < 440 || ms > 560 || ms == 455 || (both && ms == 545); },
         nothing);

@@ -57,8 +57,8 @@ TEST(ReadingLag, MatchesManualCalculationWithoutNoise) {
   const ReadingLag lag = reading_lags(late_passes(engine, 0, 0), 1).at(0);
   EXPECT_NEAR(lag.delay_s, kLate_s, 1e-12);
   EXPECT_NEAR(lag.speed_m_s, kSpeed_m_s, 1e-15);
-  EXPECT_NEAR(lag.steepest_1, 2e-6 * 2 * M_PI / 8e-3, 1e-12);
-  EXPECT_NEAR(lag.effect_m, kLate_s * kSpeed_m_s * lag.steepest_1, 1e-15);
+  EXPECT_NEAR(lag.largest_slope_1, 2e-6 * 2 * M_PI / 8e-3, 1e-12);
+  EXPECT_NEAR(lag.effect_m, kLate_s * kSpeed_m_s * lag.largest_slope_1, 1e-15);
   EXPECT_TRUE(lag.significant);
 }
 
@@ -115,7 +115,7 @@ TEST(ReadingLag, NeedsTwelveTargetsInBothDirections) {
   EXPECT_NEAR(lag.speed_m_s, kSpeed_m_s, 1e-15);
   const ReadingLag none = reading_lags({}, 2).at(1);
   EXPECT_TRUE(std::isnan(none.delay_s) && std::isnan(none.speed_m_s));
-  EXPECT_EQ(none.steepest_1, 0);
+  EXPECT_EQ(none.largest_slope_1, 0);
 }
 
 // If the readings rise linearly, the delay cannot be determined: its effect equals a difference of

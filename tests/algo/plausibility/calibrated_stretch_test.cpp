@@ -30,7 +30,8 @@ MeasuredPoint point(double reading_m, bool valid = true) {
 }
 
 TEST(CalibratedStretch, ReportsReadingsOutsideTheRange) {
-  const auto said = stretch_notices(calibrated(), {point(-20e-6), point(40e-6), point(5e-6)});
+  const auto said =
+      calibrated_range_notices(calibrated(), {point(-20e-6), point(40e-6), point(5e-6)});
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].severity, Severity::doubtful);
   // As displacements, the ends of the range are 0.95 times -10 and 30 um.
@@ -38,23 +39,23 @@ TEST(CalibratedStretch, ReportsReadingsOutsideTheRange) {
             "beyond_calibration B from_um=-20 to_um=40 calibrated_from_um=-9.5 "
             "calibrated_to_um=28.5\n");
   // If the probe reads a gap, the reading increases when the target moves away.
-  EXPECT_EQ(test::shown(stretch_notices(calibrated(true), {point(0), point(40e-6)})),
+  EXPECT_EQ(test::shown(calibrated_range_notices(calibrated(true), {point(0), point(40e-6)})),
             "beyond_calibration B from_um=0 to_um=40 calibrated_from_um=-28.5 "
             "calibrated_to_um=9.5\n");
 }
 
 TEST(CalibratedStretch, AcceptsATenthBeyondTheRange) {
   // A tenth of the range of 38 um is 3.8 um.
-  EXPECT_TRUE(stretch_notices(calibrated(), {point(-13.2e-6), point(32.2e-6)}).empty());
-  EXPECT_EQ(stretch_notices(calibrated(), {point(-13.4e-6)}).size(), 1U);
-  EXPECT_EQ(stretch_notices(calibrated(), {point(32.4e-6)}).size(), 1U);
+  EXPECT_TRUE(calibrated_range_notices(calibrated(), {point(-13.2e-6), point(32.2e-6)}).empty());
+  EXPECT_EQ(calibrated_range_notices(calibrated(), {point(-13.4e-6)}).size(), 1U);
+  EXPECT_EQ(calibrated_range_notices(calibrated(), {point(32.4e-6)}).size(), 1U);
 }
 
 TEST(CalibratedStretch, HasNoNoticeWithoutReadingsOrCalibration) {
-  EXPECT_TRUE(stretch_notices(test::rig_x(), {point(90e-6)}).empty());
-  EXPECT_TRUE(stretch_notices(calibrated(), {point(90e-6, false)}).empty());
-  EXPECT_TRUE(stretch_notices(calibrated(), {point(std::nan(""))}).empty());
-  EXPECT_TRUE(stretch_notices(calibrated(), std::vector<MeasuredPoint>()).empty());
+  EXPECT_TRUE(calibrated_range_notices(test::rig_x(), {point(90e-6)}).empty());
+  EXPECT_TRUE(calibrated_range_notices(calibrated(), {point(90e-6, false)}).empty());
+  EXPECT_TRUE(calibrated_range_notices(calibrated(), {point(std::nan(""))}).empty());
+  EXPECT_TRUE(calibrated_range_notices(calibrated(), std::vector<MeasuredPoint>()).empty());
 }
 
 }  // namespace

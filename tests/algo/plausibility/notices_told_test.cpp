@@ -85,8 +85,8 @@ TEST(NoticesTold, ReportsTenOfAKind) {
 
 // The axis moves by `per_window_m` in each window of 50 ms; the tolerance is 2 um. A window is slow
 // up to 50 um. The stretch of slow windows is reported at its end.
-std::optional<DwellEvent> slow_over(int windows, double per_window_m, bool stood = false,
-                                    double most_m = 200e-6) {
+std::optional<DwellEvent> slow_stretch_event(int windows, double per_window_m, bool stood = false,
+                                             double most_m = 200e-6) {
   SlowStretch stretch;
   const auto window = [&](int i, double range_m, bool still) {
     const double at_m = i * per_window_m;
@@ -105,7 +105,7 @@ std::optional<DwellEvent> slow_over(int windows, double per_window_m, bool stood
 
 TEST(SlowStretchRule, IsReportedWithPositionSizeAndLength) {
   for (const double per_window_m : {10e-6, -10e-6}) {
-    const auto reported = slow_over(10, per_window_m);
+    const auto reported = slow_stretch_event(10, per_window_m);
     ASSERT_TRUE(reported);
     EXPECT_EQ(reported->kind, DwellEventKind::creep);
     EXPECT_EQ(reported->time_ns, 50'000'000);
@@ -116,14 +116,14 @@ TEST(SlowStretchRule, IsReportedWithPositionSizeAndLength) {
 }
 
 TEST(SlowStretchRule, RejectsShortLongAndStoppedStretches) {
-  EXPECT_TRUE(slow_over(4, 10e-6));
-  EXPECT_FALSE(slow_over(3, 10e-6));  // 0.15 s
-  EXPECT_TRUE(slow_over(10, 19.9e-6));
-  EXPECT_FALSE(slow_over(10, 20.1e-6));
-  EXPECT_FALSE(slow_over(10, -20.1e-6));
-  EXPECT_FALSE(slow_over(10, 10e-6, true));
-  EXPECT_TRUE(slow_over(10, 49.9e-6, false, 1));
-  EXPECT_FALSE(slow_over(10, 50.1e-6, false, 1));  // above the limit of a slow window
+  EXPECT_TRUE(slow_stretch_event(4, 10e-6));
+  EXPECT_FALSE(slow_stretch_event(3, 10e-6));  // 0.15 s
+  EXPECT_TRUE(slow_stretch_event(10, 19.9e-6));
+  EXPECT_FALSE(slow_stretch_event(10, 20.1e-6));
+  EXPECT_FALSE(slow_stretch_event(10, -20.1e-6));
+  EXPECT_FALSE(slow_stretch_event(10, 10e-6, true));
+  EXPECT_TRUE(slow_stretch_event(10, 49.9e-6, false, 1));
+  EXPECT_FALSE(slow_stretch_event(10, 50.1e-6, false, 1));  // above the limit of a slow window
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ struct Stepper {
     for (int i = 0; i < dwell_s * rate_hz; ++i) scan();
   }
   // The axis moves to `target` during a gap in the recording.
-  void jump_unseen(double target, double after_s) {
+  void move_during_recording_gap(double target, double after_s) {
     breaks.push_back(t_ns - static_cast<std::int64_t>(1e9 / rate_hz));
     t_ns += static_cast<std::int64_t>(after_s * 1e9);
     x = target;
@@ -333,7 +333,7 @@ TEST(Sequence, FirstStopTakesTheApproachOfTheNextMotion) {
 TEST(Sequence, UnseenMotionIsNoApproach) {
   Stepper axis;
   for (const double t : {0.0, 2e-3, 4e-3}) axis.move_to(t), axis.dwell();
-  axis.jump_unseen(6e-3, 10);
+  axis.move_during_recording_gap(6e-3, 10);
   for (const double t : {6e-3, 4e-3, 2e-3}) axis.move_to(t), axis.dwell();
   const Sequence reported = recognise_sequence(detect(axis.frames, 1000, {}, axis.breaks), {});
   ASSERT_EQ(reported.points.size(), 6u);
@@ -352,7 +352,7 @@ TEST(Sequence, StopWithARecordingGapCountsOnce) {
   for (const std::size_t block : {1u, 7u, 100000u}) {
     Stepper axis;
     for (const double t : {0.0, 2e-3, 4e-3}) axis.move_to(t), axis.dwell();
-    axis.jump_unseen(4e-3, 3600);
+    axis.move_during_recording_gap(4e-3, 3600);
     axis.dwell_s = 1;
     axis.dwell();
     axis.move_to(2e-3);

@@ -41,7 +41,7 @@ std::vector<Point> points_of(const FrameBlock& frames) {
   return found;
 }
 
-OverRange one_over(double at_m) {
+OverRange one_over_range_reading(double at_m) {
   OverRange over;
   over.add(at_m);
   return over;
@@ -60,36 +60,36 @@ TEST(OverRange, UCoversTheBiasOfOneMissingReading) {
                      {100, 0.026652 / 0.99},
                      {1000, 0.0033671 / 0.999}};
   for (const auto& [of, bias] : table) {
-    const double u_m = with_over_range(0, 0, 1e-6, one_over(2e-6), of);
+    const double u_m = u_with_over_range(0, 0, 1e-6, one_over_range_reading(2e-6), of);
     EXPECT_GE(u_m, bias * 1e-6) << of;
     EXPECT_LE(u_m, 2.5 * bias * 1e-6) << of;
   }
-  EXPECT_NEAR(with_over_range(3e-9, 0, 1e-6, one_over(2e-6), 1000), 5e-9, 1e-15);
-  EXPECT_EQ(with_over_range(3e-9, 0, 1e-6, {}, 1000), 3e-9);
+  EXPECT_NEAR(u_with_over_range(3e-9, 0, 1e-6, one_over_range_reading(2e-6), 1000), 5e-9, 1e-15);
+  EXPECT_EQ(u_with_over_range(3e-9, 0, 1e-6, {}, 1000), 3e-9);
   // A reading far away is a glitch.
-  EXPECT_EQ(with_over_range(3e-9, 0, 1e-6, one_over(-50e-6), 1000), 3e-9);
+  EXPECT_EQ(u_with_over_range(3e-9, 0, 1e-6, one_over_range_reading(-50e-6), 1000), 3e-9);
 }
 
-bool is_too_much(std::size_t count, std::size_t readings, double at_m = 1e-6) {
+bool saturates_channel(std::size_t count, std::size_t readings, double at_m = 1e-6) {
   OverRange over;
   for (std::size_t i = 0; i < count; ++i) over.add(at_m);
   return is_saturated(over, readings, 0, 0.5e-6);
 }
 
 TEST(OverRange, SaturatedAboveOneReadingAndOnePercent) {
-  EXPECT_FALSE(is_too_much(0, 0));
-  EXPECT_FALSE(is_too_much(1, 10));
-  EXPECT_TRUE(is_too_much(2, 10));
-  EXPECT_FALSE(is_too_much(2, 200));
-  EXPECT_TRUE(is_too_much(3, 299));
-  EXPECT_FALSE(is_too_much(3, 300));
+  EXPECT_FALSE(saturates_channel(0, 0));
+  EXPECT_FALSE(saturates_channel(1, 10));
+  EXPECT_TRUE(saturates_channel(2, 10));
+  EXPECT_FALSE(saturates_channel(2, 200));
+  EXPECT_TRUE(saturates_channel(3, 299));
+  EXPECT_FALSE(saturates_channel(3, 300));
 }
 
 // An over-range reading far above or below the mean is a glitch, for example from a broken cable.
 TEST(OverRange, GlitchDoesNotSaturate) {
-  for (const double at_m : {100e-6, -100e-6}) EXPECT_FALSE(is_too_much(20, 100, at_m));
-  EXPECT_TRUE(is_too_much(20, 100, -2.9e-6));
-  EXPECT_TRUE(is_too_much(20, 100, std::nan("")));
+  for (const double at_m : {100e-6, -100e-6}) EXPECT_FALSE(saturates_channel(20, 100, at_m));
+  EXPECT_TRUE(saturates_channel(20, 100, -2.9e-6));
+  EXPECT_TRUE(saturates_channel(20, 100, std::nan("")));
 }
 
 // The vibration has an rms of 0.7 um about 99.9 um. The mean of the readings below 100 um is 99.3

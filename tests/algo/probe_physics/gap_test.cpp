@@ -23,7 +23,7 @@ ProbePhysics electrode(double radius_m, double factor) {
 // The gap that a probe without fringing field indicates over a tilted target: A / ∫ dA/(d + ρ θ cos
 // φ) with the area A, the gap d, the tilt θ and polar coordinates ρ, φ. The integral over rings and
 // angles is calculated by the midpoint rule.
-double disc_shows_m(double radius_m, double gap_m, double tilt_rad) {
+double indicated_gap_of_disc_m(double radius_m, double gap_m, double tilt_rad) {
   constexpr int kRings = 400, kAngles = 400;
   double sum = 0;
   for (int i = 0; i < kRings; ++i) {
@@ -39,7 +39,7 @@ double disc_shows_m(double radius_m, double gap_m, double tilt_rad) {
 
 TEST(ProbeGap, TiltExcessMatchesPublishedValues) {
   const auto excess_m = [](double r_mm, double d_mm, double mrad) {
-    return tilt_excess_m(electrode(r_mm * 1e-3, 5), mrad * mrad * 1e-6, d_mm * 1e-3);
+    return gap_decrease_by_tilt_m(electrode(r_mm * 1e-3, 5), mrad * mrad * 1e-6, d_mm * 1e-3);
   };
   EXPECT_NEAR(excess_m(0.5, 0.25, 0.2) * 1e9, 0.05, 5e-4);
   EXPECT_NEAR(excess_m(3, 0.75, 30) * 1e6, 13.5, 0.005);
@@ -48,9 +48,9 @@ TEST(ProbeGap, TiltExcessMatchesPublishedValues) {
 
 TEST(ProbeGap, TiltFactorOfAnIdealDiscIsOne) {
   for (const double tilt_rad : {0.5e-3, 2e-3, 10e-3}) {
-    const double d_m = 250e-6, r_m = 2e-3, shown_m = disc_shows_m(r_m, d_m, tilt_rad);
+    const double d_m = 250e-6, r_m = 2e-3, shown_m = indicated_gap_of_disc_m(r_m, d_m, tilt_rad);
     EXPECT_LT(shown_m, d_m) << "a tilted target seems nearer";
-    const double excess_m = tilt_excess_m(electrode(r_m, 1), tilt_rad * tilt_rad, d_m);
+    const double excess_m = gap_decrease_by_tilt_m(electrode(r_m, 1), tilt_rad * tilt_rad, d_m);
     const double share = r_m * tilt_rad / d_m;
     EXPECT_NEAR((d_m - shown_m) / excess_m, 1, share * share / 3 + 1e-3);
     const double found_m = true_gap_m(electrode(r_m, 1), shown_m, tilt_rad * tilt_rad, 1);
@@ -63,7 +63,8 @@ TEST(ProbeGap, GapIsCalculatedBackFromTheReading) {
   for (const double d_m : {60e-6, 250e-6, 900e-6})
     for (const double tilt_rad : {0.0, 1e-3, 20e-3})
       for (const double ratio : {0.9999, 1.0, 1.0003}) {
-        const double shown_m = (d_m - tilt_excess_m(physics, tilt_rad * tilt_rad, d_m)) / ratio;
+        const double shown_m =
+            (d_m - gap_decrease_by_tilt_m(physics, tilt_rad * tilt_rad, d_m)) / ratio;
         if (shown_m <= 0) continue;
         EXPECT_NEAR(true_gap_m(physics, shown_m, tilt_rad * tilt_rad, ratio), d_m, 1e-16);
       }

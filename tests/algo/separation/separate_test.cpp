@@ -93,7 +93,7 @@ Column steps(int n, double step_m, double from_m = 0) {
 // Removes shapes from a column by least squares. Each shape is made orthogonal to those before it.
 Column without(Column y, std::vector<Column> shapes) {
   std::vector<Column> square;
-  const auto take_out = [](Column& of, const Column& shape) {
+  const auto subtract_projection = [](Column& of, const Column& shape) {
     double dot = 0, norm = 0;
     for (std::size_t i = 0; i < of.size(); ++i) {
       dot += of[i] * shape[i];
@@ -103,9 +103,9 @@ Column without(Column y, std::vector<Column> shapes) {
   };
   for (Column shape : shapes) {
     for (int twice = 0; twice < 2; ++twice)
-      for (const Column& before : square) take_out(shape, before);
+      for (const Column& before : square) subtract_projection(shape, before);
     square.push_back(shape);
-    take_out(y, shape);
+    subtract_projection(y, shape);
   }
   return y;
 }

@@ -24,7 +24,7 @@ namespace {
 constexpr double kBacklash_m = 1e-6, kDrift_m = 0.3e-6, kSlope = 20e-6, kStep_m = 5e-3;
 
 // Increase of the reversal from target to target.
-constexpr double kGrown_m = 0.2e-6;
+constexpr double kReversalIncrease_m = 0.2e-6;
 
 struct Visit {
   int run, target, direction;
@@ -269,22 +269,24 @@ TEST(UnevenVisits, TableRemovesTheSlopeOfTheWholeAxis) {
   }
 }
 
-// Targets 8 to 13 have one approach. The reversal of a target is kGrown_m times its number.
-// Calculated by hand: the mean reversal of the other targets is the reversal of target 4, so the
-// mean of target i is wrong by (i - 4)/2 kGrown_m. The slope over the 13 targets is wrong by sum((i
-// - 7)(i - 4)) / 2 / 182 = 77/182 of kGrown_m per target.
+// Targets 8 to 13 have one approach. The reversal of a target is kReversalIncrease_m times its
+// number. Calculated by hand: the mean reversal of the other targets is the reversal of target 4,
+// so the mean of target i is wrong by (i - 4)/2 kReversalIncrease_m. The slope over the 13 targets
+// is wrong by sum((i
+// - 7)(i - 4)) / 2 / 182 = 77/182 of kReversalIncrease_m per target.
 TEST(UnevenVisits, UncertaintyCoversAGrowingReversal) {
   for (const int only : {1, -1}) {
     mdof::Run x = cut_run(1, [&](const Visit& v) { return v.direction == only || v.target < 8; });
     for (MeasuredPoint& p : x.points)
-      p.errors.local[0] += 0.5 * p.point.direction * p.target * kGrown_m;
+      p.errors.local[0] += 0.5 * p.point.direction * p.target * kReversalIncrease_m;
     const auto means = target_means({Axis::x, {}}, x.points, Approach::both);
     for (const TargetMean& mean : means) {
-      const double off_m = mean.target < 8 ? 0 : 0.5 * only * (mean.target - 4) * kGrown_m;
+      const double off_m =
+          mean.target < 8 ? 0 : 0.5 * only * (mean.target - 4) * kReversalIncrease_m;
       EXPECT_NEAR(mean.u_trend[0], off_m, 1e-12) << mean.target;
       EXPECT_GE(mean.u[0], std::abs(off_m)) << mean.target;
     }
-    const double off_rad = 77.0 / 182 * kGrown_m / kStep_m;
+    const double off_rad = 77.0 / 182 * kReversalIncrease_m / kStep_m;
     const double slope_rad = least_squares_line(own_travels({}, means), column(means, 0)).slope;
     EXPECT_NEAR(slope_rad, kSlope + only * off_rad, 1e-9);
     const Squareness s = squareness(x, cut_run(1, kAll, Axis::y), {}).value();

@@ -41,7 +41,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TableOptions partial_too() {
+TableOptions with_partial_runs() {
   TableOptions options;
   options.take_partial = true;
   return options;
@@ -52,7 +52,7 @@ TEST(UsableRuns, UsesAPartialRunOnlyOnRequest) {
   const std::string why = refusal({partial});
   EXPECT_TRUE(contains(why, "run 7 is partial")) << why;
   EXPECT_EQ(check_usable({&partial}, false, "a table").error().remedy, Remedy::take_partial_runs);
-  EXPECT_EQ(refusal({partial}, partial_too()), "");
+  EXPECT_EQ(refusal({partial}, with_partial_runs()), "");
   const Notices notices = inherited_notices({&partial});
   ASSERT_EQ(notices.size(), 1u);
   EXPECT_EQ(test::shown(notices[0]), "made_from_partial run=7");
@@ -61,7 +61,7 @@ TEST(UsableRuns, UsesAPartialRunOnlyOnRequest) {
 TEST(UsableRuns, NeverUsesAnAbortedOrFailedRun) {
   for (const RunState state : {RunState::aborted, RunState::failed, RunState::open}) {
     const mdof::Run run = run_of(7, state, "a");
-    EXPECT_TRUE(contains(refusal({run}, partial_too()), to_string(state)));
+    EXPECT_TRUE(contains(refusal({run}, with_partial_runs()), to_string(state)));
   }
   EXPECT_TRUE(inherited_notices(all_of({run_of(7, RunState::complete, "a")})).empty());
 }

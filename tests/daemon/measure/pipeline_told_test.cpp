@@ -32,7 +32,7 @@ Result<Run> run_of(Pipeline& pipeline, std::vector<SampleBlock> blocks) {
   return pipeline.finish();
 }
 
-TEST(PipelineTold, AxisAndFiguresAreThoseOfTheRig) {
+TEST(PipelineReports, AxisAndFiguresAreThoseOfTheRig) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig('Y'), {}).value();
   const auto run = run_of(pipeline, {axis.whole()});
@@ -43,7 +43,7 @@ TEST(PipelineTold, AxisAndFiguresAreThoseOfTheRig) {
   EXPECT_EQ(shown_notices(*run).find("datum_missing"), std::string::npos);
 }
 
-TEST(PipelineTold, ReportsAHeightMapShorterThanTheTravel) {
+TEST(PipelineReports, ReportsAHeightMapShorterThanTheTravel) {
   const TestAxis axis = pass_over_five();
   Rig rig = five_probe_rig();
   for (const char* id : {"top", "side"}) {
@@ -65,7 +65,7 @@ TEST(PipelineTold, ReportsAHeightMapShorterThanTheTravel) {
   EXPECT_HAS_PART(test::shown(after), "map_too_short side ");
 }
 
-TEST(PipelineTold, ReportsPositionsWithoutADatum) {
+TEST(PipelineReports, ReportsPositionsWithoutADatum) {
   const TestAxis axis = pass_over_five();
   PipelineOptions options;
   options.datum.kind = EncoderDatum::Kind::none;
@@ -77,7 +77,7 @@ TEST(PipelineTold, ReportsPositionsWithoutADatum) {
 }
 
 // The quality of the encoder is suspect during one whole stop.
-TEST(PipelineTold, ReportsTheTimeOfAnOmittedStopWithoutPosition) {
+TEST(PipelineReports, ReportsTheTimeOfAnOmittedStopWithoutPosition) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   SampleBlock block = axis.whole();
@@ -95,7 +95,7 @@ TEST(PipelineTold, ReportsTheTimeOfAnOmittedStopWithoutPosition) {
                   "stops_not_placed daq points=1 from_s=3.8");  // 3.7 s plus the settling time
 }
 
-TEST(PipelineTold, ReportsAGapInTheRecording) {
+TEST(PipelineReports, ReportsAGapInTheRecording) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   const std::size_t unseen = stop_first_scan(7) - kToStop;
@@ -108,7 +108,7 @@ TEST(PipelineTold, ReportsAGapInTheRecording) {
 
 // The lost scans are fewer than the scans of one window of the stop detection. The axis cannot
 // have moved and returned in this time.
-TEST(PipelineTold, AFewLostScansDoNotEndAStop) {
+TEST(PipelineReports, AFewLostScansDoNotEndAStop) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   const std::size_t lost_at = stop_first_scan(7) + 200;
@@ -123,7 +123,7 @@ TEST(PipelineTold, AFewLostScansDoNotEndAStop) {
 }
 
 // The axis reverses at its end target and measures this target once.
-TEST(PipelineTold, ReportsAnAssumedSequence) {
+TEST(PipelineReports, ReportsAnAssumedSequence) {
   TestAxis axis;
   for (const double mm : {0.0, 5.0, 10.0, 15.0, 20.0, 15.0, 10.0, 5.0, 0.0}) axis.stop_at(mm);
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
@@ -134,7 +134,7 @@ TEST(PipelineTold, ReportsAnAssumedSequence) {
 }
 
 // The sampling interval of the second device is longer than max_gap_s.
-TEST(PipelineTold, ReportsATooSlowProbeWithTheRemedy) {
+TEST(PipelineReports, ReportsATooSlowProbeWithTheRemedy) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   const SampleBlock side = axis.block(0, axis.scans(), {"D", "E"}, "adam");
@@ -147,7 +147,7 @@ TEST(PipelineTold, ReportsATooSlowProbeWithTheRemedy) {
   EXPECT_HAS_PART(run.error().message, "max_gap_s");
 }
 
-TEST(PipelineTold, TheLiveViewShowsThatAReadingIsMissing) {
+TEST(PipelineReports, TheLiveViewShowsThatAReadingIsMissing) {
   const TestAxis axis = pass_over_five();
   Pipeline view = Pipeline::create(five_probe_rig(), {}).value();
   SampleBlock block = axis.block(0, 300);

@@ -10,7 +10,7 @@ HistoryEntry by_anna(const std::string& name) {
   return {.name = name, .by = {1000, 100, 4711, "anna"}, .utc = "2026-11-22T18:00:00.000Z"};
 }
 
-class Deeds : public StoreTest {
+class RecordedActions : public StoreTest {
  protected:
   // The user anna starts and stops a run. At the end its points are renumbered, so a second run
   // has the result. Returns the second run.
@@ -33,7 +33,7 @@ class Deeds : public StoreTest {
 
 // The second run supersedes the first run and has the result. A run that was interrupted and
 // resumed is still listed.
-TEST_F(Deeds, ARenumberedRunIsNotListedAsAResult) {
+TEST_F(RecordedActions, ARenumberedRunIsNotListedAsAResult) {
   using Listed = store::Store::Listed;
   auto store = writer();
   const auto result = measured(*store);
@@ -51,7 +51,7 @@ TEST_F(Deeds, ARenumberedRunIsNotListedAsAResult) {
   EXPECT_EQ(store->count_runs(Axis::x, Listed::results).value(), 3);
 }
 
-TEST_F(Deeds, EachChangeHasItsAction) {
+TEST_F(RecordedActions, EachChangeHasItsAction) {
   auto store = writer();
   const auto run = measured(*store);
   const auto actions = store->run_actions(run).value();
@@ -73,7 +73,7 @@ TEST_F(Deeds, EachChangeHasItsAction) {
   EXPECT_TRUE(store->verify()->empty());
 }
 
-TEST_F(Deeds, AReasonIsReadBackAndAChangeIsDetected) {
+TEST_F(RecordedActions, AReasonIsReadBackAndAChangeIsDetected) {
   {
     auto store = writer();
     const auto table =
@@ -93,13 +93,13 @@ TEST_F(Deeds, AReasonIsReadBackAndAChangeIsDetected) {
   EXPECT_TRUE(contains(reported.error().message, "reason of action")) << reported.error().message;
 }
 
-TEST_F(Deeds, AFailedChangeStoresNoAction) {
+TEST_F(RecordedActions, AFailedChangeStoresNoAction) {
   auto store = writer();
   EXPECT_FALSE(store->add_table(make_table({99}), by_anna("compensation.build")));
   EXPECT_EQ(store->count_actions().value(), 0);
 }
 
-TEST_F(Deeds, AChangedActionIsDetected) {
+TEST_F(RecordedActions, AChangedActionIsDetected) {
   for (const char* change :
        {"UPDATE deed SET uid = 0 WHERE id = 1", "DELETE FROM deed WHERE id = 1",
         "UPDATE deed SET row = 2 WHERE id = 2", "UPDATE deed SET user = 'bert' WHERE id = 1"}) {

@@ -52,7 +52,7 @@ TEST_F(StoreTest, ReturnsACompensationTableBitForBit) {
   EXPECT_EQ(back.sides, table.sides);
   EXPECT_EQ(back.stated, table.stated);
   EXPECT_EQ(back.machine, table.machine);
-  EXPECT_FALSE(back.without_stated_point);
+  EXPECT_FALSE(back.lacks_reference_point);
   EXPECT_EQ(bits(back.position_m), bits(table.position_m));
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_EQ(bits(back.forward[k]), bits(table.forward[k]));

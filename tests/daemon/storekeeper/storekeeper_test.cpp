@@ -192,7 +192,7 @@ class HeldDatabase : public StorekeeperTest {
     keeper_.reset();
     Storekeeper::Options options{folder_ / "mdof.db"};
     options.busy_timeout = busy_timeout;
-    options.most_waiting = 3;
+    options.max_pending_points = 3;
     keeper_ =
         Storekeeper::start(options, {[](std::int64_t, std::int64_t) {},
                                      [this](std::int64_t run, const Error&) { failed_ = run; }})

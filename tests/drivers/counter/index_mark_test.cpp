@@ -53,7 +53,7 @@ TEST(IndexMark, ImpossibleCountIsNotTheMark) {
   const std::int64_t near = kQuarter / 64;
   for (const std::int64_t count :
        {kQuarter - near - 1, kQuarter + near + 1, 3 * kQuarter, -kQuarter, kQuarter / 2 + 1}) {
-    EXPECT_EQ(mark.take(count), State::astray) << count;
+    EXPECT_EQ(mark.take(count), State::unexplained) << count;
     EXPECT_EQ(mark.take(7), State::awaited);
   }
   EXPECT_EQ(mark.take(kQuarter - near), State::at_mark);
@@ -61,7 +61,7 @@ TEST(IndexMark, ImpossibleCountIsNotTheMark) {
   EXPECT_EQ(mark.take(8), State::awaited);
   EXPECT_EQ(mark.take(kQuarter + 30), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 31), State::at_mark);
-  EXPECT_EQ(mark.take(kQuarter * 2), State::astray);
+  EXPECT_EQ(mark.take(kQuarter * 2), State::unexplained);
   EXPECT_EQ(mark.take(9), State::awaited);
   EXPECT_EQ(mark.take(kQuarter + 33), State::at_mark);  // three readings are needed again
   EXPECT_EQ(mark.take(kQuarter + 34), State::at_mark);

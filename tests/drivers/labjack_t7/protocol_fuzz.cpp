@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t words = 1 + data[0] % 8, portion = 1 + data[1];
   const std::string bytes(reinterpret_cast<const char*>(data) + 2, size - 2);
   PacketReader reader;
-  PacketLine line(words);
+  ScanNumbering line(words);
   StreamPacket packet;
   std::vector<Scan> scans;
   bool good = true;

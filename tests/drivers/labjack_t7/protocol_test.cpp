@@ -125,7 +125,7 @@ TEST(LabjackT7Protocol, ErrorCodesHaveTexts) {
 }
 
 TEST(LabjackT7Scans, DividesPacketsIntoNumberedScans) {
-  PacketLine line(2);
+  ScanNumbering line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(packet(0, {1, 2, 3, 4}), scans));
   ASSERT_TRUE(line.take(packet(1, {5, 6}), scans));
@@ -136,7 +136,7 @@ TEST(LabjackT7Scans, DividesPacketsIntoNumberedScans) {
 }
 
 TEST(LabjackT7Scans, TransactionNumbersWrap) {
-  PacketLine line(1);
+  ScanNumbering line(1);
   std::vector<Scan> scans;
   for (int i = 0; i < 65538; ++i)
     ASSERT_TRUE(line.take(packet(static_cast<std::uint16_t>(i), {0}), scans));
@@ -144,7 +144,7 @@ TEST(LabjackT7Scans, TransactionNumbersWrap) {
 }
 
 TEST(LabjackT7Scans, MissingPacketIsAnError) {
-  PacketLine line(1);
+  ScanNumbering line(1);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(packet(0, {0}), scans));
   const Status status = line.take(packet(2, {0}), scans);
@@ -154,7 +154,7 @@ TEST(LabjackT7Scans, MissingPacketIsAnError) {
 }
 
 TEST(LabjackT7Scans, TimesContinueAfterDroppedScans) {
-  PacketLine line(2);
+  ScanNumbering line(2);
   std::vector<Scan> scans;
   StreamPacket p = packet(0, {1, 1, 2, 2});
   p.status = status::recovering;
@@ -172,7 +172,7 @@ TEST(LabjackT7Scans, TimesContinueAfterDroppedScans) {
 }
 
 TEST(LabjackT7Scans, GapAtPacketEndPrecedesTheNextScan) {
-  PacketLine line(1);
+  ScanNumbering line(1);
   std::vector<Scan> scans;
   StreamPacket p = packet(0, {7, 0xFFFF});
   p.status = status::recovered;
@@ -185,7 +185,7 @@ TEST(LabjackT7Scans, GapAtPacketEndPrecedesTheNextScan) {
 }
 
 TEST(LabjackT7Scans, GapWithoutMarkIsAnError) {
-  PacketLine line(2);
+  ScanNumbering line(2);
   std::vector<Scan> scans;
   StreamPacket p = packet(0, {0xFFFF, 1, 2, 0xFFFF});
   p.status = status::recovered;
@@ -195,7 +195,7 @@ TEST(LabjackT7Scans, GapWithoutMarkIsAnError) {
 }
 
 TEST(LabjackT7Scans, AllOnesWithoutAGapAreValues) {
-  PacketLine line(2);
+  ScanNumbering line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(packet(0, {0xFFFF, 0xFFFF}), scans));
   EXPECT_EQ(scans.size(), 1U);
@@ -203,7 +203,7 @@ TEST(LabjackT7Scans, AllOnesWithoutAGapAreValues) {
 
 TEST(LabjackT7Scans, StoppedStreamIsAnError) {
   for (const int code : {2942, 2943, 2944, 2945, 1}) {
-    PacketLine line(1);
+    ScanNumbering line(1);
     std::vector<Scan> scans;
     StreamPacket p = packet(0, {0});
     p.status = static_cast<std::uint16_t>(code);
@@ -215,7 +215,7 @@ TEST(LabjackT7Scans, StoppedStreamIsAnError) {
 }
 
 TEST(LabjackT7Scans, IncompleteScanIsAnError) {
-  PacketLine line(2);
+  ScanNumbering line(2);
   std::vector<Scan> scans;
   EXPECT_FALSE(line.take(packet(0, {1, 2, 3}), scans));
 }

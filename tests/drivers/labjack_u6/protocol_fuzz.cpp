@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)read_stream_config(bytes);
   (void)read_stream_start(bytes);
   (void)decode(bytes, samples);
-  PacketLine line(1 + data[1] % 8);
+  ScanNumbering line(1 + data[1] % 8);
   std::vector<Scan> scans;
   StreamData packet;
   for (std::size_t i = 0; i + 3 < bytes.size(); i += 4) {

@@ -208,7 +208,7 @@ TEST(LabjackU6Protocol, RefusesRepliesToOtherCommands) {
 }
 
 TEST(LabjackU6PacketLine, ScansContinueOverPacketsAndCounterWraps) {
-  PacketLine line(7);
+  ScanNumbering line(7);
   std::vector<Scan> scans;
   StreamData packet = ramp();
   for (int i = 0; i < 600; ++i, ++packet.counter) ASSERT_TRUE(line.take(packet, scans));
@@ -216,7 +216,7 @@ TEST(LabjackU6PacketLine, ScansContinueOverPacketsAndCounterWraps) {
 }
 
 TEST(LabjackU6PacketLine, MissingPacketIsAnError) {
-  PacketLine line(7);
+  ScanNumbering line(7);
   std::vector<Scan> scans;
   StreamData packet = ramp();
   ASSERT_TRUE(line.take(packet, scans));
@@ -225,7 +225,7 @@ TEST(LabjackU6PacketLine, MissingPacketIsAnError) {
 }
 
 TEST(LabjackU6PacketLine, TimesContinueAfterDroppedScans) {
-  PacketLine line(5);
+  ScanNumbering line(5);
   std::vector<Scan> scans;
   StreamData packet = ramp();
   packet.error = kRecovering;
@@ -243,7 +243,7 @@ TEST(LabjackU6PacketLine, TimesContinueAfterDroppedScans) {
 
 TEST(LabjackU6PacketLine, StoppedStreamIsAnError) {
   for (const int code : {55, 63, 1}) {
-    PacketLine line(5);
+    ScanNumbering line(5);
     std::vector<Scan> scans;
     StreamData packet = ramp();
     packet.error = static_cast<std::uint8_t>(code);

@@ -53,7 +53,7 @@ class LabjackU6Device : public testing::Test {
   }
 
   SimulatedLabjackU6 device{senses, {}};
-  PacketLine line{7};
+  ScanNumbering line{7};
   std::vector<Scan> scans;
   std::int64_t now = 0;
 };
@@ -103,7 +103,7 @@ TEST_F(LabjackU6Device, DifferentialEntryHasItsOwnGain) {
   setup.list = {{1, 0}, {2, 1, true}, {0, 0, true}};
   ASSERT_TRUE(read_stream_config(ask(stream_config(setup, *stream_clock(1000)))));
   ASSERT_TRUE(read_stream_start(ask(stream_start())));
-  line = PacketLine(3);
+  line = ScanNumbering(3);
   ASSERT_EQ(stream(200), "");
   ASSERT_GT(scans.size(), 150U);
   EXPECT_NEAR(labjack::volts(SimulatedLabjackU6::calibration(0), scans[9].words[0]), -2.5, 2e-4);
@@ -130,14 +130,14 @@ TEST_F(LabjackU6Device, StreamFaultsEndTheStream) {
   SimulatedLabjackU6::Faults stop, skip, cut, unplug;
   stop.stop_at = skip.skip_at = cut.short_at = unplug.unplug_at = 3;
   EXPECT_TRUE(has(stream_with(stop), "U6 error 55"));
-  line = PacketLine(7);
+  line = ScanNumbering(7);
   stop.stop_error = kRecoveryOverflow;
   EXPECT_TRUE(has(stream_with(stop), "U6 error 63"));
-  line = PacketLine(7);
+  line = ScanNumbering(7);
   EXPECT_TRUE(has(stream_with(skip), "packets are missing"));
-  line = PacketLine(7);
+  line = ScanNumbering(7);
   EXPECT_NE(stream_with(cut), "");
-  line = PacketLine(7);
+  line = ScanNumbering(7);
   EXPECT_EQ(stream_with(unplug), "unplugged");
   EXPECT_TRUE(device.gone());
 }

@@ -61,7 +61,7 @@ TEST(QsbProtocol, RecognisesABannerThatIsNoReply) {
   EXPECT_FALSE(parse_qsb_line("QSB-D  0E!"));
 }
 
-double learned(double nominal_ns, double true_ns, double seconds) {
+double estimated_tick_ns(double nominal_ns, double true_ns, double seconds) {
   TickLength tick(nominal_ns);
   std::minstd_rand random(7);
   for (std::int64_t ticks = 100; static_cast<double>(ticks - 100) * true_ns < seconds * 1e9;
@@ -74,14 +74,14 @@ double learned(double nominal_ns, double true_ns, double seconds) {
 
 TEST(TickLength, KeepsTheLengthIfDelaysExplainTheDifference) {
   for (const double ppm : {-100.0, 0.0, 100.0})
-    EXPECT_EQ(learned(1e6, 1e6 * (1 + ppm * 1e-6), 70), 1e6) << ppm;
+    EXPECT_EQ(estimated_tick_ns(1e6, 1e6 * (1 + ppm * 1e-6), 70), 1e6) << ppm;
 }
 
 // Three true tick lengths: from the roll-over time in the manual; 1/256 s; a length near 1/512 s.
 TEST(TickLength, LearnsAnotherLength) {
   for (const double true_ns : {94.5 * 86400e9 / 4294967296.0, 1e9 / 256, 1e9 / 512 * 1.004}) {
-    EXPECT_NEAR(learned(qsb::kTick_ns, true_ns, 0.7) / true_ns, 1, 0.02) << true_ns;
-    EXPECT_NEAR(learned(qsb::kTick_ns, true_ns, 70) / true_ns, 1, 7e-4) << true_ns;
+    EXPECT_NEAR(estimated_tick_ns(qsb::kTick_ns, true_ns, 0.7) / true_ns, 1, 0.02) << true_ns;
+    EXPECT_NEAR(estimated_tick_ns(qsb::kTick_ns, true_ns, 70) / true_ns, 1, 7e-4) << true_ns;
   }
 }
 

@@ -22,10 +22,10 @@ using std::chrono::steady_clock;
 
 #ifdef MDOF_SANITIZED  // sanitizers keep freed memory, and a file to their symbolizer stays open
 constexpr bool kSanitized = true;
-constexpr int kOfSymbolizer = 2;
+constexpr int kSymbolizerDescriptors = 2;
 #else
 constexpr bool kSanitized = false;
-constexpr int kOfSymbolizer = 0;
+constexpr int kSymbolizerDescriptors = 0;
 #endif
 constexpr double kMostReopen_s = 1;
 constexpr std::int64_t kMostGrowth_bytes = 1 << 20;
@@ -54,7 +54,7 @@ std::string read_some(Driver& driver) {
   return "no scans";
 }
 
-std::string read_to_the_end(Driver& driver) {
+std::string read_until_error(Driver& driver) {
   std::string error;
   const auto until = steady_clock::now() + 5s;
   while (error.empty() && steady_clock::now() < until) error = read_some(driver);
@@ -87,7 +87,7 @@ Found replug(Driver& driver, Device& device, int times, const std::function<void
       found.growth_bytes = usb::resident_bytes() - resident;
     }
     bus.unplug(number);
-    found.failures += read_to_the_end(driver).find("is gone from the USB") == std::string::npos;
+    found.failures += read_until_error(driver).find("is gone from the USB") == std::string::npos;
     device.restart();
     each();
   }
@@ -109,7 +109,7 @@ void expect_sound(const Found& found) {
       static_cast<long long>(found.growth_bytes / 1024));
   EXPECT_EQ(found.failures, 0);
   EXPECT_LE(p99_of(found), kMostReopen_s);
-  EXPECT_LE(found.descriptors, kOfSymbolizer);
+  EXPECT_LE(found.descriptors, kSymbolizerDescriptors);
   EXPECT_TRUE(kSanitized || found.growth_bytes <= kMostGrowth_bytes) << found.growth_bytes;
 }
 
@@ -149,7 +149,7 @@ TEST(UsbReplug, DetectsLostResourcesAndDevices) {
   });
   for (const int fd : lost) ::close(fd);
   EXPECT_GE(found.descriptors, 18);
-  EXPECT_LE(found.descriptors, 18 + kOfSymbolizer);
+  EXPECT_LE(found.descriptors, 18 + kSymbolizerDescriptors);
   EXPECT_GT(found.growth_bytes, kMostGrowth_bytes);
   EXPECT_NE(read_some(*driver), "");
 }

@@ -279,7 +279,7 @@ TEST(CsvRowParser, RowNumbersAreTheTimesOfAFramesFile) {
 }
 
 // A log with all kinds of fields and line ends, and with some bad lines.
-std::string wild_log(int rows) {
+std::string log_with_all_cases(int rows) {
   std::mt19937_64 random(7);
   std::string text = "# c\nA_um,time_s,encoder_mm,B_um\n";
   char line[200];
@@ -309,7 +309,7 @@ std::vector<std::uint64_t> bits(const std::vector<std::vector<double>>& columns)
 }
 
 TEST(CsvRowParser, GivesTheSameBlocksForAnyDivisionOfTheText) {
-  const std::string text = wild_log(3000);
+  const std::string text = log_with_all_cases(3000);
   const CsvLimits limits{.bad_lines = 1000, .scans_per_block = 100};
   const Parsed whole = parse(text, limits);
   ASSERT_EQ(whole.error, "");
@@ -331,7 +331,7 @@ TEST(CsvRowParser, GivesTheSameBlocksForAnyDivisionOfTheText) {
 
 TEST(CsvRowParser, SurvivesAnyBytes) {
   std::mt19937_64 random(11);
-  const std::string good = wild_log(60);
+  const std::string good = log_with_all_cases(60);
   for (int round = 0; round < 3000; ++round) {
     std::string text = good;
     for (std::uint64_t n = random() % 20; n > 0; --n)

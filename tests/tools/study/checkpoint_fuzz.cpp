@@ -30,7 +30,7 @@ class TwoOutputs : public algo::Experiment {
   algo::BinnedQuantity binned_{"travel_mm", 0, 1, 2};
 };
 
-std::string good_one(const TwoOutputs& experiment) {
+std::string valid_checkpoint(const TwoOutputs& experiment) {
   auto work = tools::empty_work(experiment, algo::pilot_scale(experiment));
   work.trials = algo::block_trials(experiment, 2048);
   work.statistics.add_block(experiment, 0, work.trials);
@@ -42,7 +42,7 @@ std::string good_one(const TwoOutputs& experiment) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const TwoOutputs experiment;
-  static const std::string good = good_one(experiment);
+  static const std::string good = valid_checkpoint(experiment);
   std::string bytes(reinterpret_cast<const char*>(data), size);
   if (size > 0 && data[0] == 1) {
     bytes = good;

@@ -38,14 +38,14 @@ constexpr Group kGroups[] = {
     {"setup", "Set up the service on this computer", ""},
 };
 
-CLI::App* made_before(CLI::App& app, std::string_view name) {
+CLI::App* existing_subcommand(CLI::App& app, std::string_view name) {
   const auto found =
       app.get_subcommands([name](const CLI::App* sub) { return sub->get_name() == name; });
   return found.empty() ? nullptr : found.front();
 }
 
 CLI::App* group_of(CLI::App& app, const std::string& name, const char* section) {
-  if (auto* group = made_before(app, name)) return group;
+  if (auto* group = existing_subcommand(app, name)) return group;
   const auto row = std::find_if(std::begin(kGroups), std::end(kGroups),
                                 [&name](const Group& g) { return g.name == name; });
   assert(row != std::end(kGroups) && "kGroups has no row for this group of commands");

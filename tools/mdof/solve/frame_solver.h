@@ -53,7 +53,7 @@ class FrameSolver {
   // Reports the height maps of the rig that do not cover the travel in these rows.
   Notices map_notices(const Rig& rig) const;
   // Reports the probes with readings outside the calibrated range in their calibration record.
-  Notices stretch_notices() const { return algo::stretch_notices(rig_, spans_); }
+  Notices calibrated_range_notices() const { return algo::calibrated_range_notices(rig_, spans_); }
 
  private:
   FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kKept = 3;
 
 // Whether a notice has a text of its own. Such notices are never summarised.
-bool has_own_words(const Notice& notice) {
+bool has_individual_text(const Notice& notice) {
   return notice.code == NoticeCode::legacy || notice.code == NoticeCode::failure;
 }
 
@@ -26,7 +26,7 @@ Notices summarised(const Notices& notices, bool all) {
   for (const Notice& each : notices) ++count[{each.code, each.subject}];
   Notices kept;
   for (const Notice& each : notices) {
-    const std::size_t alike = has_own_words(each) ? 1 : count[{each.code, each.subject}];
+    const std::size_t alike = has_individual_text(each) ? 1 : count[{each.code, each.subject}];
     const std::size_t turn = ++seen[{each.code, each.subject}];
     if (alike <= kKept + 1 || turn <= kKept) kept.push_back(each);
     if (alike <= kKept + 1 || turn != kKept) continue;

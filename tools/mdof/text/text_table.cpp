@@ -39,7 +39,7 @@ std::size_t longest_word(std::string_view text) {
 }
 
 // If a word is longer than `width`, inserts a space after every `width` characters.
-std::string with_breaks(std::string_view text, std::size_t width) {
+std::string divide_long_words(std::string_view text, std::size_t width) {
   std::string out;
   std::size_t used = 0;
   for (const char c : text) {
@@ -59,7 +59,7 @@ std::string with_breaks(std::string_view text, std::size_t width) {
 std::vector<std::string> lines_of(const std::string& cell, std::size_t width) {
   const bool path = cell.find('/') != std::string::npos;
   std::vector<std::string> lines(1);
-  for (const char c : wrapped(path ? cell : with_breaks(cell, width), width))
+  for (const char c : wrapped(path ? cell : divide_long_words(cell, width), width))
     c == '\n' ? lines.emplace_back() : lines.back().append(1, c);
   return lines;
 }

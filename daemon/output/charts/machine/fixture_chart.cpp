@@ -40,7 +40,8 @@ Range range_in_view(const Rig& rig, std::size_t axis, double span_mm) {
   return range;
 }
 
-constexpr double kNamePx = 14;  // shift between the names of probes at the same place of a view
+constexpr double kNameShiftPx =
+    14;  // shift between the names of probes at the same place of a view
 
 Place place_of(const Panel& panel, const Probe& probe, std::size_t up) {
   return panel.at(to_mm(probe.position_m[0]), to_mm(probe.position_m[up]));
@@ -51,7 +52,7 @@ void draw_probe(Svg& svg, const Panel& panel, const Rig& rig, std::size_t k, std
   const Place from = place_of(panel, probe, up);
   const auto here = [&](const Probe& other) {
     const Place at = place_of(panel, other, up);
-    return std::hypot(at.x - from.x, at.y - from.y) < kNamePx / 2;
+    return std::hypot(at.x - from.x, at.y - from.y) < kNameShiftPx / 2;
   };
   const auto before =
       std::count_if(rig.probes.begin(), rig.probes.begin() + static_cast<std::ptrdiff_t>(k), here);
@@ -74,7 +75,7 @@ void draw_probe(Svg& svg, const Panel& panel, const Rig& rig, std::size_t k, std
     svg.rect("blue hollow", {from.x - 7, from.y - 7}, 14, 14);
     svg.dot("blue-dot", from, 3.5);
   }
-  svg.text("text head", {from.x + 9 + kNamePx * static_cast<double>(before), from.y - 9},
+  svg.text("text head", {from.x + 9 + kNameShiftPx * static_cast<double>(before), from.y - 9},
            Anchor::start, probe.id);
   svg.end_group();
 }

@@ -123,16 +123,17 @@ void draw_band_of(Svg& svg, const Panel& panel, const std::vector<Mark>& marks, 
                    [](const Column& a, const Column& b) { return a.x < b.x; });
   if (band.empty()) return;
   std::vector<Place> outline;
-  const double wing = band.size() == 1 ? 2 * kMarkPx : 0;  // a band of one target gets a width
+  const double half_band_width_px =
+      band.size() == 1 ? 2 * kMarkPx : 0;  // a band of one target gets a width
   for (const Column& c : band) {
     const Place at = panel.at(c.x, c.high);
-    if (wing > 0) outline.push_back({at.x - wing, at.y});
-    outline.push_back({at.x + wing, at.y});
+    if (half_band_width_px > 0) outline.push_back({at.x - half_band_width_px, at.y});
+    outline.push_back({at.x + half_band_width_px, at.y});
   }
   for (auto c = band.rbegin(); c != band.rend(); ++c) {
     const Place at = panel.at(c->x, c->low);
-    outline.push_back({at.x + wing, at.y});
-    if (wing > 0) outline.push_back({at.x - wing, at.y});
+    outline.push_back({at.x + half_band_width_px, at.y});
+    if (half_band_width_px > 0) outline.push_back({at.x - half_band_width_px, at.y});
   }
   svg.data("band", name_of(direction));
   svg.polygon(band_of(direction), outline);

@@ -17,7 +17,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // The plot shows extremes up to this distance from the intervals, in multiples of the range of all
 // intervals. If it showed all extremes, the intervals could be too small to be visible.
-constexpr double kFarthest = 4;
+constexpr double kMostExtremeDistance = 4;
 
 struct BinnedOutput {
   std::string key;
@@ -58,7 +58,7 @@ void choose_range(BinnedOutput& out) {
   all = body;
   include(all, out.minimum);
   include(all, out.maximum);
-  const double far = kFarthest * body.span();
+  const double far = kMostExtremeDistance * body.span();
   out.cut = far > 0 && (all.high > body.high + far || all.low < body.low - far);
   out.y = all;
   if (out.cut)

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSameStep_m = 1e-9;
 // Ratio of the largest change by resampling to the largest error.
-constexpr double kPermittedLoss = 0.01;
+constexpr double kPermittedChange = 0.01;
 
 double value_at(const EqualSteps& e, const std::vector<double>& values, double at_m) {
   const double place =
@@ -69,7 +69,7 @@ Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Ex
       1.0, std::min(std::round(range / smallest), static_cast<double>(most_points(options) - 1)));
   auto steps = static_cast<std::size_t>(wanted);
   EqualSteps e = in_steps(s, steps);
-  const double permitted_m = std::max(kSameStep_m, kPermittedLoss * largest_error_m(s));
+  const double permitted_m = std::max(kSameStep_m, kPermittedChange * largest_error_m(s));
   while (e.loss_m > permitted_m && steps + 1 < most_points(options)) {
     steps = std::min(2 * steps, most_points(options) - 1);
     if (EqualSteps finer = in_steps(s, steps); finer.loss_m < e.loss_m) e = std::move(finer);

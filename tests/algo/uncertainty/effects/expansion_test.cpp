@@ -26,7 +26,7 @@ struct OwnModel {
   double fixture = 0;  // relative expansion of the fixture
   Place bend{};        // expansion coefficient times temperature gradient, 1/m
 
-  static Place turned_back(const Errors5& e, const Place& v) {
+  static Place rotated_back(const Errors5& e, const Place& v) {
     const double a = e[2], b = e[3], c = e[4];
     const Place z = {std::cos(c) * v[0] + std::sin(c) * v[1],
                      -std::sin(c) * v[0] + std::cos(c) * v[1], v[2]};
@@ -50,7 +50,7 @@ struct OwnModel {
       for (std::size_t k = 0; k < 3; ++k) p[k] = at[probe][k] * (1 + fixture) + s * along[probe][k];
       p[axis] -= d;
       if (axis == 0) p[1] -= e[0], p[2] -= e[1];
-      return dot(along[probe], material(turned_back(e, p))) - dot(along[probe], at[probe]);
+      return dot(along[probe], material(rotated_back(e, p))) - dot(along[probe], at[probe]);
     };
     double s = 0;
     for (int i = 0; i < 8; ++i) {

@@ -38,7 +38,7 @@ MeasuredPoint visit_by_hand(int target, int run, int direction, const Errors5& n
 // Error k has k + 1 times these values.
 constexpr double kShift[] = {3, 5};
 constexpr double kOff[2][3] = {{1, 0, -1}, {2, -1, -1}};
-constexpr double kSquaresOfOff = 2 * (1 + 1) + 2 * (4 + 1 + 1);  // sum of d² of both runs
+constexpr double kSumOfSquaredDeviations = 2 * (1 + 1) + 2 * (4 + 1 + 1);  // sum of d² of both runs
 std::vector<MeasuredPoint> two_runs_by_hand(double noise_u = 0) {
   std::vector<MeasuredPoint> points;
   for (const int run : {1, 2})
@@ -61,7 +61,7 @@ Repeatability repeatability_by_hand(const std::vector<MeasuredPoint>& points) {
 // degrees of freedom.
 TEST(RepeatabilityByHand, IsTheScatterWithoutThePasses) {
   const Repeatability found = repeatability_by_hand(two_runs_by_hand());
-  const double variance = kSquaresOfOff / 4;
+  const double variance = kSumOfSquaredDeviations / 4;
   EXPECT_NEAR(found.freedom, 4, 1e-12);
   EXPECT_NEAR(found.shift_freedom, 1, 1e-12);
   ASSERT_EQ(found.u.size(), 3u);

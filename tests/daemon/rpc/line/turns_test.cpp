@@ -42,7 +42,7 @@ class Turns : public ::testing::Test {
   }
   // First, one client sends the batch `many`. Then another client sends a request. Returns the
   // number of calls of the batch that the server ran before it answered the other client.
-  int calls_run_before_another(const std::string& many) {
+  int calls_before_other_reply(const std::string& many) {
     RawClient greedy(server_.path), other(server_.path);
     other.ask(kCount);
     greedy.send(many);
@@ -58,14 +58,14 @@ TEST_F(Turns, OthersAreServedBetweenConsecutiveRequests) {
   server_.start();
   std::string many;
   for (int i = 0; i < kMany; ++i) many += kSpin + "\n";
-  EXPECT_LT(calls_run_before_another(many), kMany / 2);
+  EXPECT_LT(calls_before_other_reply(many), kMany / 2);
 }
 
 TEST_F(Turns, OthersAreServedBetweenMembersOfABatch) {
   server_.start();
   std::string many = "[" + kSpin;
   for (int i = 1; i < kMany; ++i) many += "," + kSpin;
-  EXPECT_LT(calls_run_before_another(many + "]\n"), kMany / 2);
+  EXPECT_LT(calls_before_other_reply(many + "]\n"), kMany / 2);
 }
 
 TEST_F(Turns, ADividedBatchIsAnsweredBeforeTheNextRequest) {

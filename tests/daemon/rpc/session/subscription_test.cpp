@@ -118,7 +118,7 @@ class Subscriptions : public ::testing::Test {
   bool wanted(const std::string& topic) {
     return server_.on_loop([&] { return server_.service->wanted_interval(topic).has_value(); });
   }
-  bool becomes_unwanted(const std::string& topic) {
+  bool loses_last_subscriber(const std::string& topic) {
     for (int i = 0; i < 2000 && wanted(topic); ++i) std::this_thread::sleep_for(5ms);
     return !wanted(topic);
   }
@@ -221,7 +221,7 @@ TEST_F(Subscriptions, EndWithUnsubscribeOrTheConnection) {
     client.ask(subscribe("live.frame", 100));
     EXPECT_TRUE(wanted("live.frame"));
   }
-  EXPECT_TRUE(becomes_unwanted("live.frame"));
+  EXPECT_TRUE(loses_last_subscriber("live.frame"));
   publish("live.frame", "1");
 }
 
@@ -234,7 +234,7 @@ TEST_F(Subscriptions, RemainIfTheClientOnlyStopsSending) {
   publish("live.frame", "7");
   EXPECT_EQ(client->line(), message("live.frame", 0, "7"));
   client.reset();
-  EXPECT_TRUE(becomes_unwanted("live.frame"));
+  EXPECT_TRUE(loses_last_subscriber("live.frame"));
 }
 
 TEST_F(Subscriptions, ASubscriberThatNeverReadsIsDropped) {

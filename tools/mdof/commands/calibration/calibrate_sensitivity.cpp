@@ -55,7 +55,7 @@ std::string json_of(const SensitivityCalibration& found, const CalibrationRecord
   return json.take();
 }
 
-std::string not_in_u(const SensitivityCalibration& found) {
+std::string missing_in_u_text(const SensitivityCalibration& found) {
   std::string text = "\u00b1 is the standard uncertainty u";
   if (std::isfinite(found.freedom))
     text += " with " + plain_number(found.freedom, 3) + " degrees of freedom";
@@ -71,7 +71,7 @@ std::string text_of(const SensitivityCalibration& found, bool rig_declares) {
                      " stops, readings from " + fixed(to_um(found.from_m), 3) + " to " +
                      fixed(to_um(found.to_m), 3) + " um; residuals from the fitted line: at most " +
                      fixed(to_um(found.linearity_m), 4) + " um, standard deviation " +
-                     fixed(to_um(found.residual_sd_m), 4) + " um\n" + not_in_u(found) +
+                     fixed(to_um(found.residual_sd_m), 4) + " um\n" + missing_in_u_text(found) +
                      "Lines for the rig file:\n";
   if (found.um_per_V) text += "um_per_V = " + plain_number(*found.um_per_V, 9) + "\n";
   if (found.um_per_V) text += "offset_um = " + plain_number(found.offset_um, 9) + "\n";

@@ -37,9 +37,9 @@ std::string causes_text(const CheckedError& e) {
             " remain in each approach, because the errors differ between the approaches and the "
             "file has one value for both" +
             (e.one_way ? " (not included in \"after\")\n" : "\n");
-  if (e.by_ramp > kShown)
+  if (e.error_by_ramp > kShown)
     text +=
-        e.error + ": " + fixed(e.by_ramp * 1e6, 4) + unit +
+        e.error + ": " + fixed(e.error_by_ramp * 1e6, 4) + unit +
         " remain after a reversal, because LinuxCNC does not start a motion for a step of this "
         "size; change MAX_ACCELERATION, use the live compensation, or permit this residual with "
         "--residual-um\n";
@@ -65,7 +65,7 @@ std::string check_json(const ExportedTables& exported) {
     json.field("judged", e.one_way ? "mean of both approaches" : "each approach");
     json.field("left_by_reversal" + unit, e.by_reversal * 1e6)
         .field("left_between_nodes" + unit, e.between_nodes * 1e6)
-        .field("left_by_ramp" + unit, e.by_ramp * 1e6)
+        .field("left_by_ramp" + unit, e.error_by_ramp * 1e6)
         .field("nothing_to_correct", e.nothing);
     json.key("controls").begin_array();
     for (const Control& control : e.controls) write_control(json, e, control);

@@ -98,7 +98,7 @@ Status judge_active(std::int64_t table, std::int64_t generation, const ExportReq
 
 Status judge_table(store::Store& store, const CompensationTable& table,
                    const ExportRequest& request, ExportedTables& out) {
-  if (table.without_stated_point)
+  if (table.lacks_reference_point)
     return bad_input("table " + std::to_string(table.id) +
                      " does not name the point to which the errors refer; build the table again "
                      "from the same runs");
@@ -328,8 +328,8 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
   }
   // The squareness depends on its reference point. Tables of these rigs have the same reference
   // point by default.
-  const StatedAt at = stated_at_by_default(x);
-  if (at != stated_at_by_default(y))
+  const StatedAt at = default_reference(x);
+  if (at != default_reference(y))
     return bad_input(name + ": tool_point_mm differs between the rigs of the runs " +
                      std::to_string(stored.run_a) + " and " + std::to_string(stored.run_b) +
                      "; measure or replay both runs with the same tool_point_mm");

@@ -41,7 +41,7 @@ struct FoundPath {
   std::size_t undulations = 0;
   double frequency_hz = 0, stroke_m = 0, stroke_on_part_m = 0, acceleration_m_s2 = 0,
          duration_s = 0;
-  std::optional<algo::PassedBand> left_out;
+  std::optional<algo::MotionAboveBand> left_out;
 };
 
 CLI::Validator whole_number_in(double least, double most) {
@@ -171,7 +171,7 @@ std::optional<algo::FeedRoughness> feed_roughness_if_closed(const FoundPath& fou
 
 // Limits for notices. If a part is long and narrow, the spiral is beside the part for most of each
 // turn. There the path bridges a gap, and its stroke may be a little larger than on the part.
-constexpr double kMostlyBridged = 0.9, kHigherBridged = 1.1;
+constexpr double kMostlyBridged = 0.9, kLargerBridgedStroke = 1.1;
 
 Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
   const algo::SpiralRequest& request = found.request;
@@ -184,7 +184,7 @@ Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
   if (static_cast<double>(counts.bridged) > kMostlyBridged * static_cast<double>(counts.points))
     notices.push_back(notice(NoticeCode::path_mostly_bridged, o.map,
                              {{"bridged", counts.bridged}, {"points", counts.points}}));
-  if (counts.bridged > 0 && found.stroke_m > kHigherBridged * found.stroke_on_part_m)
+  if (counts.bridged > 0 && found.stroke_m > kLargerBridgedStroke * found.stroke_on_part_m)
     notices.push_back(notice(
         NoticeCode::path_stroke_bridged, o.map,
         {{"stroke_um", to_um(found.stroke_m)}, {"on_part_um", to_um(found.stroke_on_part_m)}}));

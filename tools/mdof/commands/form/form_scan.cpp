@@ -42,7 +42,7 @@ std::string scan_json(const daemon::RadialScan& scan, const std::vector<std::int
       .field("pixel_mm", to_mm(scan.pixel_m))
       .field("heights", static_cast<std::uint64_t>(scan.points))
       .field("heights_beyond_targets", static_cast<std::uint64_t>(scan.beyond_targets))
-      .field("heights_without_place", static_cast<std::uint64_t>(scan.without_height))
+      .field("heights_without_place", static_cast<std::uint64_t>(scan.unplaced_heights))
       .field("motion_taken_out_pv_um", to_um(scan.motion_pv_m))
       .field("u_um", to_um(std::hypot(scan.u_noise_m, scan.u_motion_m)))
       .key("u_parts_um")

@@ -118,8 +118,8 @@ Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
   if (scan.beyond_targets > 0)
     warn(scan.map.name + ": " + std::to_string(scan.beyond_targets) +
          " heights beyond the targets of the run are left out");
-  if (scan.without_height > 0)
-    warn(scan.map.name + ": " + std::to_string(scan.without_height) +
+  if (scan.unplaced_heights > 0)
+    warn(scan.map.name + ": " + std::to_string(scan.unplaced_heights) +
          " heights without encoder or angle value are left out");
   return scan;
 }

@@ -16,7 +16,7 @@ using simdjson::dom::element;
 using simdjson::dom::object;
 
 constexpr std::size_t kFewestBar = 11, kMostBar = 81;
-constexpr std::size_t kBesideBar = 43;  // characters in the line of a probe besides its bar
+constexpr std::size_t kColumnsBesideBar = 43;  // characters in the line of a probe besides its bar
 
 void read_probes(const element& value, LiveUpdate& update) {
   array probes;
@@ -82,7 +82,7 @@ std::string log_entry(const LiveUpdate& u, std::size_t columns) {
 }
 
 std::size_t bar_width(std::size_t columns) {
-  const std::size_t room = columns > kBesideBar ? columns - kBesideBar : 0;
+  const std::size_t room = columns > kColumnsBesideBar ? columns - kColumnsBesideBar : 0;
   return std::clamp(room, kFewestBar, kMostBar) / 2 * 2 - 1;  // odd, so that the bar has a middle
 }
 

@@ -77,7 +77,7 @@ Status solve(const SolveCommand& command) {
   warn_of_missing(*frames, solver);
   show_notices(drivers::unused_scales(rig, header.channels), true);
   show_notices(solver.map_notices(rig), true);
-  show_notices(solver.stretch_notices(), true);
+  show_notices(solver.calibrated_range_notices(), true);
   show_notices(solver.correction_notices(), true);
   return judge(solver);
 }

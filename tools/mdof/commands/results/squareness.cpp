@@ -52,8 +52,8 @@ Result<daemon::FittedSquareness> fit(store::Store& store, const SquarenessComman
 Result<std::string> fit_locally(const SquarenessCommand& command) {
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(const auto fitted, fit(store, command, true));
-  MDOF_TRY(const SquarenessLines lines,
-           daemon::squareness_reference_lines(store, fitted.squareness));
+  MDOF_TRY(const SquarenessByLine lines,
+           daemon::squareness_by_reference_line(store, fitted.squareness));
   return daemon::squareness_document(fitted, lines);
 }
 

@@ -29,7 +29,7 @@ Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
   return fail(
       ErrorCode::check,
       "these set-ups do not determine the complete height map of the target (not determined: " +
-          unseen_text(record.result.target) +
+          undetermined_text(record.result.target) +
           "). The map would contain 0 for the undetermined part. Measure once more with the target "
           "turned about the moving axis, or give --despite-unseen");
 }

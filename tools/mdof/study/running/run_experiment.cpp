@@ -76,7 +76,7 @@ class RunTrial {
   }
 
   // The true errors at the fixture, in the order of error_names(), in m and rad.
-  Errors5 named_truth(double travel_m) const {
+  Errors5 true_errors_at_fixture(double travel_m) const {
     AxisErrors truth;
     truth.valid = true;
     truth.local = truth_.at(travel_m, period_m_);
@@ -151,7 +151,7 @@ double worst_of(const StudyPlan& plan, const Run& run, const RunTrial& trial, st
     const double travel_m =
         from_mm(plan.run.targets_mm[static_cast<std::size_t>(point.target - 1)]);
     const Errors5 found = named_from_local(plan.rig.axis, point.errors.local);
-    worst = std::max(worst, std::abs(found[error] - trial.named_truth(travel_m)[error]));
+    worst = std::max(worst, std::abs(found[error] - trial.true_errors_at_fixture(travel_m)[error]));
   }
   return worst;
 }
@@ -167,7 +167,7 @@ double straightness_of(const StudyPlan& plan, const Run& run, const RunTrial& tr
   std::vector<double> x, y;
   for (const double t : plan.run.targets_mm) {
     x.push_back(from_mm(t));
-    y.push_back(trial.named_truth(x.back())[error]);
+    y.push_back(trial.true_errors_at_fixture(x.back())[error]);
   }
   const algo::Line line = end_point ? algo::end_point_line(x, y) : algo::least_squares_line(x, y);
   const double found =

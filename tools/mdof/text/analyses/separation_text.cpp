@@ -48,8 +48,9 @@ std::string series_text(const std::string& title, const std::string& place,
   }
   return title +
          (series.whole() ? ", peak to valley " : ", peak to valley of the determined part ") +
-         in_um(series.zone_m()) + " µm\nnot determined and not included: " + unseen_text(series) +
-         "\n" + table.text(width);
+         in_um(series.zone_m()) +
+         " µm\nnot determined and not included: " + undetermined_text(series) + "\n" +
+         table.text(width);
 }
 
 // "U (k = 4.3) is the expanded uncertainty. "; empty if U is unknown.
@@ -115,12 +116,13 @@ std::string provenance_comment(const SeparationRecord& record) {
     text += "# source " + name + ", sha256 " + s.sha256 + ": " + turned_text(s) + ", zero at " +
             plain_number(to_mm(s.shift_m), kDigits) + " mm\n";
   }
-  return text + "# not determined and not included: " + unseen_text(record.result.target) + "\n";
+  return text + "# not determined and not included: " + undetermined_text(record.result.target) +
+         "\n";
 }
 
 }  // namespace
 
-std::string unseen_text(const DeterminedSeries& series) {
+std::string undetermined_text(const DeterminedSeries& series) {
   std::vector<std::string> words;
   for (const UndeterminedShape& shape : series.unseen) words.push_back(shape.name);
   return words.empty() ? "nothing" : joined(words);

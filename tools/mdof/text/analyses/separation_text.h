@@ -19,6 +19,6 @@ std::string separation_csv(const SeparationRecord& record);
 std::string separation_plane_toml(const SeparationRecord& record);
 
 // A text with the undetermined components: "offset, slope and 2 of period 10 mm".
-std::string unseen_text(const DeterminedSeries& series);
+std::string undetermined_text(const DeterminedSeries& series);
 
 }  // namespace mdof::tools

@@ -10,8 +10,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kEntirelyUnseen = 0.99;  // with this share in MountingView::unseen, a
-                                          // combination counts as unseen
+constexpr double kEntirelyUnseen = 0.99;  // with at least this share in MountingView::unseen,
+                                          // a combination counts as unseen
 constexpr double kSamePlane = 1e-9;       // 1 - cosine
 constexpr double kIndependent = 0.1;      // a combination with a smaller remainder outside the
                                           // others is not added

@@ -342,7 +342,7 @@ Status check_limits(const VolumetricTable& table, const TableLimits& limits) {
 VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m) {
   std::array<GridCell, 3> cell;
   VolumetricValue value;
-  double bend = 0;  // share of interpolation_m: 0 at a node, 1 in the middle of an edge or face
+  double bend = 0;  // share of interpolation_m: 0 at a node, 1 halfway between two nodes
   for (std::size_t k = 0; k < 3; ++k) {
     cell[k] = cell_of(table.command_m[k], command_m[k]);
     value.inside = value.inside && cell[k].inside;

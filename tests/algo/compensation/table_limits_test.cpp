@@ -79,7 +79,7 @@ TEST(TableLimits, ApplyToEachErrorAndApproach) {
 }
 
 // Each option changes one limit only, for lengths and for angles.
-TEST(TableLimits, OptionsAreInMicrometresAndTheirSlopePerMillimetre) {
+TEST(TableLimits, OptionsAreInMicrometresAndMicrometresPerMillimetre) {
   const TableLimits usual;
   const double um = 20, slope = 80;
   const auto value = TableLimits::asked(&um, nullptr), steep = TableLimits::asked(nullptr, &slope);

@@ -21,8 +21,8 @@ struct SlowNoise {
 std::vector<SlowNoise> slow_noises(const std::vector<double>& time_s);
 
 // Returns independent rows: each row minus its prediction from the rows before, divided by the
-// standard deviation of this difference. The variance of one reading is 1. `log_variances`:
-// logarithm of the determinant of the covariance of `rows`.
+// standard deviation of this difference for readings of variance 1. `log_variances`: logarithm of
+// the determinant of the covariance of `rows`, also for readings of variance 1.
 Eigen::MatrixXd whitened(const std::vector<double>& time_s, const SlowNoise& noise,
                          const Eigen::MatrixXd& rows, double& log_variances);
 

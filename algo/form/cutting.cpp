@@ -132,9 +132,10 @@ void split(std::vector<SurfaceMap>& left, CuttingResult& result) {
   if (result.factor) result.floor_optimal_m = random * std::sqrt(1 + *result.factor / n);
 }
 
-// For repeated passes, true if the expected error of the next pass is smaller than the RMS error of
-// the passes. For other passes, true if the last error is 0, or if the last error is smaller than
-// the first error and at most kGrowth times the smallest error after the first pass.
+// For repeated passes, true if the RMS error of the passes is 0, or if the expected error of the
+// next pass is smaller than this RMS error. For other passes, true if the last error is 0, or if
+// the last error is smaller than the first error and at most kGrowth times the smallest error after
+// the first pass.
 bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
   const std::vector<MapFigures>& error = result.error;
   if (passes.repeated) {

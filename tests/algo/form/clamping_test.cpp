@@ -54,7 +54,7 @@ TEST(PlateStress, MatchesClosedForms) {
   ASSERT_TRUE(cylinder);
   const double s = 70e9 * 2.5e-3 / 2 / (1 - 0.33 * 0.33) * c;
   EXPECT_NEAR(cylinder->max_Pa, s * std::sqrt(1 - 0.33 + 0.33 * 0.33), 1e-6 * s);
-  // At each corner of the map, less than half of the square about twelve pixels exists.
+  // Twelve pixels at each corner of the map are omitted: less than half of their square exists.
   EXPECT_EQ(cylinder->pixels, 121u * 81u - 4 * 12u);
   const auto twist =
       plate_stress(map_of([&](double x, double y) { return c * x * y; }), plate, 5e-3);

@@ -28,8 +28,8 @@ ApproachedProbe probe_clearance(const Rig& rig, std::size_t k, double approach) 
   if (!(standoff_m > 0) && probe.calibration.reads_gap)
     standoff_m = from_um(probe.calibration.offset_um);  // reading at the nominal surface
   if (standoff_m > 0) out.contact_m = standoff_m / std::abs(approach);
-  // If the standoff is known or the probe reads a gap, its direction points from the surface to the
-  // probe.
+  // If the standoff is known or the probe reads a gap, the direction of the probe points from the
+  // surface to the probe.
   if (standoff_m > 0 || probe.calibration.reads_gap) out.towards = approach > 0 ? 1 : -1;
   return out;
 }

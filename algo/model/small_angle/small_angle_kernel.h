@@ -56,10 +56,10 @@ inline void simplified(const SmallAngleFixture& f, const V& travel, const V (&m)
 //  F(εz) = r (1 + εy²) + εx εy + (εx + εy εz) rise - εz = 0,
 // by Newton's method with the slope at the start value. rise is side_rise of the fixture. The start
 // value contains all terms of first and second order. It also contains the series of 1 / (1 - 2 p
-// rise), because 2 p rise is the largest of the other terms. Therefore the error of the start value
-// is of third order. After two iterations, for angles up to 50 mrad, the error is below 1e-11 rad
-// if the side probes are on a line along the motion. It is below 1e-9 rad for any fixture that
-// make_small_angle_fixture() accepts.
+// rise) up to its third term, because 2 p rise is the largest of the other terms. Therefore the
+// error of the start value is of third order. After two iterations, for angles up to 50 mrad, the
+// error is below 1e-11 rad if the side probes are on a line along the motion. It is below 1e-9 rad
+// for any fixture that make_small_angle_fixture() accepts.
 template <class V>
 inline void exact(const SmallAngleFixture& f, const V& travel, const V (&m)[5], V (&out)[5]) {
   const FirstOrder<V> o = first_order(f, m);

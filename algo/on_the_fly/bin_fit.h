@@ -19,9 +19,9 @@ inline constexpr std::size_t kLeastReadingsPerBin = 8;
 // Fits the least-squares parabola to the readings of a bin. `place`: distance of each reading from
 // the target in half bins (-1 ... 1), in the order of time. A parabola is necessary: the error of a
 // plain mean would be the slope times the mean distance of the readings from the target. The error
-// of a line would be a third of the distance between the parabola and its tangent at an end of the
-// bin. If the reading is a wave of amplitude a and length L, and the bin has the length w, the
-// error of the parabola at the target is a (pi w/L)^4/280: 1 % of a if L is 2.5 w.
+// of a line would be a third of the distance, at an end of the bin, between the parabola and its
+// tangent at the target. If the reading is a wave of amplitude a and length L, and the bin has the
+// length w, the error of the parabola at the target is a (pi w/L)^4/280: 1 % of a if L is 2.5 w.
 //
 // Spikes are left out before the fit. The limit is 8 robust standard deviations, but at least
 // `coarse`.

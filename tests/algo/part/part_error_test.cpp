@@ -89,8 +89,8 @@ TEST(PartError, AddsSignedCausesAndExpectedSquares) {
   EXPECT_NEAR(found.layers[1].rms_m, 2e-6, 1e-15);
   EXPECT_NEAR(found.layers[0].share, 0.5, 1e-12);
   EXPECT_NEAR(found.causes[0].share, 9. / 14, 1e-12);
-  // For a standard normal xi, |2 + 2 xi| - 2 exceeds 1.645 u (2 um) in one of twenty trials. It
-  // cannot be less than -2.
+  // For a standard normal xi, |2 + 2 xi| - 2 (um) exceeds 1.645 u (u = 2 um) in one of twenty
+  // trials. It cannot be less than -2.
   EXPECT_NEAR(found.U_max_m, 1.645 * 2e-6, 0.35e-6);
 }
 

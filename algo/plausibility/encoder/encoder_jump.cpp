@@ -6,7 +6,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kReach = 5;  // rows necessary before and after a jump
+constexpr std::size_t kReach =
+    5;  // step_at() uses at most this number of rows before and after row i
 constexpr double kGreatest_m_s2 = 10;
 
 double middle(double a, double b, double c) {

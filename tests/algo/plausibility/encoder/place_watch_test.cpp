@@ -78,7 +78,7 @@ TEST(PlaceWatch, LeavesOutOnlyMissingPositionsBeforeItBegins) {
   PlaceWatch watch(100);
   EXPECT_EQ(placed(watch, {{1, 0}, {2, 50}, {3, kNaN}, {4, -50}}), "++-+");
   EXPECT_EQ(watch.left_out(), 1u);
-  // From begin_at() on, the last frame defines the position of the axis.
+  // After begin_at(), positions that the axis cannot have reached are left out, too.
   watch.begin_at(4 * kMs, -50);
   EXPECT_EQ(placed(watch, {{5, -49.9}, {6, 0}}), "+-");
 }

@@ -80,7 +80,7 @@ Aligner::Aligner(AlignOptions options, std::vector<std::string> probe_ids)
 // Returns whether the frames can be copied from this block: it has all channels of the rig, and no
 // probe has a delay. Finds the columns of the channels; -1: the channel is missing.
 bool Aligner::whole(const SampleBlock& block) {
-  // A block with fewer channels is from one of several devices.
+  // A block with fewer channels than the rig is from one of several devices.
   if (block.channels.size() <= probes_.size()) return false;
   if (!options_.delay_s.empty()) return false;  // the readings of a scan have different times
   if (block.channels != known_channels_) {

@@ -16,11 +16,12 @@
 namespace mdof::algo {
 
 struct AlignOptions {
-  // The aligner waits for the samples of a probe at a sample of the encoder, until the newest
-  // sample of all channels is later by this time. Then the values of the probe are marked as
-  // missing, so that one dead device does not delay the others. The time is longer than the time
-  // that any driver waits for a silent device. So late samples are not lost, and a replay gives the
-  // same frames although it mixes the samples of the devices in different blocks.
+  // At a sample of the encoder, the aligner waits for the samples of a probe until the newest
+  // sample of all channels is later than this encoder sample by more than this time. Then the
+  // values of the probe are marked as missing, so that one dead device does not delay the others.
+  // The time is longer than the time that any driver waits for a silent device. So late samples are
+  // not lost, and a replay gives the same frames although it mixes the samples of the devices in
+  // different blocks.
   double lag_bound_s = 3;
   // If the time between two samples is longer than this, it is a gap. Values in a gap are not
   // interpolated.
@@ -45,7 +46,7 @@ struct AlignOptions {
 // - If a probe is slower than the encoder, probe_is_new marks the rows that contain a new sample of
 //   the probe. The other rows contain no new information about the probe.
 // - If no encoder samples arrive, probe samples are kept for twice the lag bound plus one second.
-//   Later samples of the encoder do not need older samples of the probes.
+//   Encoder samples that arrive later do not need older samples of the probes.
 class Aligner {
  public:
   Aligner(AlignOptions options, std::vector<std::string> probe_ids);

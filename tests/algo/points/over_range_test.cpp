@@ -50,7 +50,7 @@ OverRange one_over_range_reading(double at_m) {
 // A fraction p of the readings, above the end of the range, is missing. The bias of the mean is
 // phi(a)/Phi(a) standard deviations with Phi(-a) = p. The values are from a table of the normal
 // distribution.
-TEST(OverRange, UCoversTheBiasOfOneMissingReading) {
+TEST(OverRange, UCoversTheBiasOfOneOverRangeReading) {
   struct {
     std::size_t of;
     double bias;

@@ -1,7 +1,7 @@
 // Squareness by reversal: the same two axes are measured with the same square in two set-ups. The
-// square is turned over between the set-ups, so that its angle error α has the opposite sign.
-// With the squareness m from the slopes only, and the corner c (schema/iso230/squareness.h), of the
-// set-ups 1 and 2:
+// square is turned over between the set-ups, so that its angle error α has the opposite sign. For
+// the set-ups 1 and 2, m is the squareness from the slopes only, and c is the corner
+// (schema/iso230/squareness.h):
 //   EC0Y = m1 + c1 α = m2 + c2 α,   c2 = -c1
 //   EC0Y = (m1 + m2)/2,   α = c1 (m2 - m1)/2
 #pragma once

@@ -23,7 +23,7 @@ SquareSetUp set_up(int corner, double value_urad, double u_random_urad, double d
 TEST(SquareReversalByHand, SeparatesTheSquareFromTheMachine) {
   const auto found = square_reversal(set_up(1, 12, 3, 2, 10), set_up(-1, 4, 4, 2, 10)).value();
   EXPECT_NEAR(found.EC0Y_rad, 8e-6, 1e-15);
-  EXPECT_NEAR(found.square_rad, -4e-6, 1e-15);  // -α, because m = 12 µrad - α
+  EXPECT_NEAR(found.square_rad, -4e-6, 1e-15);  // -α, because EC0Y = 12 µrad + square
   EXPECT_NEAR(found.u_random_rad, 2.5e-6, 1e-15);
   EXPECT_NEAR(found.u_declared_rad, 2e-6, 1e-12);
   EXPECT_NEAR(found.u_rad, std::hypot(2.5e-6, 2e-6), 1e-12);

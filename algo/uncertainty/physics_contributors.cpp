@@ -85,8 +85,8 @@ class Physics {
     add_left_out(k);
   }
 
-  // Adds the effect of the tilt factor on the reading, minus its effect when the probe reads 0. If
-  // the tilt is corrected, the uncertainty is u of the factor. If the tilt is not corrected, the
+  // Adds the effect of the tilt factor on the reading, minus its effect where the probe was zeroed.
+  // If the tilt is corrected, the uncertainty is u of the factor. If the tilt is not corrected, the
   // uncertainty is the root of factor² + u².
   void add_tilt(std::size_t k) {
     const ProbePhysics& probe = physics().probes[k];

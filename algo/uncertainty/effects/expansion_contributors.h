@@ -8,7 +8,7 @@
 //   α ((g·r) r - r² g/2), with the expansion coefficient α. This displacement is free of stress,
 //   because the strain is α g·r in every direction. The displacement is 0 at the point that lies in
 //   the origin of M at the travel d = 0.
-// The probes were zeroed at d = 0. Therefore a reading contains an effect minus its value there.
+// The probes were zeroed at d = 0. Therefore a reading contains an effect minus its value at d = 0.
 #pragma once
 
 #include <Eigen/Core>

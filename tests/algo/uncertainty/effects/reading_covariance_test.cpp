@@ -242,7 +242,7 @@ TEST(ReadingCovariance, NoiseAndDeclaredUncertaintiesAdd) {
     return !p.point.flags.empty();
   };
   // The smallest fault that is flagged. The noise is √2 times the declared flatness u, because the
-  // heights at the point and at the place of the zero both vary.
+  // heights at the point and where the probe was zeroed both vary.
   const auto least_flagged_m = [&](const Rig& rig, double noise_m) {
     double low = 1e-8, high = 1e-4;
     for (int i = 0; i < 40; ++i) {

@@ -57,8 +57,8 @@ Repeatability repeatability_by_hand(const std::vector<MeasuredPoint>& points) {
   return repeatability(x, points, target_means(x, points, Approach::both));
 }
 
-// 12 visits less 6 means of targets and directions, less 4 passes relative to 2 directions, give 4
-// degrees of freedom.
+// 12 visits less 6 means of targets and directions less 2 differences of passes (one for each
+// direction) give 4 degrees of freedom.
 TEST(RepeatabilityByHand, IsTheScatterWithoutThePasses) {
   const Repeatability found = repeatability_by_hand(two_runs_by_hand());
   const double variance = kSumOfSquaredDeviations / 4;

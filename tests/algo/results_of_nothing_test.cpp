@@ -151,7 +151,7 @@ TEST(ResultsOfNothing, NoPassesShowNoLag) {
   EXPECT_FALSE(lags[0].significant);
 }
 
-TEST(ResultsOfNothing, AdaptiveRuleWithoutTrialsIsNotSettled) {
+TEST(ResultsOfNothing, AdaptiveRuleWithoutBlocksIsNotSettled) {
   const auto rule = AdaptiveRule::create({"EYX_um"}, {});
   ASSERT_TRUE(rule);
   EXPECT_EQ(rule->blocks(), 0u);

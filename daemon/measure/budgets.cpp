@@ -22,8 +22,8 @@
 namespace mdof::daemon {
 namespace {
 
-// Limit of RunBudgets::cost(), about one second. The cost of a run with 11 targets whose rig
-// declares all uncertainties is 2,000.
+// Limit of RunBudgets::cost(). A calculation with this cost takes about one second. The cost of a
+// run with 11 targets whose rig declares all uncertainties is 2,000.
 constexpr std::size_t kMostCost = 250'000;
 
 // The target whose mean position is nearest to at_m. Error: at_m is outside the range of the

@@ -28,7 +28,7 @@ struct PipelineOptions {
   bool remove_drift = false;  // remove a significant drift from the errors (algo/drift)
   // Only for replays; if set, dwells are not searched.
   std::optional<algo::OnTheFlyOptions> on_the_fly;
-  EncoderDatum datum;                  // the pushed positions already include its offset
+  EncoderDatum datum;                  // the pushed positions already include datum.offset_m
   std::size_t max_stops = kMostStops;  // later stops are counted but not evaluated
 
   std::string json() const;  // text for the provenance

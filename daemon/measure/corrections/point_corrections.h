@@ -60,8 +60,8 @@ class PointCorrections {
   std::optional<AirSeries> air_;
 };
 
-// The beginning of a sentence with the cause why a point has no errors, "probe A no longer changes;
-// ".
+// Returns the beginning of a sentence that states why a point has no errors: "probe A no longer
+// changes; ".
 std::string cause_of(const Point& point);
 
 }  // namespace mdof::daemon

@@ -32,7 +32,7 @@ struct StoredErrors {
 //
 // Errors:
 //   - a run, table or squareness is missing in the database;
-//   - its axis, chain, travel or moving side differs from the description;
+//   - the axis, chain, travel or moving side of such a result differs from the description;
 //   - the reference point of a table is the carriage or unknown;
 //   - the description states the same error a second time;
 //   - a table contains its straightness slope, and a squareness contains the same slope.

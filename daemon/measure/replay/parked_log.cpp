@@ -180,8 +180,8 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   const double per_step =
       request.window_s.value_or(parked.length_s / kWindowsOfLog) / algo::kStepsOfWindow;
   // The number of steps is rounded down, so that a log contains twelve windows of a twelfth of its
-  // length. If a window is longer than the log, the limit of std::clamp gives `steps` = 0, and the
-  // log is rejected.
+  // length. If one step is longer than the log, the upper limit of std::clamp gives `steps` = 0. A
+  // log that is shorter than one window is rejected.
   const auto together =
       static_cast<std::size_t>(std::clamp(std::floor(per_step / kShortStep_s + 1e-9), 1.0,
                                           static_cast<double>(reader.encoder.size() + 1)));

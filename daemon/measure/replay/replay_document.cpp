@@ -8,7 +8,7 @@
 namespace mdof::daemon {
 namespace {
 
-// Largest size of the matrix n_ij (plausibility.h) in one reply.
+// If the matrix n_ij (plausibility.h) has more values, the reply does not contain the matrix.
 constexpr std::size_t kMostVisits = 1500;
 
 std::string document(const RunMembers& members) {

@@ -22,8 +22,9 @@ struct TrendRequest {
   std::optional<Axis> axis;
   std::string figure;  // name of the only requested figure: "EYX_straightness_um", "EC0Y_urad";
                        // empty: all figures
-  std::size_t baseline = 0;  // number of first values that determine the limits of the chart
-  bool mixed = false;        // also use runs with other rigs, models or options
+  // Number of first values that determine the limits of the chart. 0: all values except the last.
+  std::size_t baseline = 0;
+  bool mixed = false;  // also use runs with other rigs, models or options
 };
 
 struct TrendValue {

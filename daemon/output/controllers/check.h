@@ -54,7 +54,7 @@ struct CheckedError {
 struct Check {
   std::vector<CheckedError> errors;
   std::vector<std::string> not_judged;  // written errors whose correction sign is unknown
-  // Limits from ExportOptions; most_residual_m includes the tolerance.
+  // Limits from ExportOptions. For tables of axes, most_residual_m includes tolerance_m.
   double most_residual_m = 0, share = 0;
   bool passed() const;  // whether all errors with a known sign pass
   // Whether all errors are below the resolution of the numbers in the file.

@@ -60,8 +60,8 @@ struct ExportOptions {
   // Limits of the residual in the self-test.
   // - residual_m: the residual may be at most residual_m + tolerance_m (rad for angles).
   // - residual_share: the residual may be at most this share of the error without correction. If
-  // this part of the error is less than the resolution of the numbers in the file, the resolution
-  // is the limit.
+  //   this part of the error is less than the resolution of the numbers in the file, the resolution
+  //   is the limit.
   double residual_m = algo::ResidualLimits{}.most_m;
   double residual_share = algo::ResidualLimits{}.share;
   // LinuxCNC only. `joints`: the joints that get the table of an axis; a gantry axis has two.

@@ -44,7 +44,7 @@ struct Report {
   std::vector<ReportRun> runs;
   // One for each axis: the runs before and after a change.
   std::vector<daemon::Comparison> comparisons;
-  // One for each pair of axes (XY, XZ, YZ) that both have a measured run in the report.
+  // One for each pair of axes (XY, XZ, YZ), if the report has a measured run of each of the two.
   std::vector<charts::SquarenessOfPair> squareness;
   std::vector<Decided> decided;  // decisions on squareness that has a tolerance
   std::vector<Attachment> attachments;

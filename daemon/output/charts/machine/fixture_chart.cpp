@@ -17,8 +17,9 @@ using output::Phrase;
 using output::phrase;
 
 constexpr double kViewPx = 280, kArrowPx = 34, kViewTopPx = 104;
-constexpr double kDimensionPx = 12,
-                 kTickLengthPx = 4;  // distance of dimension lines from the panel; half of a tick
+// kDimensionPx: distance of the dimension lines from the panel. kTickLengthPx: half of the length
+// of a tick on a dimension line.
+constexpr double kDimensionPx = 12, kTickLengthPx = 4;
 
 double longest_span_mm(const Rig& rig) {
   double longest = 1;

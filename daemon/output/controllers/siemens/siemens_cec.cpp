@@ -30,8 +30,8 @@ struct CecTable {
 };
 
 constexpr int kDecimalsOfAxis = 6;  // mm
-// Decimals of a value in mm in the tables of a volumetric table; more, because the control adds
-// about ten values.
+// Decimals of a value in mm if the CEC tables are made from a volumetric table. More decimals are
+// needed than for the table of one axis, because the control adds about ten values.
 constexpr int kDecimalsOfVolume = 9;
 
 std::string cec_text(std::size_t t, const CecTable& table, const std::string& error,

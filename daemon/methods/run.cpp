@@ -34,7 +34,7 @@ using rpc::ParamType;
 using rpc::Reply;
 
 constexpr std::int64_t kMaxPointsPage = 100;
-// Largest size of the matrix n_ij (plausibility.h) in one reply.
+// If the matrix n_ij (plausibility.h) has more values, the reply does not contain the matrix.
 constexpr std::size_t kMaxVisits = 1500;
 constexpr std::int64_t kMaxRunsPage = 100;
 // All points are read for the figures; this takes about 0.3 s.

@@ -21,8 +21,8 @@ struct ServerOptions {
   std::size_t max_batch = 100;              // requests in a batch
   std::size_t max_id_bytes = 256;           // length of an id as JSON text
 
-  // Limits of each client. Replies that the client has not read yet. A request begins only if the
-  // largest possible reply still fits.
+  // Limits of each client. max_unsent_bytes: bytes of replies that wait until the client reads. A
+  // request begins only if the largest possible reply still fits into this limit.
   std::size_t max_unsent_bytes = 1024 * 1024;
   std::chrono::microseconds turn{100};  // duration of a turn; then the other clients get a turn
   std::size_t max_subscriptions = 32;

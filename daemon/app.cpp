@@ -106,8 +106,9 @@ struct App::Parts {
     replayer.reset();
     query.reset();
     stations.clear();
-    reader.reset();  // Closed before the writer: only the writer can remove the journal files when
-                     // it closes last.
+    // The reader is closed before the writer: the connection that closes last removes the journal
+    // files, but a reader cannot remove them.
+    reader.reset();
     keeper.reset();
   }
   Status open_store();

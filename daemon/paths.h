@@ -1,5 +1,5 @@
-// Default paths of the database and the socket. An option of mdof or a key of mdofd.toml
-// overrides a default path.
+// Default paths of the database and the socket, which depend on environment variables. An option of
+// mdof or a key of mdofd.toml overrides a default path.
 #pragma once
 
 #include <filesystem>

@@ -158,7 +158,7 @@ class EncoderDatum(unittest.TestCase):
             self.client.call("encoder.set", axis="X", position_mm=1)
         time.sleep(0.3)
         self.client.call("run.stop", run=run, abort=True)
-        refused = 0  # requests while the axis moves
+        refused = 0  # number of refused requests during a whole pass; the axis moves only in a part of the pass
         end = time.monotonic() + 4
         while time.monotonic() < end:
             try:

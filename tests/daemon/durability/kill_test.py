@@ -8,6 +8,7 @@ A client notes what the daemon acknowledges: points (run.event "points") and chu
 the recording is readable at least up to the last acknowledged chunk, and the daemon serves again within 2 s. At the
 same time other programs write and read (storekeeper/others.py): their acknowledged tables and replays are present as
 well.
+
 With --durability normal the test must still pass: SIGKILL ends a process but not the kernel, and written data
 survive in the page cache. Only a power cut shows the difference. --break-it deletes a row without the daemon's
 knowledge, to show that a loss is detected. With --naive a foreign file is opened for writing at the same time, and

@@ -115,7 +115,7 @@ TEST_F(CompensationMethods, StoredTablesAreListedAndReadEvenIfNotActive) {
   EXPECT_EQ(call("compensation.table", R"({"table":9})").code(), rpc::kNotFound);
 }
 
-TEST_F(CompensationMethods, HistoryContainsTheReasonOfAnActivation) {
+TEST_F(CompensationMethods, HistoryContainsReasonsOfActivationAndDeactivation) {
   add_run();
   ASSERT_EQ(call("compensation.build", R"({"runs":[1]})").code(), 0);
   call("compensation.activate", R"({"table":1,"despite_warnings":true,"reason":"new guide"})");

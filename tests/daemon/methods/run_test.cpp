@@ -85,7 +85,7 @@ TEST_F(RunMethods, TheProbesOfADeviceMeasureOneAxisAtATime) {
   EXPECT_EQ(call("run.stop", R"({"run":2})").at("/result/run"), "2");
 }
 
-TEST_F(RunMethods, TargetsFromAnIntervalEqualAListOfTargets) {
+TEST_F(RunMethods, TargetsAreCalculatedFromRangeAndInterval) {
   add_axis();
   const Answer even = call("run.start", R"({"axis":"X","from_mm":-1,"to_mm":2,"interval_mm":1.5})");
   EXPECT_EQ(even.at("/result/targets_mm"), "[-1,0.5,2]") << even.text();

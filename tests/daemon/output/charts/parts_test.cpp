@@ -90,7 +90,7 @@ TEST(PlotAxis, HasTicksAtRoundNumbers) {
   EXPECT_EQ(tenths.ticks[3].at, 0.3);
 }
 
-TEST(PlotAxis, SmallAndLargeLabelsShareAPowerOfTen) {
+TEST(PlotAxis, APowerOfTenIsRemovedFromSmallAndLargeLabels) {
   const Axis small = vertical_axis({0, 4e-8, false}, 150);
   EXPECT_EQ(small.exponent, -9);
   EXPECT_EQ(labels(small), (Labels{"0", "10", "20", "30", "40"}));
@@ -99,7 +99,7 @@ TEST(PlotAxis, SmallAndLargeLabelsShareAPowerOfTen) {
   EXPECT_EQ(labels(large), (Labels{"0.0", "0.5", "1.0", "1.5", "2.0"}));
 }
 
-TEST(PlotAxis, HasFiniteLimitsAndTicksForAnyRange) {
+TEST(PlotAxis, HasAscendingLimitsAndTicksForAnyRange) {
   for (const auto& [low, high] : {std::pair{-kInf, kInf},
                                   {kNaN, kNaN},
                                   {5.0, 5.0},

@@ -11,7 +11,7 @@
 namespace mdof::drivers {
 namespace {
 
-// Part of the range between its ends; a reading outside this part is at an end of the range.
+// Middle part of the range; a reading outside this part is at an end of the range.
 constexpr double kRangeUsed = 0.9995;
 
 // Limits of the valid raw readings, µm. A reading at a limit or outside the limits is at an end of

@@ -95,7 +95,8 @@ class SimulatedLabjackT7 final : public SimulatedDevice {
   StreamPacket packet_of(Stream& stream);
   void append_scan(StreamPacket& packet, const Stream& stream, std::uint64_t scan) const;
   std::uint16_t ain_code(std::size_t ain, std::int64_t t_ns) const;
-  static std::optional<int> counter_line(int address);  // even line, if it is a DIO_EF_READ_A
+  // Even line of the counter; nullopt: the register is not a DIO_EF_READ_A.
+  static std::optional<int> counter_line(int address);
   std::uint32_t count_at(int line, std::int64_t t_ns) const;
   std::uint32_t core_at(std::int64_t t_ns) const;
 

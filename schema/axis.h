@@ -59,8 +59,9 @@ struct MovingAxis {
   Axis axis = Axis::x;
   Sides sides;
 };
-// Conversion to and from the errors with ISO names, for errors of the moving body. The covariance
-// needs no such function, because the sign of the errors does not change it.
+// Conversion to and from the errors with ISO names, for errors of the moving body. For a
+// covariance, use the function for errors of the target: a covariance does not change if all errors
+// change their sign.
 Errors5 named_from_local(const MovingAxis& moving, const Errors5& local);
 Errors5 local_from_named(const MovingAxis& moving, const Errors5& named);
 

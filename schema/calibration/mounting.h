@@ -30,7 +30,8 @@ struct MountingCalibration {
   std::vector<std::string> not_seen;
   // u of the common shift of all probes of a plane; NaN: the rig does not declare it.
   Vec3 u_together_m{};
-  CalibrationCovariance covariance;  // covariance of the values that the logs determine
+  // Covariance of the positions, directions and zeros that the logs determine.
+  CalibrationCovariance covariance;
   std::size_t clampings = 0, readings = 0;
   double tilt_rad = 0;  // largest angle between the target's orientations in two clampings
   double chi_square = 0;

@@ -37,7 +37,7 @@ constexpr PlaceTable make_table(int most_digits, std::uint64_t beyond, Function 
   }
   return table;
 }
-// With too many digits, the power is 0. The quotient is then NaN, and divide() returns false.
+// With too many digits, the power is 0. Then divide() calculates a NaN and returns false.
 constexpr PlaceTable kPower = make_table(kLargestExactPower, 0, [](int digits) {
   return std::bit_cast<std::uint64_t>(kExactPowers[digits]);
 });

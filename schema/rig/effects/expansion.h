@@ -7,7 +7,7 @@
 //   u_scale_ppm_per_K = 0.5          standard uncertainty of scale_ppm_per_K
 //   fixture_C, u_fixture_K, fixture_ppm_per_K, u_fixture_ppm_per_K      the same for the fixture
 //   square_ppm_per_K, u_square_ppm_per_K                                the same for the target
-//   u_square_gradient_K_per_m = 0.5  standard uncertainty of the target's temperature gradient
+//   u_square_gradient_K_per_m = 0.5  u of the target's temperature gradient along X, Y and Z
 //
 // Nothing is corrected. A target of uniform temperature keeps its angles and stays flat, and the
 // zero of the probes includes the size of the target. Therefore only a temperature gradient of the

@@ -88,8 +88,8 @@ bool rises(const Calibration& c, const std::array<double, 2>& range) {
   return true;
 }
 
-// A requested linearity correction must be declared, must increase with the reading, and must
-// include all possible readings.
+// A requested linearity correction must be declared and must include all possible readings. The
+// corrected reading must increase with the reading.
 void check_linearity(TomlTable& table, const Probe& probe) {
   const Calibration& c = probe.calibration;
   const char* key = c.polynomial_um.empty() ? "linearity" : "polynomial_um";

@@ -114,8 +114,8 @@ std::string undecided_reason(const report::Report& all, const Squareness& of) {
   return "";
 }
 
-// Decides on the squareness with the name `figure`. False: no pair of runs has this figure. If the
-// squareness is unknown, `why` is the reason.
+// Decides on the squareness with the name `figure`. False: no pair of runs has this figure, or the
+// squareness is unknown; `why` is then the reason why it is unknown.
 bool decide_squareness(report::Report& all, const std::string& figure, double tolerance,
                        std::string& why) {
   for (const charts::SquarenessOfPair& pair : all.squareness) {

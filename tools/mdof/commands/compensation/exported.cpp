@@ -182,8 +182,8 @@ Status take_siemens_limits(const ExportRequest& request, ExportedTables& out) {
                   "siemens-lec and siemens-cec have these options");
 }
 
-// With --one-approach, uses an error that was measured in only one approach for both approaches.
-// Error: such an error without --one-approach.
+// With --one-approach, uses values that were measured in only one approach for both approaches.
+// Error: there are such values, but --one-approach is missing.
 Status apply_one_approach(CompensationTable& table, const ExportRequest& request,
                           ExportedTables& out) {
   const auto has = [](const std::vector<double>& x) {

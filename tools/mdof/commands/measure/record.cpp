@@ -70,8 +70,8 @@ void warn_wrapped(std::string_view words) {
 }
 
 // "point 3 of 26, next 15.000 mm". If the run has no targets or no repeats, the unknown numbers are
-// omitted. k counts each requested point once, as soon as the errors of this point are solved. The
-// text also states the number of other points.
+// omitted. The first number counts each requested point once, as soon as the errors of this point
+// are solved. The text also states the number of other points.
 std::string progress_line(const auto& event) {
   const std::int64_t all = integer(event, "points").value_or(0);
   const std::int64_t points = integer(event, "done").value_or(all);

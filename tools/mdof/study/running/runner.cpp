@@ -207,7 +207,7 @@ std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyW
     rule_->add(of_batch);
     state.rule.push_back(std::move(of_batch));
   }
-  // The factor by which the largest 2 s of an output must decrease to its tolerance. s is
+  // The factor by which 2 s must decrease until all outputs are within their tolerances. s is
   // proportional to 1 / sqrt(number of blocks).
   double ratio = 0;
   for (const auto& output : rule_->progress())

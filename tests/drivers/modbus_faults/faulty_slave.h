@@ -36,8 +36,8 @@ enum class FaultKind {
 struct Fault {
   FaultKind kind = FaultKind::late;
   int first = 5, requests = 1;  // first affected request, number of affected requests
-  // True: an RTU slave ignores requests that arrive before it has sent its reply. False, or TCP:
-  // the slave queues these requests.
+  // True (RTU only): the slave ignores requests that arrive before it has sent its reply. False: it
+  // queues these requests.
   bool ignores_when_busy = true;
   int most = modbus::kMostRegisters;  // rejects requests for more registers
 };

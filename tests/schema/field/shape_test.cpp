@@ -21,7 +21,7 @@ TEST(FieldNames, EachHasOneRowAndAMeaning) {
   }
 }
 
-TEST(FieldNames, NameIsFoundByTheRowOfItsPattern) {
+TEST(FieldNames, NamesAreFoundByTheirPatterns) {
   EXPECT_EQ(find_field("EYX_um")->row->name, "E{linear}{axis}_um");
   EXPECT_EQ(find_field("EBC_urad")->row->name, "E{angular}{axis}_urad");
   EXPECT_EQ(find_field("EC0Y_urad")->row->name, "E{angular}0{axis}_urad");

@@ -77,7 +77,7 @@ TEST(StudyPlan, DefaultTrueErrorsAreThoseOfThePaper) {
   EXPECT_EQ(plan.outputs.size(), 5U);
 }
 
-TEST(StudyPlan, EveryQuantityNameSelectsPartsOfTheRig) {
+TEST(StudyPlan, EveryNameIsValidAndAStarMeansAllProbes) {
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
   for (const std::string& name : quantity_names(rig)) {
     const auto targets = resolve_quantity(name, rig);

@@ -82,17 +82,19 @@ Status SysfsPoller::poll(SampleBlock& block) {
   std::vector<double> values;
   Quality quality = failures_ > 0 || datum_lost_ ? Quality::suspect : Quality::good;
   std::vector<Quality> own;
-  const std::int64_t before_ns = monotonic_ns();
+  const std::int64_t begin_ns = monotonic_ns();
+  std::int64_t last_begin_ns = begin_ns;
   for (const auto& input : device_.inputs) {
+    last_begin_ns = monotonic_ns();
     const auto reading = input.read();
     if (!reading) return count_failure(reading.error());
     passed_mark_ = passed_mark_ || reading->passed_mark;
     values.push_back(reading->value);
     own.push_back(reading->quality);
   }
-  const std::int64_t after_ns = monotonic_ns();
-  if (slow_ns_ > 0 && after_ns - before_ns > slow_ns_) quality = Quality::suspect;
-  last_time_ns_ = std::max(before_ns + (after_ns - before_ns) / 2, last_time_ns_ + 1);
+  const std::int64_t end_ns = monotonic_ns();
+  if (slow_ns_ > 0 && end_ns - begin_ns > slow_ns_) quality = Quality::suspect;
+  last_time_ns_ = std::max(last_begin_ns + (end_ns - last_begin_ns) / 2, last_time_ns_ + 1);
   add_scan(block, last_time_ns_, values, quality);
   for (std::size_t i = 0; i < own.size(); ++i)
     block.quality[i].back() = std::max(block.quality[i].back(), own[i]);

@@ -14,8 +14,8 @@
 namespace mdof::rpc {
 
 // The id of an event is the id of the event before it + 1. The first id is the start time of mdofd
-// in microseconds; ids therefore also increase when mdofd restarts. The ids are below 2^53, because
-// JavaScript represents larger integers inexactly.
+// in microseconds, plus 1; ids therefore also increase when mdofd restarts. The ids are below 2^53,
+// because JavaScript represents larger integers inexactly.
 class KeptEvents {
  public:
   struct Limits {

@@ -23,8 +23,8 @@ struct MountingView {
 inline constexpr double kSeenFactor = 2;
 
 struct Unseen {
-  // The unseen combinations without the common shifts and zeros of the probes of a plane;
-  // orthonormal columns.
+  // Orthonormal basis of the unseen combinations that remain after two kinds are removed: a common
+  // shift, and a common change of zero, of all probes that measure the same plane.
   Eigen::MatrixXd apart;
   Vec3 u_together_m{};  // u of the common shift along each machine axis; NaN: the rig does not
                         // declare this u

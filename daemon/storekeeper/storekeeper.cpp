@@ -85,7 +85,7 @@ Result<std::unique_ptr<Storekeeper>> Storekeeper::start(const Options& options, 
   else
     keeper->unopened_ = not_writable(options, database.error());
   keeper->begin_chain();
-  keeper->watch_database();
+  keeper->check_database();
   keeper->announce_head();
   keeper->thread_ = std::thread([k = keeper.get()] { k->work(); });
   return keeper;
@@ -113,7 +113,7 @@ void Storekeeper::work() {
     last_turn_.store(now);
     if (now < next_commit) continue;
     commit_recordings();
-    watch_files();
+    check_storage_if_due();
     if (!store_) open_again();
     if (now >= next_try_) store_waiting_items();
     if (!unended_.empty()) end_finished_runs();
@@ -196,11 +196,11 @@ std::string Storekeeper::still_open_reason(std::int64_t run) const {
   return found == open_reasons_.end() ? "" : found->second;
 }
 
-void Storekeeper::watch_files() {
+void Storekeeper::check_storage_if_due() {
   const auto now = std::chrono::steady_clock::now();
   if (now - files_watched_ < kFileCheckInterval) return;
   files_watched_ = now;
-  watch_database();
+  check_database();
   announce_head();
   if (store_ && !store_->damage().empty()) set(damaged_, store_->damage());
   clear_full_state();
@@ -221,7 +221,7 @@ std::string Storekeeper::chain_fault() {
 }
 
 // If the announced head is not in the chain, announce_head() announces no new head; see
-// watch_database().
+// check_database().
 void Storekeeper::begin_chain() {
   if (!store_) return;
   const std::lock_guard guard(fault_mutex_);
@@ -255,7 +255,7 @@ void Storekeeper::note_damage(const std::string& what) {
   queue_.push_always([this, what] { set(damaged_, what); });
 }
 
-void Storekeeper::watch_database() {
+void Storekeeper::check_database() {
   std::string reason = database_.fault();
   if (!reason.empty())
     reason +=

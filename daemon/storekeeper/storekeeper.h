@@ -144,8 +144,8 @@ class Storekeeper {
   void report_change(const StorageState& before);
   void work();
   void commit_recordings();
-  void watch_files();
-  void watch_database();
+  void check_storage_if_due();
+  void check_database();
   std::string chain_fault();
   void begin_chain();
   void announce_head();

@@ -32,7 +32,9 @@ struct Packet {
 
   int channels() const;  // number of channels in a frame
   int frames() const;    // number of frames; values.size() is a multiple of channels()
-  std::optional<int> position(int number) const;  // index in a frame of channel 1 ... 32
+  // Index of channel `number` (1 to 32) in a frame; nullopt: the frame does not contain the
+  // channel.
+  std::optional<int> position(int number) const;
   std::int32_t value(int frame, int position) const {
     return values[static_cast<std::size_t>(frame) * static_cast<std::size_t>(channels()) +
                   static_cast<std::size_t>(position)];

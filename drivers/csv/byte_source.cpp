@@ -23,7 +23,7 @@ std::string text_of(int error) {
 
 Result<int> open_descriptor(const std::string& path, int given) {
   if (given >= 0) {
-    (void)::lseek(given, 0, SEEK_SET);  // fails for a pipe, which has only one position
+    (void)::lseek(given, 0, SEEK_SET);  // fails for a pipe, which is read from where it is
     return ::fcntl(given, F_DUPFD_CLOEXEC, 0);
   }
   if (path == "-") return ::dup(STDIN_FILENO);

@@ -63,7 +63,7 @@ ByteStream& ByteStream::operator=(ByteStream&& other) noexcept {
 Result<std::size_t> ByteStream::read(std::span<char> into, milliseconds timeout) {
   const auto until = steady_clock::now() + timeout;
   for (;;) {
-    // Usually no bytes are pending. Waiting first then avoids a read() that fails.
+    // Usually no bytes are pending, and a read() without waiting would fail (EAGAIN).
     const bool came = timeout > milliseconds(0) && ready(fd_, POLLIN, until);
     const ssize_t n = ::read(fd_, into.data(), into.size());
     if (n > 0) return static_cast<std::size_t>(n);

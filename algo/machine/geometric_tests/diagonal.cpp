@@ -111,7 +111,7 @@ Result<std::vector<Diagonal>> plane_diagonals(const Machine& machine, std::size_
   return diagonals;
 }
 
-Result<DiagonalSquareness> squareness_of_diagonals(const DiagonalLines& lines) {
+Result<DiagonalSquareness> squareness_from_diagonals(const DiagonalLines& lines) {
   if (lines.first.length_m.empty() || lines.second.length_m.empty() ||
       lines.diagonal.length_m.empty())
     return bad_input(

@@ -44,6 +44,6 @@ struct DiagonalLines {
   MeasuredLine first, second, diagonal, other;  // `other` (Pe) may be empty
   double u_line_m = 0;                          // declared u of each line, independent
 };
-Result<DiagonalSquareness> squareness_of_diagonals(const DiagonalLines& lines);
+Result<DiagonalSquareness> squareness_from_diagonals(const DiagonalLines& lines);
 
 }  // namespace mdof::algo

@@ -269,10 +269,10 @@ Result<GroovingState> read_state(const Plant& plant, const GroovingInstruments& 
   state.u_angle_rad = std::hypot(
       by.square_rad, 2 * noise.u_of_mean(by.position_m) / kWidth_m);  // two end points per line
   const DiagonalLines lines = read_lines(plant, noise, by.line_m);
-  MDOF_TRY(state.square, squareness_of_diagonals(lines));
+  MDOF_TRY(state.square, squareness_from_diagonals(lines));
   DiagonalLines one = lines;
   one.other = {};
-  MDOF_TRY(const DiagonalSquareness by_one, squareness_of_diagonals(one));
+  MDOF_TRY(const DiagonalSquareness by_one, squareness_from_diagonals(one));
   state.one_diagonal_angle_rad = by_one.angle_error_rad;
   state.found = found_machine(plant.machine, x, y, state, noise.u_of_mean(by.position_m));
   PlaneMapRequest request;

@@ -100,7 +100,7 @@ struct Export {
   std::vector<Written> written;
   std::vector<std::string> left_out;  // errors that the controller cannot store
   std::vector<std::string> notes;
-  // Volumetric table: largest part of a correction that the file format cannot represent.
+  // Volumetric table: largest residual at a node (the correction minus what the format represents).
   double left_m = 0;
 };
 

@@ -25,8 +25,8 @@ struct HttpServerCore;
 // therefore needs little memory.
 class HttpConnection final : public ClientSocket {
  public:
-  HttpConnection(HttpServerCore& server, int socket);  // takes ownership; connected and
-                                                       // non-blocking
+  // Takes ownership of `socket`, which must be connected and non-blocking.
+  HttpConnection(HttpServerCore& server, int socket);
 
   void start() { wait_readable(); }
   void reject_connection();

@@ -177,8 +177,8 @@ DiagonalLines lines_at_angle_error(double error, bool two) {
 TEST(DiagonalEdges, AxesAreWithinSixDegreesOfSquare) {
   for (const bool two : {false, true})
     for (const double sign : {-1.0, 1.0}) {
-      EXPECT_TRUE(squareness_of_diagonals(lines_at_angle_error(sign * std::asin(0.0999), two)));
-      EXPECT_FALSE(squareness_of_diagonals(lines_at_angle_error(sign * std::asin(0.1001), two)));
+      EXPECT_TRUE(squareness_from_diagonals(lines_at_angle_error(sign * std::asin(0.0999), two)));
+      EXPECT_FALSE(squareness_from_diagonals(lines_at_angle_error(sign * std::asin(0.1001), two)));
     }
 }
 
@@ -187,16 +187,16 @@ TEST(DiagonalEdges, AxesAreWithinSixDegreesOfSquare) {
 TEST(DiagonalEdges, SensitivitiesAreCorrectFarFromARightAngle) {
   for (const bool two : {false, true}) {
     DiagonalLines lines = lines_at_angle_error(0.08, two);
-    const auto found = squareness_of_diagonals(lines);
+    const auto found = squareness_from_diagonals(lines);
     ASSERT_TRUE(found);
     double squares = 0;
     for (auto* line : {&lines.first, &lines.second, &lines.diagonal, &lines.other}) {
       if (line->length_m.empty()) continue;
       const double before = line->length_m[0], h = 1e-5;
       line->length_m[0] = before + h;
-      const double above = squareness_of_diagonals(lines)->angle_error_rad;
+      const double above = squareness_from_diagonals(lines)->angle_error_rad;
       line->length_m[0] = before - h;
-      const double below = squareness_of_diagonals(lines)->angle_error_rad;
+      const double below = squareness_from_diagonals(lines)->angle_error_rad;
       line->length_m[0] = before;
       squares += std::pow((above - below) / (2 * h) * 1e-7, 2);
     }
@@ -213,13 +213,13 @@ TEST(DiagonalEdges, NeedThreeLinesWithPositiveLengths) {
     for (const double bad : {0.0, -0.5, HUGE_VAL}) {
       DiagonalLines lines = whole;
       (lines.*line).length_m.push_back(bad);
-      const auto found = squareness_of_diagonals(lines);
+      const auto found = squareness_from_diagonals(lines);
       ASSERT_FALSE(found);
       EXPECT_NE(found.error().message.find("above 0"), std::string::npos);
     }
     DiagonalLines lines = whole;
     (lines.*line).length_m.clear();
-    EXPECT_EQ(squareness_of_diagonals(lines).has_value(), line == &DiagonalLines::other);
+    EXPECT_EQ(squareness_from_diagonals(lines).has_value(), line == &DiagonalLines::other);
   }
 }
 

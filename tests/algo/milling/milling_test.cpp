@@ -138,7 +138,7 @@ TEST(Milling, PowerMatchesTheRemovedVolume) {
   }
 }
 
-TEST(Milling, WindowOfTheTrochoidBeginsBeforeTheWall) {
+TEST(Milling, TrochoidToothEntersBeforeAngleZero) {
   const auto turn = *cut_turn(plain(ChipModel::trochoid, DeflectionModel::rigid));
   EXPECT_NEAR(turn.entry_rad * 180 / kPi, -1.69, 0.01);
   EXPECT_NEAR(turn.exit_rad * 180 / kPi, 101.54, 0.01);

@@ -68,13 +68,16 @@ TEST(SquareReversalByHand, RejectsCornersWithoutReversal) {
             std::string::npos);
 }
 
-TEST(SquareReversalByHand, KeepsBothValues) {
-  SquareSetUp first = set_up(1, 12, 3, 2, 10), second = set_up(-1, 4, 4, 1, 10);
-  const auto found = square_reversal(first, second).value();
+TEST(SquareReversalByHand, ReportsTheAnglesOfBothSetUpsAndTheMeanOfTheirDeclaredU) {
+  const auto found = square_reversal(set_up(1, 12, 3, 2, 10), set_up(-1, 4, 4, 1, 10)).value();
   EXPECT_NEAR(found.first_rad, 12e-6, 1e-18);
   EXPECT_NEAR(found.second_rad, 4e-6, 1e-18);
   EXPECT_NEAR(found.u_declared_rad, 1.5e-6, 1e-12);
-  EXPECT_FALSE(found.noise_only);
+}
+
+TEST(SquareReversalByHand, IsNoiseOnlyIfBothSetUpsAre) {
+  SquareSetUp first = set_up(1, 12, 3, 2, 10), second = set_up(-1, 4, 4, 1, 10);
+  EXPECT_FALSE(square_reversal(first, second)->noise_only);
   first.budget.noise_only = true;
   EXPECT_FALSE(square_reversal(first, second)->noise_only);
   second.budget.noise_only = true;

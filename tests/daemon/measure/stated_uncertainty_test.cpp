@@ -227,10 +227,10 @@ void count_points(Coverage& coverage, const Rig& rig, const Run& run, const Run&
     count(coverage, std::string("point ") + error_names(run.header.axis)[k].name, value[k],
           true_value[k], u.points[at].U[k]);
   if (rig.declares_uncertainty()) return;
-  const auto control =
-      algo::stop_uncertainty(rig, run);  // control: does not contain the repeatability of the run
+  // For comparison: U without the repeatability of the run, which pink noise makes too small.
+  const auto of_stops = algo::stop_uncertainty(rig, run);
   for (std::size_t k = 0; k < kErrorCount; ++k)
-    count(coverage, "by stops", value[k], true_value[k], control.points[at].U[k]);
+    count(coverage, "by stops", value[k], true_value[k], of_stops.points[at].U[k]);
 }
 
 void count_table(Coverage& coverage, const Rig& rig, const Run& run, const Run& truth) {

@@ -305,7 +305,7 @@ TEST_F(PoKeys57uOnHid, DeviceThatVanishesDuringTheSearchIsMissing) {
   EXPECT_GT(gone, 0);
 }
 
-TEST_F(PoKeys57uOnHid, ReadsBothBlocksAndTheAnalogueInputs) {
+TEST_F(PoKeys57uOnHid, ReadsBothBlocksOfCountersAndTheAnalogueInputs) {
   SimulatedPokeys57u all(still, {});
   Settings settings = settings_of({counter(0), counter(24), counter(kUltraFast)});
   settings.inputs[1].options = kEnabled | kCounts_x4;

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 63) - 1;  // limit of SQLite and TOML
 constexpr double kMostTrials = 1e15;
-constexpr double kLongest_m = 10;  // limit of the travel; no machine for such a fixture is longer
+constexpr double kLongest_m = 10;     // limit of each length, also of the travel
 constexpr double kWidest_mrad = 250;  // limit of the models for small angles
 
 std::string option_name(std::string key) {

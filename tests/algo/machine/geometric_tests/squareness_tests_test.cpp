@@ -39,7 +39,7 @@ TEST(Diagonals, GiveTheAngleBetweenTheAxes) {
     for (const double error : {-1e-3, 25e-6, 2e-3}) {
       auto lines = measured_lines(error, source, 1, two, 0, 1 + 20e-6);
       lines.u_line_m = 0.1e-6;
-      const auto s = squareness_of_diagonals(lines);
+      const auto s = squareness_from_diagonals(lines);
       ASSERT_TRUE(s);
       EXPECT_NEAR(s->angle_error_rad, error, 1e-14);
       EXPECT_EQ(s->two_diagonals, two);
@@ -52,15 +52,15 @@ TEST(Diagonals, UncertaintyFollowsFromTheLines) {
   for (const bool two : {false, true}) {
     auto lines = measured_lines(1e-3, source, 1, two, 0);
     lines.u_line_m = 1e-7;
-    const double before = squareness_of_diagonals(lines)->angle_error_rad;
+    const double before = squareness_from_diagonals(lines)->angle_error_rad;
     double squares = 0;
     for (auto* line : {&lines.first, &lines.second, &lines.diagonal, &lines.other}) {
       if (line->length_m.empty()) continue;
       line->length_m[0] += 1e-7;
-      squares += std::pow(squareness_of_diagonals(lines)->angle_error_rad - before, 2);
+      squares += std::pow(squareness_from_diagonals(lines)->angle_error_rad - before, 2);
       line->length_m[0] -= 1e-7;
     }
-    EXPECT_NEAR(squareness_of_diagonals(lines)->u_rad, std::sqrt(squares), 1e-6 * 1e-6);
+    EXPECT_NEAR(squareness_from_diagonals(lines)->u_rad, std::sqrt(squares), 1e-6 * 1e-6);
   }
 }
 
@@ -71,7 +71,7 @@ TEST(Diagonals, IntervalsCoverTheTruth) {
     int covered = 0;
     for (int i = 0; i < kSimulations; ++i) {
       const double error = 50e-6 * noise(source);
-      const auto s = squareness_of_diagonals(measured_lines(error, source, 6, two, 0.2e-6));
+      const auto s = squareness_from_diagonals(measured_lines(error, source, 6, two, 0.2e-6));
       covered += std::abs(s->angle_error_rad - error) <= s->U_rad ? 1 : 0;
     }
     EXPECT_GE(covered, 0.94 * kSimulations);
@@ -95,7 +95,7 @@ TEST(Diagonals, IntervalsCoverTheTruthForLinesReadOnce) {
       lines.diagonal.length_m.resize(n[2]);
       lines.other.length_m.resize(n[3]);
       if (n[2] == 1 && n[3] == 1) lines.u_line_m = 0.2e-6;
-      const auto s = squareness_of_diagonals(lines);
+      const auto s = squareness_from_diagonals(lines);
       ASSERT_TRUE(s) << s.error().message;
       covered += std::abs(s->angle_error_rad - error) <= s->U_rad ? 1 : 0;
     }
@@ -107,14 +107,14 @@ TEST(Diagonals, IntervalsCoverTheTruthForLinesReadOnce) {
 TEST(Diagonals, RefuseLinesWithoutATriangle) {
   std::mt19937 source(4);
   auto lines = measured_lines(0, source, 2, false, 1e-7);
-  EXPECT_TRUE(squareness_of_diagonals(lines));
+  EXPECT_TRUE(squareness_from_diagonals(lines));
   lines.diagonal.length_m[1] = 0.5e3;
-  EXPECT_FALSE(squareness_of_diagonals(lines));
+  EXPECT_FALSE(squareness_from_diagonals(lines));
   lines.diagonal.length_m[1] = NAN;
-  EXPECT_FALSE(squareness_of_diagonals(lines));
+  EXPECT_FALSE(squareness_from_diagonals(lines));
   lines.diagonal.length_m.clear();
-  EXPECT_FALSE(squareness_of_diagonals(lines));
-  EXPECT_FALSE(squareness_of_diagonals(measured_lines(0, source, 1, false, 0)));
+  EXPECT_FALSE(squareness_from_diagonals(lines));
+  EXPECT_FALSE(squareness_from_diagonals(measured_lines(0, source, 1, false, 0)));
 }
 
 // A machine whose Y axis is not square to X. Its diagonals differ by the law of cosines.
@@ -138,7 +138,7 @@ TEST(Diagonals, PredictedDiagonalsGiveTheSameSign) {
                       {{0.5 + (*d)[0].deviation_m.back()}},
                       {{0.5 + (*d)[1].deviation_m.back()}},
                       1e-7};
-  EXPECT_NEAR(squareness_of_diagonals(lines)->angle_error_rad, 30e-6, 1e-9);
+  EXPECT_NEAR(squareness_from_diagonals(lines)->angle_error_rad, 30e-6, 1e-9);
   EXPECT_GT((*d)[1].deviation_m.back(), 0);
   EXPECT_NEAR((*d)[1].range_m, (*d)[1].deviation_m.back(), 1e-15);
 }
@@ -243,7 +243,7 @@ TEST(Diagonals, CombineRepeatedAndDeclaredUncertainty) {
                       {{0.5 - 2e-6, 0.5, 0.5 + 2e-6}},
                       {},
                       0};
-  const auto repeated_only = squareness_of_diagonals(lines);
+  const auto repeated_only = squareness_from_diagonals(lines);
   ASSERT_TRUE(repeated_only) << repeated_only.error().message;
   // The angle follows from cos = (d² - x² - y²) / 2xy. At a right angle ∂/∂d = d/xy, ∂/∂x = -1/y,
   // ∂/∂y = -1/x.
@@ -257,13 +257,13 @@ TEST(Diagonals, CombineRepeatedAndDeclaredUncertainty) {
   // two readings (x), one reading (y) and three readings (d).
   DiagonalLines once = lines;
   once.second.length_m = {0.3};
-  const auto pooled = squareness_of_diagonals(once);
+  const auto pooled = squareness_from_diagonals(once);
   const double s = std::sqrt(10e-12 / 3);
   EXPECT_NEAR(pooled->u_rad, s * std::sqrt(1 / 0.09 / 2 + 1 / 0.16 + 0.25 / 0.0144 / 3), 1e-11);
   EXPECT_NEAR(pooled->freedom, 3, 1e-9);
   EXPECT_NEAR(repeated_only->U_rad, repeated_only->k * repeated_only->u_rad, 1e-18);
   lines.u_line_m = 1e-6;
-  const auto both = squareness_of_diagonals(lines);
+  const auto both = squareness_from_diagonals(lines);
   const double declared = 1e-6 * std::sqrt(1 / 0.09 + 1 / 0.16 + 0.25 / 0.0144);
   EXPECT_NEAR(both->u_repeat_rad, repeated_only->u_repeat_rad, 1e-15);
   EXPECT_NEAR(both->u_rad, std::hypot(declared, repeated_only->u_rad), 1e-11);

@@ -110,7 +110,7 @@ CalibratedProbe as_record(const MountedProbe& found, const Probe& probe) {
     kept.u_direction_rad = found.u_direction_rad;
   }
   if (found.zero_seen) {
-    kept.offset_um = offset_for_zero_um(probe, found.zero_m);
+    kept.offset_um = new_offset_um(probe, found.zero_m);
     kept.u_offset_m = found.u_zero_m;
   }
   return kept;

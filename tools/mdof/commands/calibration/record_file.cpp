@@ -94,7 +94,7 @@ std::string clearance_warning(const Rig& rig, Axis axis) {
   return algo::clearance_text((*motions)[static_cast<std::size_t>(axis)]) + ". ";
 }
 
-double offset_for_zero_um(const Probe& probe, double zero_m) {
+double new_offset_um(const Probe& probe, double zero_m) {
   const double zero_um = to_um(zero_m);
   return probe.calibration.offset_um + (probe.calibration.reads_gap ? -zero_um : zero_um);
 }

@@ -39,6 +39,6 @@ std::string clearance_warning(const Rig& rig, Axis axis);
 
 // The new value of the key offset_um, µm: the present offset plus the measured zero of the probe.
 // If the probe reads a gap, the zero is subtracted.
-double offset_for_zero_um(const Probe& probe, double zero_m);
+double new_offset_um(const Probe& probe, double zero_m);
 
 }  // namespace mdof::tools

@@ -191,7 +191,7 @@ std::string squareness_json(const MachineDiagonalCommand& o, const algo::Diagona
 Status squareness(const MachineDiagonalCommand& o) {
   MDOF_TRY(const auto csv, drivers::read_csv_table(o.file, {"line", "length_mm", "deviation_um"}));
   MDOF_TRY(const auto lines, lines_of(csv, o.u_um));
-  auto s = algo::squareness_of_diagonals(lines);
+  auto s = algo::squareness_from_diagonals(lines);
   if (!s) return in_context(csv.source, std::move(s.error()));
   if (o.json) return write_line(squareness_json(o, *s, csv.simulated));
   const AxisPair axes = axes_of(o.plane);

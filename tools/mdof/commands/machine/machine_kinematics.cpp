@@ -85,9 +85,9 @@ struct Found {
   double platform_error_x_um, platform_error_y_um, platform_resolution_nm, spindle_resolution_nm;
   double tilt_error_x_um, tilt_error_y_um;
   Four rotation_resolution_deg{};
-  algo::ScrewMotion travel{};  // motion of the screws for the motion kTravel of the platform
-  std::optional<FourMotions> motion;
-  const Side* side = nullptr;  // the side that `motion` was stated for
+  algo::ScrewMotion travel{};         // motion of the screws for the motion kTravel of the platform
+  std::optional<FourMotions> motion;  // calculated, for the side that the user did not give
+  const Side* side = nullptr;         // the side whose motion is in `motion`
 };
 
 Status check_options(const KinematicsCommand& o) {

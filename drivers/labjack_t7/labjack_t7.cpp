@@ -14,7 +14,6 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
-constexpr int kClockReads = 5;
 constexpr double kEnable_s = 2;  // longest duration of writing STREAM_ENABLE
 constexpr const char* kZeroLost = "the LabJack T7 lost power, and its counter restarted at 0";
 
@@ -140,14 +139,13 @@ Status LabjackT7::start_counters() {
   return {};
 }
 
-// Reads CORE_TIMER several times. DeviceClock uses the reading with the smallest delay.
+// CORE_TIMER shows to which stream STREAM_START_TIME_STAMP belongs. The clock is not fitted to this
+// reading: packets arrive after the end of a scan, so its times would change during the first
+// seconds from the beginning to the end of a scan.
 Status LabjackT7::start_clock() {
   core_.reset();
-  for (int i = 0; i < kClockReads; ++i) {
-    MDOF_TRY(const std::uint32_t ticks, registers_->u32(reg::core_timer));
-    enabled_ticks_ = core_(ticks);
-    clock_.add(enabled_ticks_, now_ns());
-  }
+  MDOF_TRY(const std::uint32_t ticks, registers_->u32(reg::core_timer));
+  enabled_ticks_ = core_(ticks);
   MDOF_CHECK(registers_->write(reg::stream_enable, 1));
   last_packet_ns_ = now_ns();
   return {};

@@ -2,12 +2,12 @@
 // quadrature encoders of one or more axes.
 //
 // Port 502 (Modbus TCP) is for commands, port 702 for the stream. The device times its scans with
-// CORE_TIMER, 40 MHz: scan k was taken at STREAM_START_TIME_STAMP + k / rate. DeviceClock converts
-// this time to the host's clock. It uses the times at which packets arrive; before the first packet
-// it uses a few readings of CORE_TIMER. The driver reads the time stamp of the start together with
-// the first packet, because the register contains the stamp of the previous stream until the first
-// scan begins. In a scan, two successive inputs are sampled about 10 us apart; the whole scan has
-// one time.
+// CORE_TIMER, 40 MHz: scan k began at STREAM_START_TIME_STAMP + k / rate. DeviceClock converts this
+// time to the host's clock. It uses the times at which packets arrive, so that the time of a scan
+// is the time of its last input plus the shortest time of a packet on the network. The driver reads
+// the time stamp of the start together with the first packet, because the register contains the
+// stamp of the previous stream until the first scan begins. In a scan, two successive inputs are
+// sampled about 10 us apart; the whole scan has one time.
 #pragma once
 
 #include <cstdint>

@@ -56,7 +56,8 @@ struct ModbusClient::Impl {
   // Replies to the requests of an earlier program may still arrive on an RTU line, so the line is
   // not trusted at the start.
   bool trusted = framing == Framing::tcp;
-  steady_clock::time_point failed_at = steady_clock::now(), heard_at = failed_at;
+  steady_clock::time_point failed_at = steady_clock::now(), asked_at = failed_at,
+                           heard_at = failed_at;
 
   Status configure();
   Result<Answer> ask(const char* what, int address, std::size_t count, const std::string& pdu);
@@ -128,6 +129,7 @@ Result<Answer> ModbusClient::Impl::ask_in_order(const std::string& pdu, int addr
 Result<Answer> ModbusClient::Impl::exchange(const std::string& pdu) {
   expect_long_step(2 * options.response_timeout);  // the time for sending and for receiving
   const modbus::Frame asked{++transaction, static_cast<std::uint8_t>(options.unit), pdu};
+  asked_at = steady_clock::now();
   if (auto sent = stream.write(modbus::wrap(framing, asked), options.response_timeout); !sent) {
     distrust();
     return tl::unexpected(std::move(sent.error()));
@@ -264,6 +266,9 @@ Status ModbusClient::write(int address, std::span<const std::uint16_t> values) {
 
 bool ModbusClient::trusted() const {
   return impl_->trusted;
+}
+steady_clock::time_point ModbusClient::answered_at() const {
+  return impl_->asked_at + (impl_->heard_at - impl_->asked_at) / 2;
 }
 
 std::uint64_t ModbusClient::rejected() const {

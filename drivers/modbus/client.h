@@ -52,6 +52,9 @@ class ModbusClient {
   // Number of errors since the start. They include missing, late, truncated or unrelated replies,
   // and exceptions.
   std::uint64_t rejected() const;
+  // Middle of the interval from the last request to its reply. A test of the line before the
+  // request is not in this interval.
+  std::chrono::steady_clock::time_point answered_at() const;
   // Exception code 1 ... 255 in the answer to the last request; 0: no exception.
   int exception() const;
 

@@ -240,12 +240,13 @@ Status PoKeys57u::poll(SampleBlock& block) {
   if (start >= tick_due_ && !failing_) {
     MDOF_TRY(span, watch_for_restart());
   }
+  const auto begin = steady_clock::now();
   if (span) {
     MDOF_TRY(span, fetch());
   }
   next_ = std::max(next_ + period_, start);
   if (span) {
-    append(block, *span);
+    append(block, *span, span->to - begin);
     return {};
   }
   failing_ = true;
@@ -254,11 +255,12 @@ Status PoKeys57u::poll(SampleBlock& block) {
                   " ms; check the cable, and end any other program that uses the device");
 }
 
-// Requests only those blocks of counts and analogue inputs that the channels use.
+// Requests only those blocks of counts and analogue inputs that the channels use. Returns the times
+// of the last request.
 Result<std::optional<PoKeys57u::Span>> PoKeys57u::fetch() {
   std::array<bool, 3> needed{};
   for (const Input& input : settings_.inputs) needed[input.index / kCountersPerBlock] = true;
-  std::optional<Span> whole;
+  std::optional<Span> last;
   for (std::size_t block = 0; block < needed.size(); ++block) {
     if (!needed[block]) continue;
     const bool counts = block < counts_.size();
@@ -268,19 +270,19 @@ Result<std::optional<PoKeys57u::Span>> PoKeys57u::fetch() {
     if (!reply) return std::nullopt;
     if (counts) counts_[block] = counts_of(reply->frame);
     if (!counts) analogue_ = analogue_of(reply->frame);
-    whole = Span{whole ? whole->from : reply->span.from, reply->span.to};
+    last = reply->span;
   }
-  return whole;
+  return last;
 }
 
-void PoKeys57u::append(SampleBlock& block, const Span& span) {
+void PoKeys57u::append(SampleBlock& block, const Span& span, nanoseconds duration) {
   const Time time = span.middle();
   const double missed = std::round(std::chrono::duration<double>(time - last_) / period_) - 1;
   if (std::exchange(failing_, false))
     block.lost = static_cast<std::uint64_t>(std::max(1.0, missed));
   block.time_ns.push_back(nanoseconds(time.time_since_epoch()).count());
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    Quality quality = span.to - span.from > settings_.slow ? Quality::suspect : Quality::good;
+    Quality quality = duration > settings_.slow ? Quality::suspect : Quality::good;
     block.value[i].push_back(value_of(i, time, quality));
     block.quality[i].push_back(quality);
   }

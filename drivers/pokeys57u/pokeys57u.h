@@ -91,7 +91,8 @@ class PoKeys57u final : public Driver {
   Result<Frame> need(const Frame& asked, const char* what);
   tl::unexpected<Error> no_answer_error(const char* what) const;
   Status poll(SampleBlock& block);
-  void append(SampleBlock& block, const Span& span);
+  // `span`: the last request of the scan; `duration`: of all its requests.
+  void append(SampleBlock& block, const Span& span, std::chrono::nanoseconds duration);
   double value_of(std::size_t i, Time time, Quality& quality);
 
   Settings settings_;

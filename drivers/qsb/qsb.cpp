@@ -253,7 +253,11 @@ Status Qsb::fetch(milliseconds timeout) {
   while (const auto line = next_line())
     if (status = take_line(*line, received_ns); !status) break;
   if (samples_.empty()) return status;
+  const double before_ns = tick_.ns();
   tick_.add(*last_stamp_, received_ns);
+  // The line of the clock belongs to stamps with the old length of a tick. To keep this line would
+  // make all packets late for a minute.
+  if (tick_.ns() != before_ns) clock_.reset();
   clock_.add(samples_.back().device_ns, received_ns);
   return status;
 }

@@ -49,6 +49,21 @@ TEST(Qsb, StreamsWithTheDevicesTimes) {
   }
 }
 
+// The manual also states a tick of 1/256 s. The count shows the true time of each line. When the
+// driver has measured the tick, the line of the clock must not remain fitted to the wrong one.
+TEST(Qsb, TimesAreCorrectAfterATickOfAnotherLengthWasMeasured) {
+  SimulatedQsb device(ramp, {.faults = {.tick_ns = 1e9 / 256}});
+  const ServedLine served(device);
+  Qsb driver("scale", options_for_test(served));
+  ASSERT_TRUE(driver.open());
+  const Collected all = collect(driver, 2 * 256);  // 2 s
+  ASSERT_EQ(all.error, "");
+  EXPECT_FALSE(driver.clock()->doubtful());
+  // 0.5 um for each count, one count for each ms; the first 0.8 s contain the correction.
+  const double passed_ms = (all.scans[500][0] - all.scans[200][0]) / 0.5;
+  EXPECT_NEAR(static_cast<double>(all.time_ns[500] - all.time_ns[200]) * 1e-6, passed_ms, 100);
+}
+
 TEST(Qsb, CountContinuesAfterReopening) {
   SimulatedQsb device(still, {});
   const ServedLine served(device);

@@ -43,7 +43,7 @@ struct NoticeValue : std::variant<double, std::string> {
 struct Notice {
   NoticeCode code = NoticeCode::legacy;
   // The severity of the code. The codes `legacy`, `more_alike` and `not_shown`, and `datum_missing`
-  // of a table, may have another severity.
+  // and `position_lost` of a table, may have another severity.
   Severity severity = Severity::doubtful;
   std::string subject;  // name of a probe, a plane or a device; empty: the whole result
   std::vector<std::pair<std::string, NoticeValue>> values;

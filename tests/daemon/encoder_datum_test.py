@@ -280,6 +280,22 @@ class EncoderDatum(unittest.TestCase):
         self.assertEqual(len(points), 2 * len(TARGETS))
         self.check_replay(header)
 
+    def test_a_run_states_that_the_configuration_replaced_a_position_that_was_set(self):
+        self.begin(lambda text: text.replace('input = "DIO0"', 'input = "DIO0", offset_mm = -250.25'))
+        self.offset_mm = -250.25
+        self.set_at_rest(30, self.set_by_rpc)
+        self.daemon.stop()
+        self.client = self.daemon.start()
+        self.wait(lambda: self.device()["scans"] > 300)
+        started, header, points = self.measured(-250.25)
+        self.assertEqual([(n["code"], n["configured"]) for n in datum_notices(header)], [("position_lost", 1)])
+        self.assertEqual(datum_notices(started), datum_notices(header))
+        code, out, err = self.mdof("compensation", "build", header["run"], "--db", self.daemon.database,
+                                   "--socket", self.daemon.socket, "--json")
+        self.assertEqual(code, 0, err)
+        with self.assertRaisesRegex(RpcError, "offset_mm of the configuration applies"):
+            self.client.call("compensation.activate", table=json.loads(out)["table"])
+
     def test_a_probe_has_no_such_offset(self):
         self.begin()
         for channel, why in (('input = "AIN0"', "applies to the encoder only"), ('input = "DIO0"', "position of the axis")):

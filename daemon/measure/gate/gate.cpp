@@ -49,7 +49,8 @@ Notices without_information(Notices notices) {
 
 Notices doubtful_notices(Notices notices) {
   for (Notice& each : notices)
-    if (each.code == NoticeCode::datum_missing) each.severity = Severity::doubtful;
+    if (each.code == NoticeCode::datum_missing || each.code == NoticeCode::position_lost)
+      each.severity = Severity::doubtful;
   return without_information(std::move(notices));
 }
 

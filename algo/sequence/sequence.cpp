@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "algo/points/flags.h"
 #include "algo/sequence/sequence_stops.h"
 #include "schema/units.h"
 
@@ -83,10 +84,17 @@ void note_left_out(Sequence& sequence) {
   }
 }
 
-void note_overshot(int count, Sequence& sequence) {
+// `stops` have the flag "overshot" and their direction of travel.
+void note_overshot(int count, const std::vector<Point>& stops, Sequence& sequence) {
   if (count == 0) return;
-  sequence.notices.push_back(notice(NoticeCode::stop_overshot, "",
-                                    {{"stops", count}, {"most_mm", to_mm(kMostOvershoot_m)}}));
+  double most_m = 0;
+  for (const Point& p : stops) {
+    if (!has_flag(p, Flag::overshot)) continue;
+    most_m = std::max(
+        most_m, p.direction > 0 ? p.travel_max_m - p.position_m : p.position_m - p.travel_min_m);
+  }
+  sequence.notices.push_back(
+      notice(NoticeCode::stop_overshot, "", {{"stops", count}, {"most_mm", to_mm(most_m)}}));
 }
 
 }  // namespace
@@ -105,7 +113,7 @@ Sequence recognise_sequence(const std::vector<Point>& points, const SequenceOpti
   sequence.targets = static_cast<int>(sequence.targets_m.size());
   number_runs(sequence);
   note_left_out(sequence);
-  note_overshot(overshot, sequence);
+  note_overshot(overshot, stops, sequence);
   if (sequence.cycle == Cycle::none) sequence.notices.push_back(notice(NoticeCode::cycle_unknown));
   return sequence;
 }

@@ -154,6 +154,10 @@ TEST(Cycle, OvershootOfEveryStopIsNoTurn) {
     EXPECT_EQ(s.cycle, Cycle::standard);
     // An overshoot is reported only if it looks like an approach from the other side.
     EXPECT_EQ(test::has(s.notices, NoticeCode::stop_overshot), by_m > 60e-6) << by_m;
+    for (const Notice& told : s.notices) {
+      if (told.code != NoticeCode::stop_overshot) continue;
+      EXPECT_NEAR(std::get<double>(*value(told, "most_mm")), by_m * 1e3, 0.01);
+    }
   }
 }
 

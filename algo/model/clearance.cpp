@@ -23,10 +23,12 @@ double approach_of(const FixtureProbe& probe, const Vec3& along) {
 
 ApproachedProbe probe_clearance(const Rig& rig, std::size_t k, double approach) {
   const Probe& probe = rig.probes[k];
-  ApproachedProbe out{probe.id, probe.range_m / 2 / std::abs(approach), {}, 0};
-  double standoff_m = rig.physics ? rig.physics->probes.at(k).standoff_m : 0;
+  const auto [low_um, high_um] = readings_of_range(probe);  // 0 at the nominal surface
+  const double range_m = from_um(std::max(0.0, std::min(-low_um, high_um)));
+  ApproachedProbe out{probe.id, range_m / std::abs(approach), {}, 0};
+  double standoff_m = probe.standoff_m;
   if (!(standoff_m > 0) && probe.calibration.reads_gap)
-    standoff_m = from_um(probe.calibration.offset_um);  // reading at the nominal surface
+    standoff_m = from_um(probe.calibration.offset_um);
   if (standoff_m > 0) out.contact_m = standoff_m / std::abs(approach);
   // If the standoff is known or the probe reads a gap, the direction of the probe points from the
   // surface to the probe.

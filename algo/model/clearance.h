@@ -15,7 +15,9 @@ namespace mdof::algo {
 // A probe whose distance from the target changes when an axis moves.
 struct ApproachedProbe {
   std::string id;
-  double range_m = 0;  // travel of the target from its nominal position to the end of the range
+  // Travel of the target from its nominal position to the nearer end of the range (range_um,
+  // valid_um and offset_um of the probe).
+  double range_m = 0;
   // Travel of the target until it touches the probe; empty: the gap at the nominal position is
   // unknown.
   std::optional<double> contact_m;

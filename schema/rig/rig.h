@@ -64,6 +64,9 @@ struct Probe {
   // The direction in the rig, if a calibration has found another direction. If there is no
   // [[plane]], the target was made and aligned perpendicular to this nominal direction.
   std::optional<Vec3> nominal_direction = {};
+  // Gap when the surface is at its nominal position (standoff_um; with reads_gap, offset_um is used
+  // if the key is missing); 0: not declared.
+  double standoff_m = 0;
 };
 
 // Known flatness deviation of a target plane: height above the plane on a grid. Between the grid

@@ -189,8 +189,10 @@ void read_physics(TomlTable& table, Rig& rig) {
   physics.air = read_air(table);
   auto tables = table.tables("probe");
   if (tables.size() != rig.probes.size()) return;  // parse_rig() rejects this
-  for (std::size_t k = 0; k < tables.size(); ++k)
+  for (std::size_t k = 0; k < tables.size(); ++k) {
     physics.probes.push_back(read_probe_physics(tables[k], rig.probes[k]));
+    rig.probes[k].standoff_m = physics.probes.back().standoff_m;
+  }
   apply_certificate_uncertainties(table, rig, physics);
   check_needs(table, tables, rig, physics);
   if (!physics.linearity.value_or(true)) remove_linearity(rig, physics);

@@ -61,6 +61,23 @@ TEST(Clearance, GapAndStandoffShowDirectionAndContact) {
   EXPECT_NEAR(motions[1].probes[0].contact_m.value(), 100e-6, 1e-12);
 }
 
+// The surface is at a reading of 20, 30 or 150 um when the target is at its nominal position.
+TEST(Clearance, RangeEndsAtTheNearerLimitOfTheReadings) {
+  const auto range_um = [](const std::string& keys) {
+    return motion_clearances(rig_of("+Y", "X", keys)).value()[1].probes[0].range_m * 1e6;
+  };
+  EXPECT_NEAR(range_um("offset_um = 20\n"), 80, 1e-6);
+  EXPECT_NEAR(range_um("offset_um = -20\n"), 80, 1e-6);
+  EXPECT_NEAR(range_um("reads = \"gap\"\noffset_um = 30\n"), 30, 1e-6);
+  EXPECT_NEAR(range_um("reads = \"gap\"\noffset_um = 150\nvalid_um = [140, 160]\n"), 10, 1e-6);
+}
+
+TEST(Clearance, StandoffAloneShowsTheContact) {
+  const auto motions = motion_clearances(rig_of("+Y", "X", "standoff_um = 250\n")).value();
+  EXPECT_NEAR(motions[1].probes[0].contact_m.value(), 250e-6, 1e-12);
+  EXPECT_EQ(motions[1].probes[0].towards, 1);
+}
+
 // The code transforms a rig for Y into its local frame and the result back to machine axes.
 TEST(Clearance, RefersToTheMachineAxesForAnyAxis) {
   std::string text = "name = \"r\"\naxis = \"Y\"\n";

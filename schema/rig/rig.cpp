@@ -228,6 +228,14 @@ void check_machine(TomlTable& table, const Rig& rig) {
 
 constexpr std::size_t kMostProbes = 1000;  // limits the time for the comparison of all pairs
 
+void reject_double_planes(TomlTable& table, const std::vector<TargetPlane>& planes) {
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (planes[i].id == planes[j].id)
+        return table.reject(
+            "plane", "two planes are called \"" + planes[i].id + "\"; give each plane its own id");
+}
+
 void reject_doubles(TomlTable& table, const std::vector<Probe>& probes) {
   for (std::size_t i = 0; i < probes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -363,6 +371,7 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
                               " are possible");
   else
     reject_doubles(table, rig.probes);
+  reject_double_planes(table, rig.planes);
   rig.report = read_report_facts(table);
   apply_records(table, toml_text, rig);
   read_physics(table, rig);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "schema/base/toml/toml_reader.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/units.h"
 
 namespace mdof {
@@ -108,9 +109,20 @@ void Check::check_calibration(std::size_t k) {
   double most_um = 0;
   for (const auto& [reading_um, correction_um] : c.linearity)
     most_um = std::max(most_um, std::abs(correction_um));
-  within(kCorrectionRatio, most_um / range_um, "probe", k, "linearity",
+  // Beyond the range that it was made for, a polynomial can have any value, so that a large value
+  // is never impossible.
+  const auto [first_um, last_um] = readings_of_range(probe);
+  if (!c.polynomial_um.empty())
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+      most_um = std::max(
+          most_um,
+          std::min(range_um, std::abs(linearity_um(c, first_um + share * (last_um - first_um)))));
+  within(kCorrectionRatio, most_um / range_um, "probe", k,
+         c.polynomial_um.empty() ? "linearity" : "polynomial_um",
          " times the range is an unusual linearity correction of the probe \"" + probe.id +
-             "\"; give pairs [reading_um, correction_um]");
+             "\"; give the corrections that are added to the readings, " +
+             (c.polynomial_um.empty() ? "pairs [reading_um, correction_um]"
+                                      : "not a polynomial of the whole displacement"));
   const double low_um = c.valid_um ? (*c.valid_um)[0] : c.reads_gap ? 0 : -range_um / 2;
   const double high_um = c.valid_um ? (*c.valid_um)[1] : c.reads_gap ? range_um : range_um / 2;
   if (c.offset_um >= low_um && c.offset_um <= high_um) return;

@@ -125,6 +125,18 @@ TEST(RigCheck, ReportsCalibrationsInOtherUnits) {
   expect_warned(kRig + "linearity = [[-100, 30], [100, -10]]\n", {"r.toml:15: ", "linearity"});
 }
 
+TEST(RigCheck, ReportsAPolynomialOfTheWholeDisplacement) {
+  expect_right(kRig + "polynomial_um = [0.1, 0.0002]\n");
+  for (const char* text : {"[0, 1.0002]", "[0, -2]", "[0, 0, 0.1]"})
+    expect_warned(kRig + "polynomial_um = " + text + "\n", {"r.toml:15: ", "polynomial_um"});
+}
+
+TEST(RigCheck, RejectsTwoPlanesOfOneName) {
+  const std::string plane = "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n";
+  expect_right(kRig + plane);
+  expect_refused(kRig + plane + plane, {"two planes are called \"top\""});
+}
+
 TEST(RigCheck, ReportsTargetsInOtherUnits) {
   expect_refused("artefact_angle_error_urad = 1.5708e6\n" + kRig,
                  {"r.toml:1: ", "artefact_angle_error_urad", "90 degrees"});

@@ -231,7 +231,7 @@ constexpr std::size_t kMostProbes = 1000;  // limits the time for the comparison
 void reject_double_planes(TomlTable& table, const std::vector<TargetPlane>& planes) {
   for (std::size_t i = 0; i < planes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (planes[i].id == planes[j].id)
+      if (!planes[i].id.empty() && planes[i].id == planes[j].id)
         return table.reject(
             "plane", "two planes are called \"" + planes[i].id + "\"; give each plane its own id");
 }

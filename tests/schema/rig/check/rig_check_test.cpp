@@ -135,6 +135,7 @@ TEST(RigCheck, RejectsTwoPlanesOfOneName) {
   const std::string plane = "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n";
   expect_right(kRig + plane);
   expect_refused(kRig + plane + plane, {"two planes are called \"top\""});
+  expect_right(kRig + "[[plane]]\nnormal = \"+Z\"\n[[plane]]\nnormal = \"+Y\"\n");  // without names
 }
 
 TEST(RigCheck, ReportsTargetsInOtherUnits) {

@@ -19,7 +19,8 @@ target_link_options(mdof_options INTERFACE -Wl,-z,relro,-z,now)
 # information. When files are compiled together, precompiled headers save little.
 option(MDOF_BUILD_QUICKLY "Spend as little time as possible on compiling" OFF)
 
-# Assertions guard against bugs and stay on in Release.
+# Assertions guard against bugs and stay on in Release. No build has debug information, which takes a fifth of its time;
+# CXXFLAGS=-g1 adds line numbers.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2")
 if(MDOF_BUILD_QUICKLY)
   set(CMAKE_CXX_FLAGS_RELEASE "-O0")

@@ -26,13 +26,10 @@ ApproachedProbe probe_clearance(const Rig& rig, std::size_t k, double approach) 
   const auto [low_um, high_um] = readings_of_range(probe);  // 0 at the nominal surface
   const double range_m = from_um(std::max(0.0, std::min(-low_um, high_um)));
   ApproachedProbe out{probe.id, range_m / std::abs(approach), {}, 0};
-  double standoff_m = probe.standoff_m;
-  if (!(standoff_m > 0) && probe.calibration.reads_gap)
-    standoff_m = from_um(probe.calibration.offset_um);
-  if (standoff_m > 0) out.contact_m = standoff_m / std::abs(approach);
+  if (probe.standoff_m > 0) out.contact_m = probe.standoff_m / std::abs(approach);
   // If the standoff is known or the probe reads a gap, the direction of the probe points from the
   // surface to the probe.
-  if (standoff_m > 0 || probe.calibration.reads_gap) out.towards = approach > 0 ? 1 : -1;
+  if (probe.standoff_m > 0 || probe.calibration.reads_gap) out.towards = approach > 0 ? 1 : -1;
   return out;
 }
 

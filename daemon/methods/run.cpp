@@ -158,8 +158,8 @@ void begin_run(const Methods& m, Station& station, RunRequest request, Reply rep
   append_new(request.notices, unsettled_clock_notices(station));
   append_new(request.notices, device_setting_notices(station));
   // The reply contains the notice that the datum is missing. The stored run does not need this
-  // notice, because its options contain the kind of its datum. However, the options do not show that
-  // offset_mm of the configuration has replaced a position that a user had set.
+  // notice, because its options contain the kind of its datum. However, the options do not show
+  // that offset_mm of the configuration has replaced a position that a user had set.
   const EncoderState encoder = station.encoder();
   const bool is_replaced = encoder.notice && encoder.notice->code == NoticeCode::position_lost &&
                            encoder.datum.kind == EncoderDatum::Kind::configured;

@@ -123,12 +123,10 @@ void Check::check_calibration(std::size_t k) {
              "\"; give the corrections that are added to the readings, " +
              (c.polynomial_um.empty() ? "pairs [reading_um, correction_um]"
                                       : "not a polynomial of the whole displacement"));
-  const double low_um = c.valid_um ? (*c.valid_um)[0] : c.reads_gap ? 0 : -range_um / 2;
-  const double high_um = c.valid_um ? (*c.valid_um)[1] : c.reads_gap ? range_um : range_um / 2;
-  if (c.offset_um >= low_um && c.offset_um <= high_um) return;
+  if (first_um <= 0 && last_um >= 0) return;
   add(std::abs(c.offset_um) > kRange_um.most_possible, "probe", k, "offset_um",
       text_of(c.offset_um) + " um is outside the range of readings of the probe \"" + probe.id +
-          "\" (" + text_of(low_um) + " to " + text_of(high_um) +
+          "\" (" + text_of(first_um + c.offset_um) + " to " + text_of(last_um + c.offset_um) +
           " um); give the raw reading at the nominal surface, in um");
 }
 

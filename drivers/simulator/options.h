@@ -11,10 +11,10 @@
 
 namespace mdof::drivers {
 
-// One error of the moving body with its name in ISO 230-1, as a function of the position d of the
-// axis: E(d) = amplitude sin(2π (d / period + phase)) + slope d ± reversal / 2 The sign is + while
-// the axis moves forward and - while it moves back: E_forward - E_reverse = reversal. Unit: µm for
-// a linear error, µrad for an angle.
+// One error of the moving body with its name in ISO 230-1, at the position d of the axis:
+// E(d) = amplitude sin(2π (d / period + phase)) + slope d ± reversal / 2
+// The sign is + while the axis moves forward and - while it moves back: E_forward - E_reverse =
+// reversal. Unit: µm for a linear error, µrad for an angle.
 struct NamedError {
   std::string name;         // key `name`: "EYX"
   double amplitude = 0;     // keys amplitude_um, amplitude_urad

@@ -20,7 +20,13 @@ constexpr double kMostDrift = 1e-3;  // 1000 ppm; no clock has a larger drift
 constexpr double kSlew = 2e-3;       // largest correction of the returned time / elapsed time
 // The same before the first fit; the value is large, so that the offset is corrected quickly.
 constexpr double kFirstSlew = 0.2;
-constexpr double kStep_ns = 0.1e9;  // larger than any jitter; a packet with a larger delay is late
+// Larger than any jitter: the limit before the first fit, and the largest limit after it.
+constexpr double kStep_ns = 0.1e9;
+// Smallest limit after the first fit. Many adapters of a serial line send only every 16 ms, so that
+// the delay may change by 16 ms.
+constexpr double kLeastStep_ns = 20e6;
+constexpr double kStepScatters = 10;
+constexpr std::size_t kLatePackets = 8;  // single packets may be late
 // If packets are late for a longer time, the clock has stepped.
 constexpr std::int64_t kLongestLateness_ns = 60'000'000'000;
 
@@ -32,7 +38,7 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-DeviceClock::DeviceClock(double nominal_tick_ns) : tick_ns_(nominal_tick_ns) {
+DeviceClock::DeviceClock(double nominal_tick_ns) : tick_ns_(nominal_tick_ns), limit_ns_(kStep_ns) {
   assert(nominal_tick_ns > 0);
 }
 
@@ -59,7 +65,7 @@ void DeviceClock::add(std::int64_t ticks, std::int64_t received_ns) {
   const double offset = static_cast<double>(received_ns - *first_ns_) - nominal;
   // The packet arrived earlier than it can have been sent. This shows that the device's time has
   // jumped forward.
-  if (offset < intercept_ns_ + slope_ * nominal - kStep_ns) return step(ticks, received_ns);
+  if (offset < intercept_ns_ + slope_ * nominal - limit_ns_) return step(ticks, received_ns);
   if (!best_.empty() && is_late(offset, nominal, received_ns)) {
     if (received_ns - *late_since_ns_ > kLongestLateness_ns) step(ticks, received_ns);
     return;
@@ -67,15 +73,19 @@ void DeviceClock::add(std::int64_t ticks, std::int64_t received_ns) {
   take(ticks, received_ns, offset, nominal);
 }
 
-// Late packets are not used for the line.
+// Late packets are not used for the line. Packets that are less late than kStep_ns must persist.
 bool DeviceClock::is_late(double offset_ns, double nominal_ns, std::int64_t received_ns) {
   late_ns_ = offset_ns - (intercept_ns_ + slope_ * nominal_ns);
-  if (late_ns_ <= kStep_ns) {
+  if (late_ns_ <= limit_ns_) {
+    behind_ = 0;
     late_since_ns_.reset();
     return false;
   }
-  if (!late_since_ns_) late_since_ns_ = received_ns;
-  return true;
+  if (++behind_ == 1) behind_since_ns_ = received_ns;
+  const bool persists =
+      behind_ >= kLatePackets && static_cast<double>(received_ns - behind_since_ns_) >= kStretch_ns;
+  if (!late_since_ns_ && (persists || late_ns_ > kStep_ns)) late_since_ns_ = received_ns;
+  return late_since_ns_.has_value();
 }
 
 void DeviceClock::take(std::int64_t ticks, std::int64_t received_ns, double offset,
@@ -115,6 +125,8 @@ void DeviceClock::fit() {
   slope_ = std::clamp(median(slopes), -kMostDrift, kMostDrift);
   for (const Best& b : best_) rest.push_back(b.offset_ns - slope_ * nominal_ns(b.ticks));
   intercept_ns_ = median(rest);
+  for (double& r : rest) r = std::abs(r - intercept_ns_);
+  limit_ns_ = std::min(kStep_ns, kLeastStep_ns + kStepScatters * median(rest));
   fitted_ = true;
 }
 

@@ -10,11 +10,18 @@
 // without steps and never decrease. The smallest delay itself cannot be observed; it shifts all
 // times of a device by the same amount.
 //
+// A packet that arrives earlier than the line allows shows a jump of the device clock forward: a
+// step. A step shifts the times. The clock is then uncertain until a new line is fitted.
+//
 // While packets are late, the class cannot distinguish a slow connection from a device clock that
 // has stopped for a while. The line is then not changed, so that the times are correct if only the
 // connection is slow. The clock is flagged as uncertain until packets arrive in time again. If
-// packets are late for one minute, the class treats this as a step of the device clock. A step
-// shifts the times. The clock is then uncertain until a new line is fitted.
+// packets are late for one minute, the class treats this as a step of the device clock.
+//
+// Before the first fit, a distance from the line of more than 100 ms is early or late. After it,
+// the limit is 20 ms plus ten times the typical distance of the quickest packets from the line, at
+// most 100 ms. Single packets between this limit and 100 ms may be late: then eight packets in
+// 0.25 s must be late without any packet in time.
 #pragma once
 
 #include <cstdint>
@@ -79,7 +86,11 @@ class DeviceClock {
   bool fitted_ = false, has_returned_time_ = false;
   // Number of stretches after a step until the clock is certain.
   std::size_t uncertain_stretches_ = 0;
-  double late_ns_ = 0;  // distance of the newest packet from the line, if this packet is late
+  double limit_ns_;     // a packet with a larger distance from the line is early or late
+  double late_ns_ = 0;  // distance of the newest packet from the line
+  // Number of packets beyond the limit since the last packet in time, and the arrival of the first.
+  std::size_t behind_ = 0;
+  std::int64_t behind_since_ns_ = 0;
   std::optional<std::int64_t> late_since_ns_;
   std::uint64_t steps_ = 0;
 };

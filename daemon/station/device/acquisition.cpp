@@ -158,6 +158,8 @@ bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
   scans_in_window_ = lost_in_window_ = 0;
   refresh_info(driver);
   just_opened_ = true;
+  // Some drivers begin a new clock, whose number of steps is 0. This is no jump.
+  if (const drivers::DeviceClock* clock = driver.clock()) clock_steps_ = clock->steps();
   return read_until_trouble(driver, pass);
 }
 
@@ -245,11 +247,11 @@ void Acquisition::report_clock(const drivers::ClockState& clock) {
         "or are evaluated without the probes of this device. Check the power and the network, "
         "then measure these stops again");
   else if (clock.doubtful && !was)
-    report(
-        Trouble::Kind::clock,
-        "the packets arrive " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
-            " s late, or the device clock stood still; the samples are suspect until mdofd reports "
-            "that their times are valid again; check the network and the load of this computer");
+    report(Trouble::Kind::clock,
+           "the packets arrive " + std::to_string(clock.late_ns / 1'000'000) +
+               " ms late, or the device clock stood still; the samples are suspect until mdofd "
+               "reports "
+               "that their times are valid again; check the network and the load of this computer");
   else if (was && !clock.doubtful)
     report(Trouble::Kind::back, "the times of the samples are valid again");
 }

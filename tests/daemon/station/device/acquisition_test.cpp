@@ -20,9 +20,11 @@ struct Script {
     open,
     slow_open,
     reopen_at_zero,
+    open_with_new_clock,
     refuse,
     block,
     late_block,
+    block_after_jump,
     silence,
     fail,
     end,
@@ -43,6 +45,7 @@ class Scripted final : public drivers::Driver {
   Status open() override {
     const auto act = next();
     if (act == Script::Act::reopen_at_zero) datum_lost_ = "it counts from 0 again";
+    if (act == Script::Act::open_with_new_clock) clock_ = drivers::DeviceClock(1.0);
     if (act == Script::Act::slow_open) std::this_thread::sleep_for(milliseconds(300));
     return act == Script::Act::refuse ? io_error("10.0.0.9: no route") : Status();
   }
@@ -55,6 +58,10 @@ class Scripted final : public drivers::Driver {
         return drivers::ReadState::end;
       case Script::Act::late_block:
         clock_.add(script_.time_ns, script_.time_ns + 300'000'000);
+        fill(block);
+        break;
+      case Script::Act::block_after_jump:  // the clock jumps forward by 1 s
+        clock_.add(script_.time_ns + 1'000'000'000, script_.time_ns);
         fill(block);
         break;
       case Script::Act::slow_read:
@@ -357,8 +364,24 @@ TEST(Acquisition, SamplesAreSuspectWhileTheirClockIsUncertain) {
       EXPECT_EQ(blocks[b].quality_at(0, i), b == 1 || b == 2 ? Quality::suspect : Quality::good);
   const auto troubles = collector.troubles();
   ASSERT_EQ(troubles.size(), 2u);
-  EXPECT_NE(troubles[0].find("clock: the packets arrive 0.3 s late"), std::string::npos);
+  EXPECT_NE(troubles[0].find("clock: the packets arrive 300 ms late"), std::string::npos);
   EXPECT_NE(troubles[1].find("back: the times of the samples are valid again"), std::string::npos);
+  EXPECT_TRUE(acquisition.status().standing.empty());
+}
+
+// The driver begins a new clock when it opens the device again. The new clock has not jumped.
+TEST(Acquisition, ANewClockOfAnOpenedDeviceHasNotJumped) {
+  Collector collector;
+  Acquisition acquisition(
+      scripted_spec({open, block, block_after_jump, fail, open_with_new_clock, block, block}),
+      collector.sink());
+  acquisition.start();
+  ASSERT_TRUE(collector.wait_for(4));
+  acquisition.stop();
+  int jumps = 0;
+  for (const std::string& trouble : collector.troubles())
+    jumps += trouble.find("clock: the device clock jumped") != std::string::npos;
+  EXPECT_EQ(jumps, 1);
   EXPECT_TRUE(acquisition.status().standing.empty());
 }
 

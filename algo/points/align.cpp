@@ -77,12 +77,10 @@ Aligner::Aligner(AlignOptions options, std::vector<std::string> probe_ids)
   lag_bound_ns_ = to_ns(options_.lag_bound_s) + delay_ns_;
 }
 
-// Returns whether the frames can be copied from this block: it has all channels of the rig, and no
-// probe has a delay. Finds the columns of the channels; -1: the channel is missing.
-bool Aligner::whole(const SampleBlock& block) {
+// Finds the columns of the channels; -1: the channel is missing.
+bool Aligner::has_all_channels(const SampleBlock& block) {
   // A block with fewer channels than the rig is from one of several devices.
   if (block.channels.size() <= probes_.size()) return false;
-  if (!options_.delay_s.empty()) return false;  // the readings of a scan have different times
   if (block.channels != known_channels_) {
     known_channels_ = block.channels;
     channel_of_.assign(probes_.size() + 1, -1);
@@ -130,9 +128,11 @@ Status Aligner::push(SampleBlock& block, FrameBlock& out) {
   out.probe_m.resize(probes_.size());
   out.probe_quality.resize(probes_.size());
   if (block.scans() == 0) return {};
-  if (!whole(block)) {
+  const bool all_channels = has_all_channels(block);
+  // With delays, the readings of a scan have different times.
+  if (!all_channels || !options_.delay_s.empty()) {
     if (out.size() == 0) clear_columns(out);
-    MDOF_CHECK(enqueue(block));
+    MDOF_CHECK(enqueue(block, all_channels));
     emit(out, false);
     drop_expired_samples();
     return {};
@@ -147,19 +147,30 @@ Status Aligner::push(SampleBlock& block, FrameBlock& out) {
   return {};
 }
 
-Status Aligner::enqueue(const SampleBlock& block) {
+Status Aligner::enqueue(const SampleBlock& block, bool all_channels) {
   for (std::size_t c = 0; c < block.channels.size(); ++c) {
     Track* track = block.channels[c].id == encoder_.id ? &encoder_ : nullptr;
     for (Track& probe : probes_) {
       if (probe.id == block.channels[c].id) track = &probe;
     }
-    if (track) MDOF_CHECK(enqueue_channel(block, c, *track));
+    if (track) MDOF_CHECK(enqueue_channel(block, c, *track, all_channels));
   }
   newest_ns_ = std::max(newest_ns_, block.time_ns.back());
   return {};
 }
 
-Status Aligner::enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track) {
+bool Aligner::is_gap(Track& track, std::int64_t interval_ns, bool all_channels) {
+  track.intervals_ns[track.intervals++ % track.intervals_ns.size()] = interval_ns;
+  if (interval_ns <= track.gap_ns || !all_channels) return interval_ns > track.gap_ns;
+  auto last = track.intervals_ns;
+  const auto n = static_cast<std::ptrdiff_t>(std::min(track.intervals, last.size()));
+  std::nth_element(last.begin(), last.begin() + n / 2, last.begin() + n);
+  return static_cast<double>(interval_ns) >
+         kGapIntervals * static_cast<double>(last[static_cast<std::size_t>(n / 2)]);
+}
+
+Status Aligner::enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track,
+                                bool all_channels) {
   for (std::size_t i = 0; i < block.scans(); ++i) {
     const std::int64_t t = block.time_ns[i] - track.delay_ns;
     if (t <= track.newest_ns) {
@@ -167,8 +178,10 @@ Status Aligner::enqueue_channel(const SampleBlock& block, std::size_t channel, T
                        ": the time does not increase from " + std::to_string(track.newest_ns) +
                        " ns to " + std::to_string(t) + " ns");
     }
+    const bool after_gap =
+        track.newest_ns != INT64_MIN && is_gap(track, t - track.newest_ns, all_channels);
     track.newest_ns = t;
-    track.readings.push_back({t, block.value[channel][i], block.quality_at(channel, i)});
+    track.readings.push_back({t, block.value[channel][i], block.quality_at(channel, i), after_gap});
   }
   return {};
 }
@@ -179,20 +192,20 @@ Aligner::Reading Aligner::value_at(Track& track, std::int64_t time_ns) {
   auto& readings = track.readings;
   ++track.asked;
   while (readings.size() >= 2 && readings[1].time_ns <= time_ns) readings.pop_front();
-  const Reading nothing{time_ns, kNaN, Quality::missing};
+  const Reading nothing{time_ns, kNaN, Quality::missing, false};
   if (readings.empty() || readings.front().time_ns > time_ns) return nothing;
   const Reading& a = readings.front();
   if (a.time_ns == time_ns) return a;
   if (readings.size() < 2) return nothing;
   const Reading& b = readings[1];
-  if (b.time_ns - a.time_ns > track.gap_ns) {
+  if (b.after_gap) {
     ++track.in_gap;
     track.shortest_gap_ns = std::min(track.shortest_gap_ns, b.time_ns - a.time_ns);
     return nothing;
   }
   const double share =
       static_cast<double>(time_ns - a.time_ns) / static_cast<double>(b.time_ns - a.time_ns);
-  return {time_ns, a.value + (b.value - a.value) * share, std::max(a.quality, b.quality)};
+  return {time_ns, a.value + (b.value - a.value) * share, std::max(a.quality, b.quality), false};
 }
 
 // Returns whether the value at this time contains a new sample of the probe. Call value_at()

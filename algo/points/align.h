@@ -1,6 +1,7 @@
 // Converts samples of several devices to frames at the times of the encoder.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -24,7 +25,8 @@ struct AlignOptions {
   // different blocks.
   double lag_bound_s = 3;
   // If the time between two samples is longer than this, it is a gap. Values in a gap are not
-  // interpolated.
+  // interpolated. If one device measures the encoder and all probes, a gap is also longer than 2.5
+  // of the last sampling intervals (median of nine).
   double max_gap_s = 0.05;
   // Time between two samples of each slow channel, as its device states it. For these channels only
   // a time above 2.5 intervals is a gap, so that one late or lost sample is ignored.
@@ -74,6 +76,7 @@ class Aligner {
     std::int64_t time_ns;
     double value;
     Quality quality;
+    bool after_gap;  // the time since the previous reading is a gap
   };
   struct Track {
     std::string id;
@@ -83,13 +86,17 @@ class Aligner {
     std::int64_t gap_ns = 0, delay_ns = 0;
     std::uint64_t asked = 0, in_gap = 0;  // number of values, and number of values in a gap
     std::int64_t shortest_gap_ns = INT64_MAX;
+    std::array<std::int64_t, 9> intervals_ns = {};  // the last intervals, in any order
+    std::size_t intervals = 0;                      // number of all intervals so far
   };
 
-  bool whole(const SampleBlock& block);
+  bool has_all_channels(const SampleBlock& block);
   void take_whole(SampleBlock& block, FrameBlock& out);
   void limit_probe_quality(FrameBlock& out, std::size_t before, const SampleBlock& block) const;
-  Status enqueue(const SampleBlock& block);
-  Status enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track);
+  Status enqueue(const SampleBlock& block, bool all_channels);
+  Status enqueue_channel(const SampleBlock& block, std::size_t channel, Track& track,
+                         bool all_channels);
+  static bool is_gap(Track& track, std::int64_t interval_ns, bool all_channels);
   void emit(FrameBlock& out, bool at_end);
   void drop_expired_samples();
   static Reading value_at(Track& track, std::int64_t time_ns);

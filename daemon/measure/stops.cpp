@@ -6,6 +6,7 @@
 #include "algo/points/align.h"
 #include "algo/points/dwell.h"
 #include "algo/points/flags.h"
+#include "daemon/measure/delays.h"
 #include "daemon/measure/replay/replay.h"
 #include "drivers/calibration.h"
 #include "schema/base/number/number_text.h"
@@ -46,15 +47,15 @@ Result<LogStops> read_stops(const std::string& path, Axis axis, const Rig& rig) 
   MDOF_CHECK(check_log(log, axis, rig));
   std::vector<std::string> ids;
   std::vector<double> ranges_m;
-  algo::AlignOptions options;
   for (const Probe& probe : rig.probes) {
     ids.push_back(probe.id);
     ranges_m.push_back(probe.range_m);
-    if (probe.delay_s > 0) options.delay_s[probe.id] = probe.delay_s;
   }
+  PipelineOptions options = with_delays({}, rig, {});
+  options.dwell.settle_s = std::max(options.dwell.settle_s, options.dwell.leave_s);
   const drivers::Calibrator calibrator(rig);
-  algo::Aligner aligner(options, ids);
-  algo::DwellDetector dwell({}, ids, ranges_m);
+  algo::Aligner aligner(options.align, ids);
+  algo::DwellDetector dwell(options.dwell, ids, ranges_m);
   LogStops found;
   found.units = units_of(log.driver().info().channels, rig);
   FrameBlock frames;
@@ -77,7 +78,7 @@ Result<LogStops> read_stops(const std::string& path, Axis axis, const Rig& rig) 
   if (found.stops.empty())
     return bad_input(path + ": no stop found: the axis was at rest for at most " +
                      plain_number(dwell.summary().longest_still_s) + " s, but a stop must last " +
-                     plain_number(algo::DwellOptions().shortest_s()) +
+                     plain_number(options.dwell.shortest_s()) +
                      " s; let the axis stop longer at each position");
   for (Point& stop : found.stops) leave_out(stop, rig);
   found.sha256 = log.sha256();

@@ -250,6 +250,44 @@ TEST(Aligner, ReportsAnUndeclaredSlowProbe) {
   EXPECT_NEAR(test::number(unknown.too_slow.at("A"), "needed_gap_s"), 0.25, 1e-9);
 }
 
+// One device scans the encoder and probe A at 5 Hz for 20 s; the readings are 8 ms late, so A reads
+// 2 (t - 8 ms), in ms. At 8 s one scan is missing, at 14 s four scans are missing. An interval of two
+// periods is no gap; the five periods from 13.8 to 14.8 s are a gap.
+struct SlowScans {
+  FrameBlock out;
+  std::size_t missing = 0;
+  double worst = 0;
+
+  explicit SlowScans(std::int64_t blocks_of) {
+    Aligner aligner({.delay_s = {{"A", 0.008}}}, {"A"});
+    std::vector<std::int64_t> times;
+    for (std::int64_t t = 0; t <= 20'000; t += 200) {
+      if (t != 8'000 && (t < 14'000 || t >= 14'800)) times.push_back(t);
+      if (t < 20'000 && static_cast<std::int64_t>(times.size()) < blocks_of) continue;
+      SampleBlock scans = block("log", {"encoder", "A"}, times, 1.0);
+      for (double& a : scans.value[1]) a = 2 * (a - 8);
+      EXPECT_TRUE(aligner.push(scans, out));
+      times.clear();
+    }
+    aligner.flush(out);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      missing += out.quality_at(0, i) == Quality::missing;
+      if (!std::isnan(out.probe_m[0][i]))
+        worst = std::max(worst, std::abs(out.probe_m[0][i] - 2 * out.encoder_m[i]));
+    }
+  }
+};
+
+// 101 scans less 5; the last scan has no delayed reading. The scan before the gap is missing.
+TEST(Aligner, CorrectsDelaysOfScansThatAreSlowerThanTheGap) {
+  for (const std::int64_t blocks_of : {1, 7, 1000}) {
+    const SlowScans slow(blocks_of);
+    EXPECT_EQ(slow.out.size(), 95u) << blocks_of;
+    EXPECT_EQ(slow.missing, 1u) << blocks_of;
+    EXPECT_LT(slow.worst, 1e-9) << blocks_of;
+  }
+}
+
 // A probe sends every 2 ms, the encoder every 1 ms. The row between two readings is the first that
 // uses the later reading, so it is fresh. The row at the later reading repeats it. A probe that is
 // as fast as the encoder has no marks.

@@ -19,6 +19,12 @@ double of(const ChannelDelays& delays, const std::string& id) {
   return found == delays.end() ? 0 : found->second;
 }
 
+double longest_s(const Rig& rig, const ChannelDelays& delays) {
+  std::vector<double> all_s;
+  for (const Probe& probe : rig.probes) all_s.push_back(of(delays, probe.id));
+  return all_s.empty() ? 0 : *std::max_element(all_s.begin(), all_s.end());
+}
+
 // Returns "" if the rig has a channel with this id, otherwise the text of the error.
 std::string delay_problem(const std::string& id, const Rig& rig) {
   std::vector<std::string> known = {kEncoderChannel};
@@ -70,14 +76,18 @@ PipelineOptions with_delays(PipelineOptions options, const Rig& rig, const Chann
 }
 
 PipelineOptions with_delays_of(const Rig& rig, const Rig& recorded, PipelineOptions options) {
+  auto& relative_s = options.align.delay_s;
+  const double encoder_s = options.dwell.leave_s - longest_s(recorded, relative_s);
+  bool differ = false, changed = false;
   for (const Probe& probe : rig.probes) {
     const auto before = recorded.probe_index(probe.id);
     const double more_s = probe.delay_s - (before ? recorded.probes[*before].delay_s : 0);
-    if (more_s == 0) continue;
-    double& delay_s = options.align.delay_s[probe.id];
-    delay_s += more_s;
-    options.dwell.leave_s = std::max(options.dwell.leave_s, delay_s);
+    changed = changed || more_s != 0;
+    relative_s[probe.id] += more_s;
+    differ = differ || relative_s[probe.id] != 0;
   }
+  if (changed) options.dwell.leave_s = std::max(0.0, encoder_s + longest_s(rig, relative_s));
+  if (!differ) relative_s.clear();
   return options;
 }
 

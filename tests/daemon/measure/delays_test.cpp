@@ -93,6 +93,28 @@ TEST(Delays, AReplayUsesTheDelaysOfItsRig) {
   EXPECT_EQ(with_delays_of(rig, Rig(), {}).align.delay_s.at("A"), 0.006);
 }
 
+// Recorded: probe A 8 ms in the rig, encoder and probe B 2 ms in the device. The end of a stop that
+// is left out is the longest delay of a probe.
+TEST(Delays, AReplayWithSmallerDelaysLeavesOutLessOfEachStop) {
+  Rig recorded = two_probes(), rig = two_probes();
+  recorded.probes[0].delay_s = 0.008;
+  const ChannelDelays channels = {{"B", 0.002}, {"encoder", 0.002}};
+  const PipelineOptions options = with_delays({}, recorded, channels);
+  EXPECT_DOUBLE_EQ(options.dwell.leave_s, 0.008);
+  EXPECT_DOUBLE_EQ(with_delays_of(rig, recorded, options).dwell.leave_s, 0.002);
+  rig.probes[0].delay_s = 0.003;
+  EXPECT_DOUBLE_EQ(with_delays_of(rig, recorded, options).dwell.leave_s, 0.003);
+  rig.probes[1].delay_s = 0.009;  // 11 ms with the delay of the channel
+  EXPECT_DOUBLE_EQ(with_delays_of(rig, recorded, options).dwell.leave_s, 0.011);
+}
+
+TEST(Delays, AReplayWithoutDelaysLeavesTheScansUnchanged) {
+  Rig recorded = two_probes();
+  recorded.probes[0].delay_s = recorded.probes[1].delay_s = 0.004;
+  const PipelineOptions options = with_delays({}, recorded, {});
+  EXPECT_EQ(with_delays_of(two_probes(), recorded, options).json(), PipelineOptions().json());
+}
+
 TEST(Delays, AReplayRejectsATooShortSettlingTime) {
   PipelineOptions options = with_delays({}, two_probes(), {{"A", 0.08}});
   EXPECT_TRUE(check_settling(options));

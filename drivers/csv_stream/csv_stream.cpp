@@ -79,6 +79,7 @@ Status CsvStream::open() {
   clock_.reset();
   pace_from_.reset();
   last_received_ns_ = 0;
+  in_burst_ = false;
   MDOF_CHECK(connect());
   MDOF_CHECK(begin_rows());
   MDOF_CHECK(wait_for_header());
@@ -217,7 +218,7 @@ Status CsvStream::fetch(milliseconds timeout) {
   if (rows.empty()) return status;
   last_row_ns_ = received_ns;
   if (clock()) MDOF_CHECK(check_pace(rows, received_ns));
-  take(rows, received_ns);
+  take(rows, received_ns, *n == bytes.size());
   return status;
 }
 
@@ -238,16 +239,18 @@ tl::unexpected<Error> CsvStream::ended(const Error& why) {
                   (options_.server ? "; check that the script still runs" : ""));
 }
 
-void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
+// `more`: more rows have arrived already.
+void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns, bool more) {
   const bool own_times = clock() != nullptr;
   const std::int64_t since_ns = std::max(last_received_ns_, received_ns - kBurstGap_ns);
   own_times ? take_device_times(rows, received_ns) : spread(rows, since_ns, received_ns);
-  const bool old = !own_times && rows.size() > 1 && last_received_ns_ > 0 &&
-                   received_ns - last_received_ns_ > kBurstGap_ns;
+  // last_received_ns_ is 0 before the first rows: these may have waited for any time.
+  const bool old = !own_times && (in_burst_ || received_ns - last_received_ns_ > kBurstGap_ns);
+  in_burst_ = old && more;
   last_received_ns_ = received_ns;
   for (auto& row : rows) {
     last_time_ns_ = std::max(row.time_ns, last_time_ns_ + 1);
-    const bool newest = &row == &rows.back();
+    const bool newest = &row == &rows.back() && !more;
     if (row.restarted) note_restart();
     rows_.push_back({last_time_ns_, std::move(row.values), row.lost, old && !newest, datum_lost_});
   }

@@ -39,11 +39,11 @@ struct CsvStreamOptions {
 
 // Thread-bound. If the rows have a column time_s, its times are converted by DeviceClock. Otherwise
 // the times are the times of arrival. Rows that arrive together are then distributed evenly over
-// the time since the previous arrival, but over at most 50 ms. After a longer pause, all of these
-// rows except the newest are suspect, because their times are uncertain. A script may count
-// positions from the position at which the script was started. Therefore, unless `absolute` is
-// true, a datum that the user has set is lost when the source is opened again or sends its header
-// again.
+// the time since the previous arrival, but over at most 50 ms. After a longer pause and at the
+// start, all of these rows except the newest are suspect, because their times are uncertain. A
+// script may count positions from the position at which the script was started. Therefore, unless
+// `absolute` is true, a datum that the user has set is lost when the source is opened again or
+// sends its header again.
 class CsvStream final : public Driver {
  public:
   CsvStream(std::string name, CsvStreamOptions options);
@@ -79,7 +79,7 @@ class CsvStream final : public Driver {
   ByteStream& stream() { return child_ ? child_->output() : *stream_; }
   Status fetch(std::chrono::milliseconds timeout);
   tl::unexpected<Error> ended(const Error& why);
-  void take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns);
+  void take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns, bool more);
   static void mark_encoder_suspect(SampleBlock& block);
   void note_restart() { datum_lost_ = datum_lost_ || (datum_set_ && !options_.absolute); }
   static void spread(std::vector<CsvStreamRow>& rows, std::int64_t since_ns,
@@ -98,6 +98,7 @@ class CsvStream final : public Driver {
   std::deque<Row> rows_;    // rows that were received and not returned yet
   Status status_;           // error; read() returns it after all rows_
   bool datum_set_ = false, datum_lost_ = false;
+  bool in_burst_ = false;       // true: more of the rows that waited together are pending
   bool in_first_line_ = false;  // serial line only: the first line may be incomplete
   std::optional<TimePair> pace_from_;
   std::int64_t last_row_ns_ = 0, last_received_ns_ = 0, last_time_ns_ = 0;

@@ -245,6 +245,18 @@ TEST(CsvStream, RowsThatWaitedTogetherAreSuspect) {
   EXPECT_GT(all.time_ns[1] - all.time_ns[0], 100'000'000);
 }
 
+// At the start it is unknown for how long the first rows have waited.
+TEST(CsvStream, RowsThatWaitedBeforeTheStartAreSuspect) {
+  CsvStream stream("probe", command("printf 'A_um\\n1\\n2\\n3\\n'; sleep 5"));
+  for (int start = 0; start < 2; ++start) {
+    ASSERT_TRUE(stream.open());
+    const Collected all = collect(stream, 3);
+    ASSERT_EQ(all.quality.size(), 3u);
+    const Quality expected[] = {Quality::suspect, Quality::suspect, Quality::good};
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(all.first_quality(i), expected[i]) << i;
+  }
+}
+
 // The last row of a burst gets the time at which the burst arrived. The other rows are spread
 // evenly over the time since the previous burst. A burst after a pause of this computer is
 // suspect, and the test does not use it.

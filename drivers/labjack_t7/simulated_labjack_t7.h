@@ -46,6 +46,7 @@ class SimulatedLabjackT7 final : public SimulatedDevice {
     std::uint32_t serial = 470012345;
     float product = 7, firmware = 1.0304F;
     std::uint32_t hardware = 0, wifi_ip = 0;  // HARDWARE_INSTALLED, WIFI_IP
+    std::int64_t latency_ns = 0;  // from the begin of the last scan of a packet to its transmission
     Faults faults = {};
   };
   // Index of the first counter among the inputs.

@@ -19,7 +19,8 @@ std::string SimulatedLabjackT7::stream_packets(std::int64_t now_ns) {
     const Faults& faults = options_.faults;
     const bool gap = s.packet == faults.recovery_at + kRecoveryPackets && faults.recovery_at >= 0;
     const std::uint64_t last = s.next_scan + s.scans_per_packet + (gap ? faults.dropped : 0);
-    if (static_cast<double>(now_ns - s.start_ns) < static_cast<double>(last) * s.period_ns) break;
+    const std::int64_t since_ns = now_ns - options_.latency_ns - s.start_ns;
+    if (static_cast<double>(since_ns) < static_cast<double>(last) * s.period_ns) break;
     if (faults.silent_at >= 0 && s.packet >= faults.silent_at) break;
     s.hangs_up = s.packet == faults.hang_up_at;
     if (s.hangs_up) break;

@@ -116,7 +116,7 @@ void SimulatedPokeys57u::take(const Frame& asked, std::int64_t now_ns) {
   }
   if (gone_ || within(f.first_unanswered, f.unanswered_requests)) return;
   std::string report = wrap(Way::reply, answer(asked, now_ns));
-  std::int64_t due_ns = now_ns + kAnswer_ns;
+  std::int64_t due_ns = now_ns + kAnswer_ns + f.latency_ns;
   if (number == f.wrong_id_at) sent_.push_back({due_ns, last_report_});
   if (number == f.late_at) due_ns += f.late_ns;
   last_report_ = report;

@@ -28,7 +28,8 @@ class SimulatedPokeys57u final : public usb::SimulatedUsb {
     int bad_checksums = 1;
     int late_at = -1;  // this reply is sent late_ns later
     std::int64_t late_ns = 50'000'000;
-    int first_unanswered = -1;  // first of `unanswered_requests` requests that get no reply
+    std::int64_t latency_ns = 0;  // every reply is sent later by this time
+    int first_unanswered = -1;    // first of `unanswered_requests` requests that get no reply
     int unanswered_requests = 1;
     int index_at = -1;    // before this reply the index signal sets all counts to 0
     int restart_at = -1;  // before this reply the power of the device fails

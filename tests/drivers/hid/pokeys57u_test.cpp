@@ -326,6 +326,31 @@ TEST_F(PoKeys57uOnHid, ReadsBothBlocksOfCountersAndTheAnalogueInputs) {
   bus.reset();
 }
 
+// The channels need three requests, and each reply takes 60 ms. The device samples when it receives
+// a request, so the last value is from the beginning of the last request.
+TEST_F(PoKeys57uOnHid, AScanHasTheTimeOfItsLastRequest) {
+  std::atomic<std::int64_t> last_ns = 0;
+  SimulatedPokeys57u slow(
+      [&](std::size_t input, std::int64_t t_ns) {
+        last_ns = t_ns;
+        return still(input, t_ns);
+      },
+      {.faults = {.latency_ns = 60'000'000}});
+  ASSERT_NO_FATAL_FAILURE(bus->plug(0, slow));
+  Settings settings = settings_of({counter(0), counter(24), input("A", Unit::volt, kCounters + 1)});
+  settings.inputs[1].options = kEnabled | kCounts_x4;
+  PoKeys57u reader(settings);
+  const Status opened = reader.open();
+  ASSERT_TRUE(opened) << opened.error().message;
+  SampleBlock block;
+  for (int i = 0; i < 20 && block.scans() == 0; ++i)
+    ASSERT_TRUE(reader.read(block, milliseconds(500)));
+  ASSERT_EQ(block.scans(), 1u);
+  EXPECT_GE(block.time_ns[0], last_ns);
+  EXPECT_LE(block.time_ns[0], monotonic_ns());
+  bus.reset();
+}
+
 TEST_F(PoKeys57uOnHid, SetsAndChecksTheCountingMode) {
   Settings settings = settings_of({counter(4)});
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, device));

@@ -29,6 +29,17 @@ TEST_F(LabjackT7Driver, GivesVoltsAndMicrometresAtTheirTimes) {
   EXPECT_NEAR((value[3].back() - value[3].front()) / -0.5, 1e6 * periods / kRate_Hz, 1.1);
 }
 
+// At resolution_index 8, a scan of five inputs takes 32 ms; its packet is sent after the last
+// input. AIN0 shows when the scan began. All times are after the end of the scan, also the first
+// ones.
+TEST_F(LabjackT7Driver, AScanHasTheTimeOfItsLastInputFromTheBeginning) {
+  serve({}, {.latency_ns = 32'000'000});
+  ASSERT_EQ(refusal(), "opened");
+  ASSERT_EQ(read(800), "");
+  for (std::size_t i = 0; i < time_ns.size(); ++i)
+    ASSERT_GT(static_cast<double>(time_ns[i] - truth.zero_ns) * 1e-9 - value[0][i], 0.031) << i;
+}
+
 TEST_F(LabjackT7Driver, SendsTheExpectedRequests) {
   serve({});
   settings.rate_hz = 1000;

@@ -8,6 +8,7 @@
 //   centre_mm = 12.5           # encoder position at which F measures on the spindle's axis
 //   angle = "angle_deg"        # column with the rotation of the part about `measures`
 //   sense = "+"                # the rotation is right-handed; "-": left-handed
+//   delay_us = 0               # delay of the readings of F relative to the angle and the encoder
 #pragma once
 
 #include <optional>
@@ -25,6 +26,7 @@ struct RigScan {
   Vec3 position_m{}, direction{};
   double centre_m = 0;
   double sense = 1;
+  double delay_s = 0;  // of the readings of the probe relative to the angle and the encoder
 };
 
 // Called by parse_rig(). Errors are recorded in the table.

@@ -76,11 +76,14 @@ Status take_block(SampleBlock& block, const RigScan& scan, const std::string& lo
                                                      : nullptr;
     if (!to) continue;
     double unit = 1;
+    std::int64_t delay_ns = 0;
     if (channel.id == scan.probe) {
       MDOF_TRY(unit, length_unit(channel, log));
+      delay_ns = std::llround(scan.delay_s * 1e9);
     }
     for (std::size_t i = 0; i < block.scans(); ++i)
-      if (usable(block.quality_at(c, i))) to->take(block.time_ns[i], unit * block.value[c][i]);
+      if (usable(block.quality_at(c, i)))
+        to->take(block.time_ns[i] - delay_ns, unit * block.value[c][i]);
   }
   return {};
 }

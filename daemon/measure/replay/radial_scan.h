@@ -37,7 +37,8 @@ struct RadialScan {
 //   x = rho cos(angle), y = -rho sin(angle).
 // At the angle 0, x is along the axis of the run. z is along `measures` of the scanning probe. rho
 // is the distance of the probe from the axis of the spindle, positive towards x. Encoder and angle
-// are interpolated linearly in time to the times of the probe.
+// are interpolated linearly in time to the times of the probe. These are the recorded times minus
+// the delay of the probe.
 //
 // `pixel_m`: default is a hundredth of the diameter of the scan. Errors:
 //   - the rig of a run has no [scan], or a run has fewer than two targets with errors;

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kScanU =
     "the noise between neighbouring heights and u of the subtracted axis errors. u does not "
     "contain the noise that neighbouring heights have in common, errors of the probe calibration, "
-    "the encoder, the spindle and the spindle angle, or delays of the readings";
+    "the encoder, the spindle and the spindle angle, or undeclared delays of the readings";
 
 struct FormScanCommand {
   std::vector<std::string> runs;

@@ -32,6 +32,14 @@ void copy_last_instant(const FrameBlock& frames, FrameBlock& newest) {
   }
 }
 
+// A log in minutes or hours seems to be fast, so its stops seem to be short.
+std::string time_unit_hint(double period_s) {
+  constexpr double kFast_hz = 10'000;
+  if (!(period_s > 0 && 1 / period_s > kFast_hz)) return "";
+  return "; the sample rate is " + plain_number(1 / period_s) +
+         " Hz: if time_s of the log is in minutes or hours, convert it to s";
+}
+
 }  // namespace
 
 Result<Pipeline> Pipeline::create(const Rig& rig, const PipelineOptions& options) {
@@ -182,7 +190,8 @@ Status Pipeline::check_has_points() const {
                        ": the axis stayed within " + plain_number(to_um(s.tolerance_m)) +
                        " um for at most " + plain_number(s.longest_still_s) +
                        " s, but a stop must last " + plain_number(options_.dwell.shortest_s()) +
-                       " s" + (problem ? "; " + words::text(*problem) : ""),
+                       " s" + (problem ? "; " + words::text(*problem) : "") +
+                       time_unit_hint(s.period_s),
                    Remedy::stop_longer);
 }
 

@@ -89,12 +89,16 @@ std::string probe_text(const CalibratedProbe& probe) {
   return text;
 }
 
+std::string list_of_names(const char* key, const std::vector<std::string>& names) {
+  JsonWriter json;
+  json.begin_array();
+  for (const std::string& name : names) json.value(name);
+  return std::string(key) + " = " + json.end_array().take() + "\n";
+}
+
 std::string covariance_text(const CalibrationCovariance& covariance) {
   if (covariance.of.empty()) return "";
-  JsonWriter names;
-  names.begin_array();
-  for (const std::string& name : covariance.of) names.value(name);
-  std::string text = "covariance_of = " + names.end_array().take() + "\ncovariance_um2 = [\n";
+  std::string text = list_of_names("covariance_of", covariance.of) + "covariance_um2 = [\n";
   for (const auto& row_m2 : covariance.m2) {
     JsonWriter row;
     row.begin_array();
@@ -109,6 +113,7 @@ std::string body_text(const CalibrationRecord& record) {
                      line("axis", std::string(1, record.axis)) + line("date", record.date) +
                      line("valid_until", record.valid_until) + line("software", record.software) +
                      line("chi_square", record.chi_square) + line("freedom", record.freedom);
+  if (record.sensitivities) text += list_of_names("sensitivities", *record.sensitivities);
   if (record.u_together_m) text += vector_mm("u_together_mm", *record.u_together_m);
   if (!record.not_seen.empty()) {
     text += "not_seen = [\n";
@@ -273,6 +278,7 @@ CalibrationRecord read_record(TomlTable& table) {
   record.chi_square = table.number("chi_square", 0.0);
   record.freedom = table.integer("freedom", 0);
   record.not_seen = table.strings("not_seen");
+  if (table.has("sensitivities")) record.sensitivities = table.strings("sensitivities");
   if (table.has("u_together_mm")) record.u_together_m = read_mm(table, "u_together_mm");
   if (table.has("covariance_of") || table.has("covariance_um2"))
     record.covariance = read_covariance(table);

@@ -57,6 +57,9 @@ struct CalibrationRecord {
   double chi_square = 0;
   std::int64_t freedom = 0;
   std::vector<std::string> not_seen;
+  // Mounting: ids of the sensitivity records with which it was calibrated; nullopt: the record is
+  // from an older version.
+  std::optional<std::vector<std::string>> sensitivities;
   std::optional<Vec3> u_together_m;  // u of the common shift of all probes along X, Y, Z
   std::vector<CalibratedProbe> probes;
   // Covariance of positions, directions and zeros of the probes; empty in records of older

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "schema/base/files.h"
@@ -59,6 +60,49 @@ void check_fit(const CalibrationRecord& record, const Fits& rig, TomlTable& tabl
   if (!more.empty())
     reject("probe", "the record contains the probes " + joined(ids) + ", but " + rig.source +
                         " has " + joined(rig.probes));
+}
+
+// The key of a value that both records contain for a probe; nullptr: there is no such value.
+const char* value_in_both(const CalibratedProbe& a, const CalibratedProbe& b) {
+  if (a.position_m && b.position_m) return "position_mm";
+  if (a.direction && b.direction) return "direction";
+  if (a.offset_um && b.offset_um) return "offset_um";
+  if (a.um_per_V && b.um_per_V) return "um_per_V";
+  return !a.linearity.empty() && !b.linearity.empty() ? "linearity" : nullptr;
+}
+
+// Records of one kind are applied by date. If two of them have one date, neither is the newer one.
+void check_newest(const CalibrationRecord& record, const Rig& rig, TomlTable& table) {
+  for (const CalibrationRecord& other : rig.records)
+    for (const CalibratedProbe& a : other.probes)
+      for (const CalibratedProbe& b : record.probes) {
+        if (other.kind != record.kind || other.date != record.date || a.id != b.id) continue;
+        const char* key = value_in_both(a, b);
+        if (key)
+          table.reject("date", "the records \"" + other.id + "\" and \"" + record.id +
+                                   "\" are both of " + record.date + " and both contain " + key +
+                                   " of the probe \"" + a.id +
+                                   "\"; keep only one of them in the key \"calibration\"");
+      }
+}
+
+std::string listed(const std::vector<std::string>& ids) {
+  return ids.empty() ? "no sensitivity record" : "\"" + joined(ids) + "\"";
+}
+
+// The positions and zeros of a mounting are right only with the sensitivities of its calibration.
+void check_sensitivities(const CalibrationRecord& mounting, const Rig& rig, TomlTable& table) {
+  if (!mounting.sensitivities) return;
+  std::vector<std::string> used = *mounting.sensitivities, named;
+  for (const CalibrationRecord& record : rig.records)
+    if (record.kind == "sensitivity") named.push_back(record.id);
+  std::sort(used.begin(), used.end());
+  std::sort(named.begin(), named.end());
+  if (used != named)
+    table.reject("sensitivities",
+                 "the mounting \"" + mounting.id + "\" was calibrated with " + listed(used) +
+                     ", but the rig names " + listed(named) + " in the key \"calibration\"",
+                 Remedy::calibrate_anew);
 }
 
 Fits fits_of(TomlTable& rig, const std::string& source) {
@@ -187,6 +231,16 @@ Result<std::string> load_rig_text(const std::filesystem::path& file) {
   return text + (text.ends_with('\n') ? "" : "\n") + records;
 }
 
+std::vector<std::size_t> order_of_records(std::vector<TomlTable>& tables) {
+  std::vector<std::tuple<bool, std::string, std::size_t>> keys;  // is a mounting, date, index
+  for (TomlTable& table : tables)
+    keys.emplace_back(table.string("kind") == "mounting", table.string("date"), keys.size());
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::size_t> order;
+  for (const auto& [mounting, date, i] : keys) order.push_back(i);
+  return order;
+}
+
 void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
   const auto names = names_of(table);
   auto tables = table.tables("calibration_record");
@@ -207,11 +261,13 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
                           Remedy::calibrate_anew);
   Fits fits{rig.source, rig.name, std::string(1, letter(rig.axis)), {}};
   for (const Probe& probe : rig.probes) fits.probes.push_back(probe.id);
-  for (std::size_t i = 0; i < tables.size(); ++i) {
+  for (const std::size_t i : order_of_records(tables)) {
     CalibrationRecord record = read_record(tables[i]);
     if (!is_unchanged(parts[i]))
       tables[i].reject("sha256", "does not match the text below it", Remedy::calibrate_anew);
     check_fit(record, fits, tables[i]);
+    check_newest(record, rig, tables[i]);
+    check_sensitivities(record, rig, tables[i]);
     apply(record, rig);
     apply_certificates(tables[i], rig);
     rig.records.push_back(std::move(record));

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "schema/base/result.h"
 #include "schema/base/toml/toml_reader.h"
@@ -23,10 +24,15 @@ namespace mdof {
 // - a record belongs to another rig or to other probes.
 Result<std::string> load_rig_text(const std::filesystem::path& file);
 
+// Order in which the tables [[calibration_record]] are applied, whatever their order in the rig:
+// sensitivities before mountings, which were calibrated with these sensitivities; then by date.
+std::vector<std::size_t> order_of_records(std::vector<TomlTable>& tables);
+
 // Reads the key `calibration` and the records, for parse_rig(). The values of a record replace the
-// values of the rig, including uncertainties. A value that a record does not contain is not
-// changed. `[installation] u_offset_mm` and `u_calibration_um` of a record are used only if the rig
-// does not declare them.
+// values of the rig and of older records, including uncertainties. A value that a record does not
+// contain is not changed. `[installation] u_offset_mm` and `u_calibration_um` of a record are used
+// only if the rig does not declare them. Errors: two records of one date contain the same value; a
+// mounting was calibrated with other sensitivities.
 void apply_records(TomlTable& table, std::string_view text, Rig& rig);
 
 // Notices for the results of a rig with calibration records: one for each record, and another one

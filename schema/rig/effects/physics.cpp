@@ -5,6 +5,7 @@
 
 #include "schema/base/number/number_text.h"
 #include "schema/calibration/certificate_facts.h"
+#include "schema/rig/calibrated.h"
 #include "schema/rig/rig.h"
 #include "schema/units.h"
 
@@ -153,8 +154,9 @@ bool declares_any_effect(const RigPhysics& physics) {
 // Standard uncertainties of the corrections from certificates. They are in the records after the
 // text of the rig.
 void apply_certificate_uncertainties(TomlTable& table, const Rig& rig, RigPhysics& physics) {
-  for (TomlTable& record : table.tables("calibration_record"))
-    for (TomlTable& probe : record.tables("probe")) {
+  auto records = table.tables("calibration_record");
+  for (const std::size_t i : order_of_records(records))
+    for (TomlTable& probe : records[i].tables("probe")) {
       const CertificateFacts facts = read_certificate(probe);
       const auto at = rig.probe_index(probe.string("id"));
       if (at && facts.u_linearity_m > 0)

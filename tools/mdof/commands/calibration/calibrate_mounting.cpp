@@ -122,6 +122,8 @@ void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig
   record.chi_square = found.chi_square;
   record.freedom = found.freedom;
   record.not_seen = found.not_seen;
+  record.sensitivities.emplace();
+  for (const CalibrationRecord& used : rig.records) record.sensitivities->push_back(used.id);
   record.covariance = found.covariance;
   const Vec3& together = found.u_together_m;
   if (std::all_of(together.begin(), together.end(), [](double u) { return std::isfinite(u); }))
@@ -130,21 +132,8 @@ void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig
     record.probes.push_back(as_record(found.probes[k], rig.probes[k]));
 }
 
-// Error: the rig already contains a mounting calibration. That calibration would be used as the
-// nominal mounting, and because of its small u the new calibration would have almost no effect.
-Status check_not_calibrated(const Rig& rig) {
-  for (const CalibrationRecord& record : rig.records)
-    if (record.kind == "mounting")
-      return bad_input(
-          rig.source + ": the rig already uses the mounting calibration \"" + record.id +
-          "\"; remove this record from the key \"calibration\" of the rig file, calibrate, "
-          "and then add the new record to this key");
-  return {};
-}
-
 Status calibrate(const MountingCommand& command) {
   MDOF_TRY(const Rig rig, load_rig(command.rig));
-  MDOF_CHECK(check_not_calibrated(rig));
   MDOF_TRY(const Sources sources, read_all(command, rig));
   MDOF_TRY(auto record, begin_record("mounting", rig, command.record, sources.started_utc));
   MDOF_TRY(const auto fit, algo::fit_mounting(rig, sources.clampings));

@@ -38,6 +38,19 @@ std::string text_of(std::chrono::sys_days day) {
   return text;
 }
 
+// A mounting record as the nominal mounting would leave almost no effect to a new one, because its
+// u is small. New sensitivities do not fit a mounting that was calibrated with the earlier ones.
+Status check_no_mounting(const std::string& kind, const Rig& rig) {
+  for (const CalibrationRecord& record : rig.records)
+    if (record.kind == "mounting")
+      return bad_input(rig.source + ": the rig already uses the mounting calibration \"" +
+                       record.id +
+                       "\"; remove this record from the key \"calibration\" of the rig file, "
+                       "calibrate, and then add the new record to this key" +
+                       (kind == "mounting" ? "" : " and repeat mdof calibrate mounting"));
+  return {};
+}
+
 }  // namespace
 
 void add_record_file_options(CLI::App& command, RecordOptions& options) {
@@ -67,6 +80,7 @@ std::string probe_ids(const Rig& rig) {
 Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
                                        const RecordOptions& options,
                                        const std::string& started_utc) {
+  MDOF_CHECK(check_no_mounting(kind, rig));
   CalibrationRecord record;
   record.kind = kind;
   record.rig = rig.name;

@@ -25,7 +25,7 @@ void add_record_file_options(CLI::App& command, RecordOptions& options);
 std::string probe_ids(const Rig& rig);
 
 // Returns a record of this rig to which the caller adds the probes. `started_utc`: start time of
-// the newest log, or empty. Error: the date is invalid.
+// the newest log, or empty. Errors: the date is invalid; the rig already uses a mounting record.
 Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
                                        const RecordOptions& options,
                                        const std::string& started_utc);

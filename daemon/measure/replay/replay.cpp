@@ -127,6 +127,17 @@ Provenance provenance_of(const ReplayLog& log, const Rig& rig, const PipelineOpt
   return from;
 }
 
+// The day of the measurement is in the recording; for a CSV log, the rig may state it.
+Notices overdue_on_day_of(const ReplayLog& log, const Rig& rig) {
+  const std::string day = log.started_utc().empty() ? rig.report.date : log.started_utc();
+  if (!day.empty()) return overdue_calibrations(rig, day);
+  const std::string today = utc_now().substr(0, 10);
+  Notices overdue = overdue_calibrations(rig, today);
+  if (!overdue.empty())
+    overdue.push_back(notice(NoticeCode::log_has_no_date, "", {{"today", today}}));
+  return overdue;
+}
+
 }  // namespace
 
 Result<ReplayLog> ReplayLog::open(const std::string& path, Descriptors opened) {
@@ -227,8 +238,7 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   run->header.note = asked.note;
   append(run->header.notices, log.notices());
   append(run->header.notices, asked.notices);
-  const std::string day = log.started_utc().empty() ? utc_now() : log.started_utc();
-  append(run->header.notices, overdue_calibrations(rig, day));
+  append(run->header.notices, overdue_on_day_of(log, rig));
   append(run->header.notices, calibration_notices(rig));
   append(run->header.notices, drivers::unused_scales(rig, log.driver().info().channels));
   append(run->header.notices, unusual_values(rig));

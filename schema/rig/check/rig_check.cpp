@@ -17,7 +17,8 @@ namespace {
 struct Bounds {
   double least_possible, least_usual, most_usual, most_possible;
 };
-constexpr double kMost_m = 0.5;  // largest distance between a probe or plane and the origin
+constexpr double kMost_m = 0.5;          // largest distance between a probe or plane and the origin
+constexpr double kStandoffShare = 0.05;  // largest usual difference of standoff and gap reading
 constexpr Bounds kExtent_mm = {0.1, 1, 500, 500};     // largest distance between two probes
 constexpr Bounds kRange_um = {1, 5, 20e3, 100e3};     // capacitance probes have 10 µm to 10 mm
 constexpr Bounds kFull_V = {1e-3, 0.05, 100, 1000};   // full range in volts, from um_per_V
@@ -74,6 +75,7 @@ class Check {
   }
   void check_probe(std::size_t k);
   void check_calibration(std::size_t k);
+  void check_gap(std::size_t k);
   void check_distances();
   void check_plane(std::size_t k);
 
@@ -96,6 +98,7 @@ void Check::check_probe(std::size_t k) {
          " um is an unusual range of the probe \"" + probe.id +
              "\"; give the full range in um, not mm or nm");
   check_calibration(k);
+  check_gap(k);
 }
 
 void Check::check_calibration(std::size_t k) {
@@ -134,6 +137,24 @@ void Check::check_calibration(std::size_t k) {
 void Check::check_distances() {
   double extent_m = 0;
   std::size_t a = 0, b = 0;
+// A probe with reads = "gap" reads the gap, so standoff_um and offset_um are the same gap. A
+// reading that can be negative is a gap minus a constant.
+void Check::check_gap(std::size_t k) {
+  const Probe& probe = rig_.probes[k];
+  const Calibration& c = probe.calibration;
+  const double standoff_um = to_um(probe.standoff_m);
+  if (!c.reads_gap || standoff_um == 0) return;
+  const double low_um = readings_of_range(probe)[0] + c.offset_um;
+  const double closed_um = c.offset_um - standoff_um;  // reading when the gap is closed
+  if (low_um < 0 ? closed_um <= low_um : std::abs(closed_um) <= kStandoffShare * standoff_um)
+    return;
+  add(closed_um > low_um, "probe", k, "standoff_um",
+      text_of(standoff_um) + " um does not fit offset_um = " + text_of(c.offset_um) +
+          " um of the probe \"" + probe.id +
+          "\" with reads = \"gap\": the gap would be closed at the reading " + text_of(closed_um) +
+          " um; remove standoff_um (the gap is then offset_um), or correct one of the two keys");
+}
+
   for (std::size_t i = 0; i < rig_.probes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const Vec3 &p = rig_.probes[i].position_m, &q = rig_.probes[j].position_m;

@@ -131,6 +131,22 @@ TEST(RigCheck, ReportsAPolynomialOfTheWholeDisplacement) {
     expect_warned(kRig + "polynomial_um = " + text + "\n", {"r.toml:15: ", "polynomial_um"});
 }
 
+// A gap probe reads 0 when the gap is closed. At the nominal surface it reads offset_um, so the gap
+// there is offset_um. Only a reading that can be negative is a gap minus a constant.
+TEST(RigCheck, ReportsAStandoffThatIsNotTheGapReading) {
+  const std::string gap = kRig + "reads = \"gap\"\n";
+  expect_right(gap + "offset_um = 100\n");
+  expect_right(gap + "offset_um = 100\nstandoff_um = 100\n");
+  expect_right(gap + "offset_um = 103\nstandoff_um = 100\n");  // a calibration has moved the zero
+  expect_warned(
+      gap + "offset_um = 100\nstandoff_um = 250\n",
+      {"r.toml:17: ", "standoff_um", "250 um", "offset_um = 100", "closed at the reading -150"});
+  expect_refused(gap + "offset_um = 100\nstandoff_um = 5\n",
+                 {"r.toml:17: ", "standoff_um", "closed at the reading 95"});
+  expect_right(gap + "valid_um = [-100, 100]\nstandoff_um = 250\n");
+  expect_refused(gap + "valid_um = [-100, 100]\nstandoff_um = 80\n", {"closed at the reading -80"});
+}
+
 TEST(RigCheck, RejectsTwoPlanesOfOneName) {
   const std::string plane = "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n";
   expect_right(kRig + plane);

@@ -9,6 +9,7 @@
 #include "schema/rig/calibrated.h"
 #include "schema/rig/check/rig_check.h"
 #include "schema/rig/effects/physics.h"
+#include "schema/rig/rig_tables.h"
 #include "schema/rig/scan.h"
 #include "schema/units.h"
 
@@ -16,6 +17,7 @@ namespace mdof {
 namespace {
 
 constexpr double kMostDelay_us = 10e6;  // 10 s
+constexpr double kLeastWave_m = 1e-4, kMostWave_m = 1;
 
 Vec3 unit_vector(Vec3 v) {
   const double norm = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -111,10 +113,10 @@ Probe read_probe(TomlTable& table) {
                  "must be from 0 to 10000000 us: the delay of the readings relative to the "
                  "encoder, for example because of a filter");
   probe.delay_s = delay_us / 1e6;
-  probe.uncertainty = {read_uncertainty(table, "u_calibration_um", from_um(1)),
-                       read_uncertainty(table, "u_sensitivity_ppm", 1e-6),
-                       read_uncertainty3(table, "u_position_mm", from_mm(1)),
-                       read_uncertainty(table, "u_direction_mrad", 1e-3)};
+  probe.uncertainty = {read_uncertainty(table, "u_calibration_um", from_um(1), kMostU_um),
+                       read_uncertainty(table, "u_sensitivity_ppm", 1e-6, kMostU_ppm),
+                       read_uncertainty3(table, "u_position_mm", from_mm(1), kMostU_mm),
+                       read_uncertainty(table, "u_direction_mrad", 1e-3, kMostU_mrad)};
   return probe;
 }
 
@@ -150,11 +152,12 @@ TargetPlane read_plane(TomlTable& table) {
                                             : read_direction(table, "normal");
   if (table.has("offset_mm")) plane.offset_m = from_mm(table.number("offset_mm"));
   plane.flatness = read_flatness(table);
-  plane.u_flatness = read_uncertainty(table, "u_flatness_um", from_um(1));
+  plane.u_flatness = read_uncertainty(table, "u_flatness_um", from_um(1), kMostU_um);
   plane.flatness_length_m = from_mm(table.number("flatness_length_mm", 30));
-  if (!(plane.flatness_length_m > 0))
+  if (!(plane.flatness_length_m >= kLeastWave_m && plane.flatness_length_m <= kMostWave_m))
     table.reject("flatness_length_mm",
-                 "must be greater than 0 (the length of the longest wave of the flatness, in mm)");
+                 "must be from 0.1 to 1000, not " + plain_number(to_mm(plane.flatness_length_m)) +
+                     " (the length of the longest wave of the flatness, in mm)");
   return plane;
 }
 
@@ -168,49 +171,6 @@ bool read_choice(TomlTable& table, const char* key, const char* first, const cha
 
 Sides read_sides(TomlTable& table) {
   return {read_choice(table, "moves", "target", "fixture"), read_choice(table, "travel", "+", "-")};
-}
-
-void read_encoder(TomlTable& table, Rig& rig) {
-  auto encoder = table.table("encoder");
-  if (!encoder) return;
-  rig.uncertainty.encoder = read_uncertainty(*encoder, "u_um", from_um(1));
-  if (!encoder->has("um_per_V") && rig.uncertainty.encoder.known()) return;
-  const double um_per_V = encoder->number("um_per_V");
-  if (!(std::abs(um_per_V) > 0 && std::isfinite(um_per_V)))
-    encoder->reject("um_per_V",
-                    "must be the motion of the axis in um per volt of the encoder (not 0; negative "
-                    "if the voltage decreases when the position increases)");
-  rig.encoder_um_per_V = um_per_V;
-}
-
-void read_installation_and_drift(TomlTable& table, Rig& rig) {
-  if (auto installation = table.table("installation")) {
-    rig.uncertainty.installation_angle = read_uncertainty3(*installation, "u_angle_mrad", 1e-3);
-    rig.uncertainty.installation_offset =
-        read_uncertainty3(*installation, "u_offset_mm", from_mm(1));
-  }
-  auto drift = table.table("drift");
-  if (!drift) return;
-  rig.uncertainty.drift = read_uncertainty(*drift, "u_um_per_h", from_um(1) / 3600);
-  if (!drift->has("limit_um_per_h")) return;
-  const double limit_um_per_h = drift->number("limit_um_per_h");
-  if (!(limit_um_per_h > 0 && std::isfinite(limit_um_per_h)))
-    drift->reject(
-        "limit_um_per_h",
-        "must be greater than 0 (the largest permitted drift of probe readings, in um/h)");
-  rig.drift_limit_m_per_s = from_um(limit_um_per_h) / 3600;
-}
-
-void read_artefact(TomlTable& table, Rig& rig) {
-  if (table.has("artefact_angle_error_urad")) {
-    rig.artefact_angle_error_rad = from_urad(table.number("artefact_angle_error_urad"));
-  }
-  if (!table.has("u_artefact_angle_urad")) return;
-  const double u_urad = table.number("u_artefact_angle_urad");
-  if (!(u_urad >= 0 && std::isfinite(u_urad)))
-    table.reject("u_artefact_angle_urad",
-                 "must be a standard uncertainty, a number that is not negative");
-  rig.u_artefact_angle_rad = from_urad(u_urad);
 }
 
 // The chain must contain the axis of the rig, with the same direction of travel.
@@ -352,10 +312,7 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
     table.reject("axis", "\"" + axis_text + "\" is not an axis; use \"X\", \"Y\" or \"Z\"");
   }
   rig.sides = read_sides(table);
-  if (table.has("tool_point_mm")) {
-    const Vec3 mm = table.vector3("tool_point_mm");
-    rig.tool_point_m = {from_mm(mm[0]), from_mm(mm[1]), from_mm(mm[2])};
-  }
+  if (table.has("tool_point_mm")) rig.tool_point_m = read_point(table, "tool_point_mm");
   read_artefact(table, rig);
   read_encoder(table, rig);
   read_installation_and_drift(table, rig);

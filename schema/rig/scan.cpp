@@ -1,11 +1,16 @@
 #include "schema/rig/scan.h"
 
+#include <cmath>
+
+#include "schema/base/number/number_text.h"
+#include "schema/rig/rig_tables.h"
 #include "schema/units.h"
 
 namespace mdof {
 namespace {
 
 constexpr double kMostScanDelay_us = 10e6;
+constexpr double kMostCentre_mm = 10e3;
 
 }  // namespace
 
@@ -15,9 +20,13 @@ std::optional<RigScan> read_scan(TomlTable& rig, Axis axis) {
   RigScan scan;
   scan.probe = table->string("probe");
   scan.angle = table->string("angle", "angle_deg");
-  const Vec3 mm = table->vector3("position_mm");
-  scan.position_m = {from_mm(mm[0]), from_mm(mm[1]), from_mm(mm[2])};
-  scan.centre_m = from_mm(table->number("centre_mm"));
+  scan.position_m = read_point(*table, "position_mm");
+  const double centre_mm = table->number("centre_mm");
+  if (!(std::abs(centre_mm) <= kMostCentre_mm))
+    table->reject("centre_mm",
+                  "must be a position of the encoder in mm, from -10000 to 10000, not " +
+                      plain_number(centre_mm));
+  scan.centre_m = from_mm(centre_mm);
   const std::string word = table->string("measures");
   const auto along = word.size() == 2 ? axis_from(word.substr(1)) : std::nullopt;
   if (along && (word[0] == '+' || word[0] == '-') && *along != axis)

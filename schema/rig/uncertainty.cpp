@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "schema/base/number/number_text.h"
+
 namespace mdof {
 namespace {
 
@@ -72,7 +74,7 @@ Declared read_inline(TomlTable& table) {
   return declared;
 }
 
-Declared read(TomlTable& table, std::string_view key) {
+Declared read(TomlTable& table, std::string_view key, double most) {
   if (!table.has(key)) return {};
   Declared declared;
   if (table.is_table(key)) {
@@ -81,9 +83,8 @@ Declared read(TomlTable& table, std::string_view key) {
   } else {
     declared.u = numbers_of(table, key);
   }
-  for (const double u : declared.u)
-    if (!(u >= 0 && std::isfinite(u)))
-      table.reject(key, "must be a standard uncertainty, a number that is not negative");
+  if (declared.u.empty()) table.reject(key, "must not be empty; give numbers, or remove the key");
+  for (const double u : declared.u) check_uncertainty(table, key, u, most);
   return declared;
 }
 
@@ -93,15 +94,23 @@ const char* to_string(UncertaintyShape shape) {
   return shape_of(shape).name;
 }
 
-DeclaredUncertainty read_uncertainty(TomlTable& table, std::string_view key, double to_si) {
-  const Declared declared = read(table, key);
+void check_uncertainty(TomlTable& table, std::string_view key, double u, double most) {
+  if (u >= 0 && u <= most) return;
+  table.reject(key, "must be a standard uncertainty from 0 to " + plain_number(most) + ", not " +
+                        plain_number(u) + "; check the unit, which the name of the key states");
+}
+
+DeclaredUncertainty read_uncertainty(TomlTable& table, std::string_view key, double to_si,
+                                     double most) {
+  const Declared declared = read(table, key, most);
   if (declared.u.empty()) return {};
   if (declared.u.size() != 1) table.reject(key, "must be one number");
   return {declared.u[0] * to_si, declared.shape, declared.freedom, declared.u[0] == 0};
 }
 
-DeclaredUncertainty3 read_uncertainty3(TomlTable& table, std::string_view key, double to_si) {
-  const Declared declared = read(table, key);
+DeclaredUncertainty3 read_uncertainty3(TomlTable& table, std::string_view key, double to_si,
+                                       double most) {
+  const Declared declared = read(table, key, most);
   if (declared.u.empty()) return {};
   DeclaredUncertainty3 three{{}, declared.shape, declared.freedom};
   if (declared.u.size() != 3 && declared.u.size() != 1)

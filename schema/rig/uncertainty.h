@@ -54,10 +54,19 @@ struct RigUncertainty {
 // table contains also the distribution and the degrees of freedom:
 //   u_calibration_um = { u = 0.05, distribution = "rectangular", dof = 8 }
 //   u_calibration_um = { half_width = 0.1, distribution = "rectangular" }   limits ±0.1
-// `to_si`: factor from the unit of the key to SI. An absent key is not declared. Errors are
-// recorded in the table.
-DeclaredUncertainty read_uncertainty(TomlTable& table, std::string_view key, double to_si);
+// `to_si`: factor from the unit of the key to SI. `most`: largest possible u in the unit of the
+// key; a larger u has a wrong unit. An absent key is not declared. Errors are recorded in the
+// table.
+DeclaredUncertainty read_uncertainty(TomlTable& table, std::string_view key, double to_si,
+                                     double most);
 // As read_uncertainty(), with three numbers, or with one number for all three components.
-DeclaredUncertainty3 read_uncertainty3(TomlTable& table, std::string_view key, double to_si);
+DeclaredUncertainty3 read_uncertainty3(TomlTable& table, std::string_view key, double to_si,
+                                       double most);
+// Records an error if u is not from 0 to `most`.
+void check_uncertainty(TomlTable& table, std::string_view key, double u, double most);
+
+// Largest u of lengths, angles and sensitivities of a fixture: 10 mm for a reading, 100 mm for a
+// position, 0.5 rad, and 50 % of a sensitivity.
+inline constexpr double kMostU_um = 1e4, kMostU_mm = 100, kMostU_mrad = 500, kMostU_ppm = 5e5;
 
 }  // namespace mdof

@@ -109,6 +109,10 @@ void Check::check_calibration(std::size_t k) {
     within(kFull_V, range_um / std::abs(*c.um_per_V), "probe", k, "um_per_V",
            " V is an unusual full range of the probe \"" + probe.id +
                "\" (range_um divided by um_per_V); give um of displacement per volt");
+  if (c.valid_um && std::max(-(*c.valid_um)[0], (*c.valid_um)[1]) > kRange_um.most_possible)
+    add(true, "probe", k, "valid_um",
+        "the probe \"" + probe.id + "\" has a limit beyond " + text_of(kRange_um.most_possible) +
+            " um; give raw readings in um");
   double most_um = 0;
   for (const auto& [reading_um, correction_um] : c.linearity)
     most_um = std::max(most_um, std::abs(correction_um));
@@ -133,10 +137,6 @@ void Check::check_calibration(std::size_t k) {
           " um); give the raw reading at the nominal surface, in um");
 }
 
-// Checks the largest distance between two probes.
-void Check::check_distances() {
-  double extent_m = 0;
-  std::size_t a = 0, b = 0;
 // A probe with reads = "gap" reads the gap, so standoff_um and offset_um are the same gap. A
 // reading that can be negative is a gap minus a constant.
 void Check::check_gap(std::size_t k) {
@@ -155,6 +155,10 @@ void Check::check_gap(std::size_t k) {
           " um; remove standoff_um (the gap is then offset_um), or correct one of the two keys");
 }
 
+// Checks the largest distance between two probes.
+void Check::check_distances() {
+  double extent_m = 0;
+  std::size_t a = 0, b = 0;
   for (std::size_t i = 0; i < rig_.probes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const Vec3 &p = rig_.probes[i].position_m, &q = rig_.probes[j].position_m;

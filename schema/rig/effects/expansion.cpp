@@ -5,8 +5,9 @@
 namespace mdof {
 namespace {
 
-constexpr double kReference_C = 20;    // standard reference temperature (ISO 1)
-constexpr double kMostAbove_K = 100;   // higher temperatures are typing errors
+constexpr double kReference_C = 20;   // standard reference temperature (ISO 1)
+constexpr double kMostAbove_K = 100;  // higher temperatures are typing errors
+constexpr double kMostGradient_K_per_m = 1000;
 constexpr double kMostPpmPerK = 1000;  // ten times the expansion of plastics
 
 ThermalExpansion expansion_of(TomlTable& table, const std::string& body) {
@@ -32,7 +33,7 @@ BodyExpansion body_of(TomlTable& table, const std::string& body) {
   out.above_20_K = table.number(key, kReference_C) - kReference_C;
   if (!(std::abs(out.above_20_K) <= kMostAbove_K))
     table.reject(key, "must be a temperature in degrees Celsius, from -80 to 120");
-  out.u_temperature = read_uncertainty(table, "u_" + body + "_K", 1);
+  out.u_temperature = read_uncertainty(table, "u_" + body + "_K", 1, kMostAbove_K);
   if (requires_expansion(table, body, out.above_20_K != 0 || out.u_temperature.declared()))
     out.expansion = expansion_of(table, body);
   return out;
@@ -47,7 +48,8 @@ RigExpansion read_expansion(TomlTable& table) {
   out.any = true;
   out.scale = body_of(*temperature, "scale");
   out.fixture = body_of(*temperature, "fixture");
-  out.square_gradient = read_uncertainty3(*temperature, "u_square_gradient_K_per_m", 1);
+  out.square_gradient =
+      read_uncertainty3(*temperature, "u_square_gradient_K_per_m", 1, kMostGradient_K_per_m);
   if (requires_expansion(*temperature, "square", out.square_gradient.declared()))
     out.square = expansion_of(*temperature, "square");
   return out;

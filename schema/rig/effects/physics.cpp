@@ -44,13 +44,13 @@ ProbePhysics read_probe_physics(TomlTable& table, const Probe& probe) {
   check_standoff(table, probe, physics);
   const bool has_factor = table.has("tilt_factor"), has_u = table.has("u_tilt_factor");
   if (has_factor) physics.tilt_factor = positive(table, "tilt_factor", kMostTiltFactor);
-  physics.u_tilt_factor = read_uncertainty(table, "u_tilt_factor", 1);
+  physics.u_tilt_factor = read_uncertainty(table, "u_tilt_factor", 1, kMostTiltFactor);
   if (!has_factor && !has_u)
     physics.u_tilt_factor = {kTiltFactorHalfWidth / std::sqrt(3.0), UncertaintyShape::rectangular};
   if ((has_factor || has_u) && physics.sensing_radius_m == 0)
     table.reject(has_factor ? "tilt_factor" : "u_tilt_factor",
                  "needs the radius of the electrode; add sensing_radius_mm");
-  physics.u_linearity = read_uncertainty(table, "u_linearity_um", from_um(1));
+  physics.u_linearity = read_uncertainty(table, "u_linearity_um", from_um(1), kMostU_um);
   return physics;
 }
 
@@ -71,8 +71,8 @@ std::optional<DeclaredAir> read_air(TomlTable& root) {
     const std::string calibration = std::string("calibration_") + of.key;
     if (table->has(of.key)) air.run[q] = read_air(*table, of.key, of);
     air.calibration[q] = read_air(*table, calibration, of);
-    air.u_run[q] = read_uncertainty(*table, std::string("u_") + of.key, 1);
-    air.u_calibration[q] = read_uncertainty(*table, "u_" + calibration, 1);
+    air.u_run[q] = read_uncertainty(*table, std::string("u_") + of.key, 1, of.most - of.least);
+    air.u_calibration[q] = read_uncertainty(*table, "u_" + calibration, 1, of.most - of.least);
   }
   return air;
 }

@@ -88,6 +88,8 @@ TEST(RigUncertainty, ErrorsStateThePlaceOfInvalidValues) {
       {"u_calibration_um = inf", "finite number"},
       {"u_calibration_um = [1, 2]", "one number"},
       {"u_position_mm = [1, 2]", "three numbers"},
+      {"u_position_mm = []", "u_position_mm: must not be empty"},
+      {"u_position_mm = { u = [] }", "u_position_mm: must not be empty"},
       {"u_calibration_um = { half_width = 1 }", "normal distribution has no limits"},
       {"u_calibration_um = { u = 1, half_width = 1, distribution = \"rectangular\" }",
        "either \"u\""},
@@ -112,7 +114,44 @@ TEST(RigUncertainty, ErrorsStateThePlaceOfInvalidValues) {
   EXPECT_NE(thermal("u_square_gradient_K_per_m = [1, 2]\nsquare_ppm_per_K = 9\n").find("three"),
             std::string::npos);
   EXPECT_NE(refusal("", "[drift]\nu_um = 1\n").find("u_um_per_h"), std::string::npos);
-  EXPECT_NE(refusal("", "[[plane]]\nnormal = \"+Z\"\nflatness_length_mm = 0\n").find("than 0"),
+  EXPECT_NE(refusal("", "[[plane]]\nnormal = \"+Z\"\nflatness_length_mm = 0\n").find("from 0.1"),
+            std::string::npos);
+}
+
+// A larger value has a wrong unit. The limits are far above the values of real fixtures.
+TEST(RigUncertainty, LimitsEachUncertainty) {
+  const struct {
+    std::string table, key;
+    double most;
+  } cases[] = {{"", "u_calibration_um", 1e4},
+               {"", "u_sensitivity_ppm", 5e5},
+               {"", "u_position_mm", 100},
+               {"", "u_direction_mrad", 500},
+               {"", "u_linearity_um", 1e4},
+               {"[encoder]", "u_um", 1e4},
+               {"[installation]", "u_angle_mrad", 500},
+               {"[installation]", "u_offset_mm", 100},
+               {"[drift]", "u_um_per_h", 1e4},
+               {"[drift]", "limit_um_per_h", 1e4},
+               {"[temperature]\nscale_ppm_per_K = 9", "u_scale_K", 100},
+               {"[temperature]\nsquare_ppm_per_K = 9", "u_square_gradient_K_per_m", 1000},
+               {"[[plane]]\nnormal = \"+Z\"", "u_flatness_um", 1e4}};
+  for (const auto& c : cases) {
+    const auto with = [&](const std::string& value) {
+      const std::string line = c.key + " = " + value + "\n";
+      return c.table.empty() ? rig(line) : rig("", c.table + "\n" + line);
+    };
+    const auto most = with(std::to_string(c.most));
+    EXPECT_TRUE(most) << c.key << ": " << most.error().message;
+    for (const char* value : {"1e300", "-1"}) {
+      const auto refused = with(value);
+      ASSERT_FALSE(refused) << c.key;
+      EXPECT_NE(refused.error().message.find(c.key + ": must be"), std::string::npos)
+          << refused.error().message;
+    }
+    EXPECT_FALSE(with(std::to_string(c.most * 1.01))) << c.key;
+  }
+  EXPECT_NE(refusal("u_direction_mrad = 2000").find("from 0 to 500, not 2000; check the unit"),
             std::string::npos);
 }
 

@@ -147,6 +147,23 @@ TEST(RigCheck, ReportsAStandoffThatIsNotTheGapReading) {
   expect_refused(gap + "valid_um = [-100, 100]\nstandoff_um = 80\n", {"closed at the reading -80"});
 }
 
+TEST(RigCheck, LimitsPointsAndValidReadings) {
+  expect_right("tool_point_mm = [0, 0, -2000]\n" + kRig);
+  for (const char* point : {"[0, 2001, 0]", "[0, 0, -1e300]"})
+    expect_refused("tool_point_mm = " + std::string(point) + "\n" + kRig,
+                   {"r.toml:1: tool_point_mm", "from -2000 to 2000"});
+  const auto scan = [](const std::string& position, const std::string& centre) {
+    return kRig + "[scan]\nprobe = \"F\"\nmeasures = \"+Z\"\nposition_mm = " + position +
+           "\ncentre_mm = " + centre + "\n";
+  };
+  expect_right(scan("[4, 30, 5]", "12.5"));
+  expect_refused(scan("[4e4, 30, 5]", "12.5"), {"scan.position_mm", "not 40000"});
+  expect_refused(scan("[4, 30, 5]", "1e300"), {"scan.centre_mm", "from -10000 to 10000"});
+  expect_refused(kRig + "valid_um = [-95, 1e300]\n", {"r.toml:15: ", "valid_um", "1e+05 um"});
+  expect_refused(kRig + "[encoder]\num_per_V = 1e300\n", {"um_per_V", "from 0.001 to 10000000"});
+  expect_refused(kRig + "[encoder]\num_per_V = -1e-9\n", {"um_per_V", "not -1e-09"});
+}
+
 TEST(RigCheck, RejectsTwoPlanesOfOneName) {
   const std::string plane = "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n";
   expect_right(kRig + plane);

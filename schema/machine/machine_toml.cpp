@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "schema/base/number/number_text.h"
 #include "schema/base/toml/toml_reader.h"
 #include "schema/machine/machine.h"
 #include "schema/machine/machine_sources.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::string_view kLetters = "XYZABC";
 constexpr double kLargestRatio = 1000;
+constexpr double kMostU_um = 1e4, kMostU_urad = 1e5;
 
 double value_from_written(std::size_t k, double written) {
   return k < 3 ? from_um(written) : from_urad(written);
@@ -46,10 +48,26 @@ void read_rows(TomlTable& table, const std::string& key, const MachineFrame& fra
 std::optional<double> read_u(TomlTable& table, const std::string& key, std::size_t k) {
   const std::string of = "u_" + key;
   if (!table.has(of)) return std::nullopt;
-  const double u = value_from_written(k, table.number(of));
-  if (!(u >= 0 && std::isfinite(u)))
-    table.reject(of, "must be a standard uncertainty, a number that is not negative");
-  return u;
+  const double u = table.number(of), most = k < 3 ? kMostU_um : kMostU_urad;
+  if (!(u >= 0 && u <= most))
+    table.reject(of, "must be a standard uncertainty from 0 to " + plain_number(most, 6) +
+                         ", not " + plain_number(u) + "; check the unit");
+  return value_from_written(k, u);
+}
+
+// Reads u of an error that is not a value in MACHINE.toml. It may complete a file without u; runs
+// and tables have their own u.
+void read_u_of_stored(TomlTable& table, const std::string& key, const MachineFrame& frame,
+                      std::size_t k, ErrorFunction& function) {
+  const auto u = frame.file.empty() && !frame.runs.any() && !frame.tables.any()
+                     ? std::nullopt
+                     : read_u(table, key, k);
+  if (!u) return;
+  if (frame.file.empty())
+    return table.reject("u_" + key,
+                        "is not possible for errors from runs and tables, because they contain "
+                        "their own uncertainty (declared in the rig); remove this key");
+  function.u = {*u};
 }
 
 // Reads an error as a number, as rows, or as the name of a file in EXX_file.
@@ -61,7 +79,7 @@ void read_function(TomlTable& table, const std::string& name, const MachineFrame
     if (const auto u = read_u(table, key, k)) function.u = {*u};
     return;
   }
-  if (!table.has(key)) return;
+  if (!table.has(key)) return read_u_of_stored(table, key, frame, k, function);
   if (table.is_array(key)) {
     if (frame.kind == FrameKind::fixed)
       table.reject(key, "a frame that is not an axis has no positions; give one number");
@@ -154,6 +172,10 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
       frame.angles_zero_m = position_from_written(frame, table.number("angles_zero_at_mm"));
     frame.runs = read_stored_rows(table, "runs");
     frame.tables = read_stored_rows(table, "tables");
+    if (frame.angles_zero_m && !frame.runs.any() && !frame.tables.any())
+      table.reject("angles_zero_at_mm",
+                   "applies only to errors from runs or tables; subtract the angles at this "
+                   "position from the errors of the file or of this table, and remove the key");
     if (frame.tables.latest)
       table.reject("tables",
                    "must contain numbers of tables; only the keys \"runs\" and \"squareness\" "

@@ -37,7 +37,7 @@ bool is_positioning(const MachineFrame& frame, std::size_t k) {
   return frame.kind == FrameKind::linear && k == frame.direction;
 }
 
-// If the file has no standard uncertainty, the value in MACHINE.toml is used for all positions.
+// If the file has no standard uncertainty, f.u is the value in MACHINE.toml, for all positions.
 Status complete(ErrorFunction& f, std::size_t k, const std::string& where) {
   if (f.u.size() == 1 && f.position.size() != 1) f.u.assign(f.position.size(), f.u.front());
   return check_function(f, k, where);
@@ -131,9 +131,14 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
     const auto column = [&](std::size_t i) { return from_key_unit(csv.columns[1 + 6 * k + i]); };
     auto forward = column(0).empty() ? column(1) : column(0);
     if (forward.empty()) forward = column(2);
-    if (forward.empty()) continue;
     const std::string where = csv.source + ": " + error_name(frame, k);
     ErrorFunction& f = frame.error[k];
+    const std::vector<double> declared = f.u;
+    if (forward.empty() && !declared.empty() && !f.known() && f.file.empty())
+      return bad_input(where + " is missing, but MACHINE.toml contains u_" +
+                       with_unit(error_name(frame, k), k) +
+                       "; add the column of the error, or remove this key");
+    if (forward.empty()) continue;
     if (f.known() || !f.file.empty())
       return bad_input(where + " is also in MACHINE.toml; give this error only once");
     if (is_positioning(frame, k)) MDOF_CHECK(read_sense_column(frame, csv, csv.columns[sense]));
@@ -144,6 +149,7 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
     if (f.u.empty())
       f.u = column(4).empty() || column(5).empty() ? column(4) : larger(column(4), column(5));
     if (f.u.empty()) f.u = column(5);
+    if (f.u.empty()) f.u = declared;
     f.noise_only = csv.noise_only;
     MDOF_CHECK(complete(f, k, where));
     any = true;

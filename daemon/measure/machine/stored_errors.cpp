@@ -145,10 +145,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
   MDOF_CHECK(check_set_up(machine, frame, table));
   taken.stated.push_back({frame.id, table.stated, table.slope_removed});
   const double zero_m = frame.angles_zero_m.value_or(0);
-  if (!frame.angles_zero_m && is_far_outside(table.position_m, zero_m))
-    append(taken.doubtful, {notice(NoticeCode::angles_zero_assumed, frame.id,
-                                   {{"first_mm", to_mm(table.position_m.front())},
-                                    {"last_mm", to_mm(table.position_m.back())}})});
+  MDOF_CHECK(check_angles_zero(frame, table.position_m, taken.doubtful));
   for (std::size_t named = 0; named < 5; ++named) {
     std::vector<double> u;
     for (std::size_t row = 0; row < table.position_m.size(); ++row)

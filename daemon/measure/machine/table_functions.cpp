@@ -6,7 +6,9 @@
 
 #include "algo/compensation/between_targets.h"
 #include "algo/machine/frames.h"
+#include "schema/base/number/number_text.h"
 #include "schema/sample.h"
+#include "schema/units.h"
 
 namespace mdof::daemon {
 
@@ -87,6 +89,14 @@ std::array<std::size_t, kErrorCount> body_error_indices(const CompensationTable&
   return of;
 }
 
+// Whether at_m is more than one interval before the first or after the last position. The interval
+// is the interval of the two positions at this end.
+bool is_far_outside(const std::vector<double>& position_m, double at_m) {
+  const std::size_t n = position_m.size();
+  return n > 1 && (at_m < 2 * position_m[0] - position_m[1] ||
+                   at_m > 2 * position_m[n - 1] - position_m[n - 2]);
+}
+
 }  // namespace
 
 void set_covariance(MachineFrame& frame, const CompensationTable& table,
@@ -136,10 +146,20 @@ void add_shared(MachineFrame& frame, const CompensationTable& table, const std::
   }
 }
 
-bool is_far_outside(const std::vector<double>& position_m, double at_m) {
-  const std::size_t n = position_m.size();
-  return n > 1 && (at_m < 2 * position_m[0] - position_m[1] ||
-                   at_m > 2 * position_m[n - 1] - position_m[n - 2]);
+Status check_angles_zero(const MachineFrame& frame, const std::vector<double>& position_m,
+                         Notices& doubtful) {
+  const double zero_m = frame.angles_zero_m.value_or(0);
+  if (!is_far_outside(position_m, zero_m)) return {};
+  const double first_mm = to_mm(position_m.front()), last_mm = to_mm(position_m.back());
+  if (frame.angles_zero_m)
+    return bad_input("axis " + frame.id + " of the machine: angles_zero_at_mm = " +
+                     plain_number(to_mm(zero_m), 6) + ", but the errors were measured from " +
+                     plain_number(first_mm, 6) + " to " + plain_number(last_mm, 6) +
+                     " mm; give the position of this axis during the measurement of the other "
+                     "axes, inside this range");
+  doubtful.push_back(notice(NoticeCode::angles_zero_assumed, frame.id,
+                            {{"first_mm", first_mm}, {"last_mm", last_mm}}));
+  return {};
 }
 
 }  // namespace mdof::daemon

@@ -8,6 +8,7 @@
 #include "schema/axis.h"
 #include "schema/compensation_table.h"
 #include "schema/machine/machine.h"
+#include "schema/notice/notice.h"
 
 namespace mdof::daemon {
 
@@ -47,8 +48,10 @@ void set_covariance(MachineFrame& frame, const CompensationTable& table,
 // uncertainty of the quantity.
 void add_shared(MachineFrame& frame, const CompensationTable& table, const std::string& name,
                 const std::vector<Errors5>& by_row);
-// Whether at_m is more than one interval before the first or after the last position. The interval
-// is the interval of the two positions at this end.
-bool is_far_outside(const std::vector<double>& position_m, double at_m);
+// Checks that the angles of a table can be 0 at the position that MACHINE.toml gives or, without
+// the key, at 0. If the position is more than one interval outside the table, the angle there is
+// unknown: an error if the key is given, otherwise a notice.
+Status check_angles_zero(const MachineFrame& frame, const std::vector<double>& position_m,
+                         Notices& doubtful);
 
 }  // namespace mdof::daemon

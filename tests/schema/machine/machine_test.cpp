@@ -142,7 +142,12 @@ TEST(MachineToml, ErrorsNameTheInvalidKey) {
       {"EAX_urad = 3", "EAX_urad = 3e6", "unit"},
       {"EAX_urad = 3", "EAX_um = 3", "EAX_u"},
       {"EC0Y_urad", "EC0X_urad", "EC0"},
-      {"u_EC0Y_urad = 0.4", "u_EC0Y_urad = -1", "not negative"},
+      {"u_EC0Y_urad = 0.4", "u_EC0Y_urad = -1", "from 0 to 100000, not -1"},
+      {"u_EC0Y_urad = 0.4", "u_EC0Y_urad = 1e300", "u_EC0Y_urad: must be"},
+      {"u_EXX_um = 0.2", "u_EXX_um = 10001", "from 0 to 10000, not 10001"},
+      {"u = 0.3", "u = 1e300", "source[1].u"},
+      {"range_mm = [0, 400]", "angles_zero_at_mm = 0",
+       "axis[1].angles_zero_at_mm: applies only to"},
       {"centre_mm = [200, 200, 0]\n", "", "centre_mm"},
       {"id = \"Z\"", "id = \"Y\"", "twice"},
       {"id = \"Z\"", "id = \"B\"", "has no axis"},
@@ -175,6 +180,28 @@ TEST(MachineToml, ErrorsNameTheInvalidKey) {
     EXPECT_NE(read.error().message.find(bad.says), std::string::npos) << read.error().message;
     EXPECT_NE(read.error().message.find("m.toml"), std::string::npos) << read.error().message;
   }
+}
+
+// A file may lack u, so u can be declared. Runs and tables have their own u.
+TEST(MachineToml, UncertaintyCompletesAFileButNotRuns) {
+  const auto with = [](const std::string& keys) {
+    return parse_machine(
+        "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n[[axis]]\nid = \"X\"\n"
+        "holds_at_mm = [0, 0, 0]\npoint = \"moving\"\nu_EYX_um = 0.2\n" +
+            keys,
+        "m.toml");
+  };
+  const auto file = with("file = \"x.csv\"\n");
+  ASSERT_TRUE(file) << file.error().message;
+  ASSERT_EQ(file->find("X")->error[1].u.size(), 1u);
+  EXPECT_DOUBLE_EQ(file->find("X")->error[1].u[0], 0.2e-6);
+  for (const char* rows : {"runs = [1]\n", "tables = [1]\n"}) {
+    const auto stored = with(rows);
+    ASSERT_FALSE(stored);
+    EXPECT_NE(stored.error().message.find("their own uncertainty"), std::string::npos)
+        << stored.error().message;
+  }
+  EXPECT_NE(with("").error().message.find("u_EYX_um: unknown key"), std::string::npos);
 }
 
 TEST(MachineToml, ReadsNumbersOfRunsTablesAndSquareness) {

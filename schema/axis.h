@@ -8,8 +8,9 @@
 //   Y: EXY = -δy  EZY = δz   EAY = -εy  EBY = εx   ECY = εz
 //   Z: EXZ = δy   EYZ = δz   EAZ = εy   EBZ = εz   ECZ = εx
 // Error = actual - nominal. The local errors are errors of the target in the metrology frame. The
-// errors with ISO names are errors of the moving body. If the target moves, both errors are equal;
-// if the fixture moves, the ISO error is the negative of the target's error (schema/rig/sides.h).
+// errors with ISO names are errors of the moving body. If the target moves, both errors are equal.
+// If the fixture moves, the local errors of a run are the negative errors of the fixture. To first
+// order these are the errors of the target (algo/model/moving_body.h).
 #pragma once
 
 #include <array>

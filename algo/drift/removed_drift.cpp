@@ -19,7 +19,7 @@ PointShifts restated(const PointShifts& at_fixture, const Run& run, Model model)
     if (!p.errors.valid) continue;
     const double travel_m = run.header.sides.target_travel_m(p.point.position_m);
     const auto stated = [&](const AxisErrors& errors, const StatedAt& from, const StatedAt& to) {
-      return restate(errors, model, run.header.axis, travel_m, from, to);
+      return restate(errors, model, run.header.moving(), travel_m, from, to);
     };
     AxisErrors shifted = stated(p.errors, run.header.stated, kAtFixture);
     for (std::size_t k = 0; k < kErrorCount; ++k) shifted.local[k] += at_fixture[j][k];

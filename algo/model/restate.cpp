@@ -6,10 +6,15 @@
 namespace mdof::algo {
 namespace {
 
-// Returns (R - I) arm.
-Eigen::Vector3d rotation_shift(Model model, Axis axis, const Errors5& local,
+// Returns (R - I) arm for a moving target, (I - Rᵀ) arm for a moving fixture.
+Eigen::Vector3d rotation_shift(Model model, const MovingAxis& moving, const Errors5& local,
                                const Eigen::Vector3d& arm) {
-  if (model == Model::rigid) return local_rotation(axis, local).R_MC * arm - arm;
+  if (model == Model::rigid && moving.sides.fixture_moves) {
+    Errors5 of_fixture = local;
+    for (double& x : of_fixture) x = -x;
+    return arm - local_rotation(moving.axis, of_fixture).R_MC * arm;
+  }
+  if (model == Model::rigid) return local_rotation(moving.axis, local).R_MC * arm - arm;
   const double ex = local[kEx], ey = local[kEy], ez = local[kEz];
   return {ey * arm.z() - ez * arm.y(), ez * arm.x() - ex * arm.z(), ex * arm.y() - ey * arm.x()};
 }
@@ -36,12 +41,12 @@ Eigen::Vector3d reference_point(const StatedAt& at, Axis axis, double travel_m) 
   return {local[0], local[1], local[2]};
 }
 
-AxisErrors restate(const AxisErrors& errors, Model model, Axis axis, double travel_m,
+AxisErrors restate(const AxisErrors& errors, Model model, const MovingAxis& moving, double travel_m,
                    const StatedAt& from, const StatedAt& to) {
   if (!errors.valid || from == to) return errors;
   const Eigen::Vector3d arm =
-      reference_point(to, axis, travel_m) - reference_point(from, axis, travel_m);
-  const Eigen::Vector3d change = rotation_shift(model, axis, errors.local, arm);
+      reference_point(to, moving.axis, travel_m) - reference_point(from, moving.axis, travel_m);
+  const Eigen::Vector3d change = rotation_shift(model, moving, errors.local, arm);
   AxisErrors out = errors;
   out.local[kDy] += change.y();
   out.local[kDz] += change.z();
@@ -56,7 +61,7 @@ Run restate(Run run, const StatedAt& to) {
   const MovingAxis moving = run.header.moving();
   for (MeasuredPoint& p : run.points) {
     const double travel_m = moving.sides.target_travel_m(p.point.position_m);
-    p.errors = restate(p.errors, model, moving.axis, travel_m, run.header.stated, to);
+    p.errors = restate(p.errors, model, moving, travel_m, run.header.stated, to);
   }
   run.header.stated = to;
   run.straightness = straightness(moving, run.points);

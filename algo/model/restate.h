@@ -5,7 +5,7 @@
 //
 // At another point P' the error differs by (R - I)(P' - P). The origin of C is at P = d x̂. The
 // angles are the same at all points. R is I + [ε]× for the small-angle models and the true rotation
-// for the rigid model.
+// for the rigid model. For a moving fixture, see algo/model/moving_body.h.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,11 +18,12 @@ namespace mdof::algo {
 // Returns P in the local frame of the axis, m, after a travel d = travel_m of the target.
 Eigen::Vector3d reference_point(const StatedAt& at, Axis axis, double travel_m);
 
-// Converts `errors` of the target and their covariance from the point `from` to the point `to`. The
+// Converts `errors` of the moving body and their covariance from the point `from` to the point
+// `to`. Without sides, the errors are the errors of the target, whichever body moves. The
 // covariance is converted to first order: the derivative of a straightness error by an angle is the
 // lever arm. The component of e(P) along the motion, which is the positioning error, is left out,
 // because five probes and an encoder do not measure it.
-AxisErrors restate(const AxisErrors& errors, Model model, Axis axis, double travel_m,
+AxisErrors restate(const AxisErrors& errors, Model model, const MovingAxis& moving, double travel_m,
                    const StatedAt& from, const StatedAt& to);
 
 // Converts all points of a run to the point `to` and calculates the straightness and angle figures

@@ -40,7 +40,7 @@ class Differences {
 
  private:
   Errors5 stated(const AxisErrors& carriage, double travel_m) const {
-    return restate(carriage, solver_.model(), run_.header.axis, travel_m, kAtCarriage,
+    return restate(carriage, solver_.model(), {run_.header.axis, {}}, travel_m, kAtCarriage,
                    run_.header.stated)
         .local;
   }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "algo/model/moving_body.h"
 #include "algo/model/restate.h"
 #include "algo/plausibility/plausibility.h"
 #include "algo/points/flags.h"
@@ -151,8 +152,9 @@ void Pipeline::take_points() {
 AxisErrors Pipeline::solve_at(double encoder_m, const std::vector<double>& readings_m,
                               const std::vector<double>& u_m) const {
   const double travel_m = rig_.sides.target_travel_m(encoder_m);
-  return algo::restate(solver_.solve(travel_m, readings_m, u_m), options_.model, rig_.axis,
-                       travel_m, kAtCarriage, kAtFixture);
+  const AxisErrors of_target = solver_.solve(travel_m, readings_m, u_m);
+  return algo::restate(algo::errors_of_moving_body(of_target, options_.model, rig_.moving()),
+                       options_.model, rig_.moving(), travel_m, kAtCarriage, kAtFixture);
 }
 
 bool Pipeline::moved() const {

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "algo/model/moving_body.h"
 #include "algo/model/restate.h"
 #include "algo/model/solver.h"
 
@@ -15,8 +16,10 @@ PointShifts left_out(const Solver& simplified, const Solver& exact, const Run& r
     const MeasuredPoint& p = run.points[j];
     const double travel_m = run.header.sides.target_travel_m(p.point.position_m);
     const auto stated = [&](const Solver& solver) {
-      return restate(solver.solve_without_covariance(travel_m, p.point.probe_m, p.point.probe_u_m),
-                     solver.model(), run.header.axis, travel_m, kAtCarriage, run.header.stated);
+      const AxisErrors of_target =
+          solver.solve_without_covariance(travel_m, p.point.probe_m, p.point.probe_u_m);
+      return restate(errors_of_moving_body(of_target, solver.model(), run.header.moving()),
+                     solver.model(), run.header.moving(), travel_m, kAtCarriage, run.header.stated);
     };
     const AxisErrors first = stated(simplified), all = stated(exact);
     if (!p.errors.valid || !first.valid || !all.valid) continue;

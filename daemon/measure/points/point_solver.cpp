@@ -1,5 +1,6 @@
 #include "daemon/measure/points/point_solver.h"
 
+#include "algo/model/moving_body.h"
 #include "algo/model/restate.h"
 #include "daemon/measure/corrections/point_corrections.h"
 
@@ -23,7 +24,8 @@ void solve_point(const algo::Solver& solver, const Rig& rig, const algo::Residua
   p.errors = solver.solve(travel_m, p.point.probe_m, p.point.probe_u_m);
   if (!p.errors.valid) p.errors.reason = cause_of(p.point) + p.errors.reason;
   residuals.test(p);
-  p.errors = algo::restate(p.errors, solver.model(), rig.axis, travel_m, kAtCarriage, kAtFixture);
+  p.errors = algo::restate(algo::errors_of_moving_body(p.errors, solver.model(), rig.moving()),
+                           solver.model(), rig.moving(), travel_m, kAtCarriage, kAtFixture);
 }
 
 }  // namespace mdof::daemon

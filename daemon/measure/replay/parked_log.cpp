@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "algo/model/moving_body.h"
 #include "algo/model/restate.h"
 #include "algo/model/solver.h"
 #include "algo/points/align.h"
@@ -143,7 +144,8 @@ void add_errors(const algo::Solver& solver, const Rig& rig, const std::vector<do
     AxisErrors errors;
     if (!std::isnan(travel_m)) errors = solver.solve(travel_m, probe_m, {});
     if (errors.valid)
-      errors = algo::restate(errors, solver.model(), rig.axis, travel_m, kAtCarriage, kAtFixture);
+      errors = algo::restate(algo::errors_of_moving_body(errors, solver.model(), rig.moving()),
+                             solver.model(), rig.moving(), travel_m, kAtCarriage, kAtFixture);
     const Errors5 here = named_from_local(rig.moving(), errors.local);
     for (std::size_t k = 0; k < kErrorCount; ++k) named[k].push_back(errors.valid ? here[k] : kNaN);
   }

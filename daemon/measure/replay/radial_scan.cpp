@@ -9,6 +9,7 @@
 
 #include "algo/form/map_figures.h"
 #include "algo/form/scan_map.h"
+#include "algo/model/moving_body.h"
 #include "algo/model/restate.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/forward_model.h"
@@ -171,9 +172,12 @@ Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
   };
   std::map<int, Sum> targets;
   double read_m = 0;
+  Model solved = Model::rigid;
+  model_from(run.header.provenance.model, solved);
   for (const MeasuredPoint& p : run.points) {
     if (!p.errors.valid) continue;
-    model(rig.sides.target_travel_m(p.point.position_m), p.errors.local, {&read_m, 1});
+    const AxisErrors of_target = algo::errors_of_target(p.errors, solved, run.header.moving());
+    model(rig.sides.target_travel_m(p.point.position_m), of_target.local, {&read_m, 1});
     Sum& sum = targets[p.target];
     sum.n += 1;
     sum.position_m += p.point.position_m;

@@ -61,7 +61,8 @@ TEST(Restate, IsTheErrorOfTheBodyAtThePoint) {
     const Case c = random_case(random);
     const Vec3 P = {0.05 * unit(random), 0.05 * unit(random), 0.05 * unit(random)};
     for (const StatedAt& to : {kAtFixture, StatedAt{Reference::tool, P}}) {
-      const AxisErrors at = restate(solved(c), Model::rigid, c.axis, c.travel_m, kAtCarriage, to);
+      const AxisErrors at =
+          restate(solved(c), Model::rigid, {c.axis, {}}, c.travel_m, kAtCarriage, to);
       const Eigen::Vector3d expected = error_at(c, {to.point_m[0], to.point_m[1], to.point_m[2]});
       EXPECT_NEAR(at.local[kDy], expected.y(), 1e-15);
       EXPECT_NEAR(at.local[kDz], expected.z(), 1e-15);
@@ -74,7 +75,8 @@ TEST(Restate, IsTheErrorOfTheBodyAtThePoint) {
 TEST(Restate, SmallAngleModelsAreLinearAtTheFixture) {
   const Case c{Axis::x, 0.06, {1e-6, 2e-6, 3e-4, 4e-4, 5e-4}};
   for (const Model model : {Model::simplified, Model::exact}) {
-    const AxisErrors at = restate(solved(c), model, c.axis, c.travel_m, kAtCarriage, kAtFixture);
+    const AxisErrors at =
+        restate(solved(c), model, {c.axis, {}}, c.travel_m, kAtCarriage, kAtFixture);
     EXPECT_NEAR(at.local[kDy], 1e-6 - 0.06 * 5e-4, 1e-18);
     EXPECT_NEAR(at.local[kDz], 2e-6 + 0.06 * 4e-4, 1e-18);
   }
@@ -86,8 +88,9 @@ TEST(Restate, ThereAndBackGivesTheSameErrors) {
     const Case c = random_case(random);
     const StatedAt tool{Reference::tool, {0.01, -0.02, 0.07}};
     const AxisErrors there =
-        restate(solved(c), Model::rigid, c.axis, c.travel_m, kAtCarriage, tool);
-    const AxisErrors back = restate(there, Model::rigid, c.axis, c.travel_m, tool, kAtCarriage);
+        restate(solved(c), Model::rigid, {c.axis, {}}, c.travel_m, kAtCarriage, tool);
+    const AxisErrors back =
+        restate(there, Model::rigid, {c.axis, {}}, c.travel_m, tool, kAtCarriage);
     for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(back.local[k], c.local[k], 1e-17);
   }
 }
@@ -100,14 +103,14 @@ TEST(Restate, CovarianceMatchesTheScatterOfDraws) {
   AxisErrors errors = solved(c);
   for (std::size_t k = 0; k < 5; ++k) errors.covariance[6 * k] = sd[k] * sd[k];
   const StatedAt tool{Reference::tool, {0.01, -0.02, 0.03}};
-  const AxisErrors at = restate(errors, Model::rigid, c.axis, c.travel_m, kAtCarriage, tool);
+  const AxisErrors at = restate(errors, Model::rigid, {c.axis, {}}, c.travel_m, kAtCarriage, tool);
   constexpr int kDraws = 40000;
   Errors5 sum{}, square{};
   double product = 0;
   for (int i = 0; i < kDraws; ++i) {
     AxisErrors drawn = errors;
     for (std::size_t k = 0; k < 5; ++k) drawn.local[k] += sd[k] * normal(random);
-    drawn = restate(drawn, Model::rigid, c.axis, c.travel_m, kAtCarriage, tool);
+    drawn = restate(drawn, Model::rigid, {c.axis, {}}, c.travel_m, kAtCarriage, tool);
     for (std::size_t k = 0; k < 5; ++k) {
       const double off = drawn.local[k] - at.local[k];
       sum[k] += off;
@@ -122,7 +125,7 @@ TEST(Restate, CovarianceMatchesTheScatterOfDraws) {
 
 TEST(Restate, LeavesUnsolvedErrorsUnsolved) {
   const AxisErrors nothing;
-  EXPECT_FALSE(restate(nothing, Model::rigid, Axis::x, 0.1, kAtCarriage, kAtFixture).valid);
+  EXPECT_FALSE(restate(nothing, Model::rigid, {Axis::x, {}}, 0.1, kAtCarriage, kAtFixture).valid);
 }
 
 TEST(SmallRotation, RotationMatrixHasTheBitsOfLocalRotation) {

@@ -90,8 +90,8 @@ Run corrected(const Rig& rig, Run run) {
     EXPECT_EQ(out.why_not, "");
     EXPECT_LT(out.rounds, 12);
     p.point.probe_m = out.readings_m;
-    p.errors = restate(solver.solve(d, p.point.probe_m, p.point.probe_u_m), Model::rigid, rig.axis,
-                       d, kAtCarriage, kAtFixture);
+    p.errors = restate(solver.solve(d, p.point.probe_m, p.point.probe_u_m), Model::rigid,
+                       {rig.axis, {}}, d, kAtCarriage, kAtFixture);
   }
   return run;
 }

@@ -145,7 +145,7 @@ TEST(Stated, TravelSensitivityMatchesTheSolver) {
       if (!p.errors.valid) continue;
       const auto at = [&](double travel_m) {
         return restate(solver.solve(travel_m, p.point.probe_m, p.point.probe_u_m), Model::rigid,
-                       Axis::x, travel_m, kAtCarriage, run.header.stated)
+                       {Axis::x, {}}, travel_m, kAtCarriage, run.header.stated)
             .local;
       };
       const double d = found[j].travel_m;

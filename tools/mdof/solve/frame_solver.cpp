@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "algo/model/moving_body.h"
 #include "algo/plausibility/map_cover.h"
 
 namespace mdof::tools {
@@ -45,6 +46,7 @@ Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {
   out.encoder_m = raw.value[encoder_];
   for (auto& column : out.local) column.resize(raw.scans());
   solver_.small_angle() && !corrects() ? solve_columns(raw, out) : solve_singly(raw, out);
+  if (rig_.sides.fixture_moves) convert_to_fixture(out);
   rows_ += raw.scans();
   return {};
 }
@@ -98,6 +100,17 @@ void FrameSolver::solve_singly(const SampleBlock& block, SolvedRows& out) {
       ++without_reading_;
     else
       leave_unsolved(i, errors.reason);
+  }
+}
+
+void FrameSolver::convert_to_fixture(SolvedRows& out) const {
+  AxisErrors row;
+  row.valid = true;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (std::isnan(out.local[0][i])) continue;
+    for (std::size_t k = 0; k < kErrorCount; ++k) row.local[k] = out.local[k][i];
+    const Errors5 moving = algo::errors_of_moving_body(row, solver_.model(), rig_.moving()).local;
+    for (std::size_t k = 0; k < kErrorCount; ++k) out.local[k][i] = moving[k];
   }
 }
 

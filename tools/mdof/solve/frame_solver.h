@@ -20,6 +20,7 @@ namespace mdof::tools {
 
 // Each column has one value for each row. The errors describe the motion of the target in the local
 // frame of the axis, in m and rad (Eq. 2-12); their reference point is the origin of the carriage.
+// If the fixture moves, they are the negative errors of the fixture.
 // In an unsolved row all errors are NaN.
 struct SolvedRows {
   std::vector<double> encoder_m;
@@ -67,6 +68,7 @@ class FrameSolver {
   const double* travel(const std::vector<double>& encoder_m);
   void solve_columns(const SampleBlock& block, SolvedRows& out);
   void solve_singly(const SampleBlock& block, SolvedRows& out);
+  void convert_to_fixture(SolvedRows& out) const;
   void note_travel(double travel_m);
   void count_over_range(const SampleBlock& block);
   void note_readings(const SampleBlock& block);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algo/iso230/line_fit.h"
+#include "algo/model/moving_body.h"
 #include "algo/model/restate.h"
 #include "algo/sensitivity/plan/axis.h"
 #include "algo/sensitivity/plan/experiment_base.h"
@@ -80,7 +81,9 @@ class RunTrial {
     AxisErrors truth;
     truth.valid = true;
     truth.local = truth_.at(travel_m, period_m_);
-    truth = algo::restate(truth, Model::rigid, axis_.axis(), travel_m, kAtCarriage, kAtFixture);
+    const MovingAxis moving = plan_.rig.moving();
+    truth = algo::restate(algo::errors_of_moving_body(truth, Model::rigid, moving), Model::rigid,
+                          moving, travel_m, kAtCarriage, kAtFixture);
     return named_from_local(axis_.axis(), truth.local);
   }
 

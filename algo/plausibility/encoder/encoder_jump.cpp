@@ -28,7 +28,7 @@ double voted(std::span<const double> x, std::size_t i, double speed) {
 }
 
 struct Step {
-  double size = 0, speed_change = 0;  // m, m per scan
+  double size = 0, speed = 0, speed_change = 0;  // m, m per scan, m per scan
 };
 
 // Returns the step from i - 1 to i after subtraction of the motion of the axis.
@@ -37,7 +37,17 @@ Step step_at(std::span<const double> x, std::size_t i) {
   const double last = voted(x, i - 1, speed_before), next = voted(x, i, speed_after);
   const double before = (last - voted(x, i - 4, speed_before)) / 3;
   const double after = (voted(x, i + 3, speed_after) - next) / 3;
-  return {next - last - 0.5 * (before + after), after - before};
+  const double speed = 0.5 * (before + after);
+  return {next - last - speed, speed, after - before};
+}
+
+// Subtracts the motion of the axis during scans that are not in the log, from the step between the
+// two rows next to these scans. If the speed changes, this motion is not known exactly, and the
+// returned size is the smallest possible.
+double without_lost_scans(const Step& step, double lost) {
+  const double size = step.size - lost * step.speed;
+  const double unknown = std::min(std::abs(size), lost * std::abs(step.speed_change));
+  return size - std::copysign(unknown, size);
 }
 
 }  // namespace
@@ -56,9 +66,14 @@ std::optional<EncoderJump> find_jump(std::span<const std::int64_t> time_ns,
     // If the axis itself moves this fast, the rows next to this row have similar steps.
     const double beside = std::max(std::abs(step_at(encoder_m, i - 1).size),
                                    std::abs(step_at(encoder_m, i + 1).size));
-    if (size < 4 * beside || (largest && size < std::abs(largest->size_m))) continue;
+    if (size < 4 * beside) continue;
     if (time_ns[i + 1] - time_ns[i - 2] > 6 * period_ns) continue;  // a gap
-    largest = {time_ns[i], encoder_m[i - 1], step.size};
+    const double interval_ns = static_cast<double>(time_ns[i] - time_ns[i - 1]);
+    const double lost = std::max(0.0, std::round(interval_ns / static_cast<double>(period_ns)) - 1);
+    const double jump_m = without_lost_scans(step, lost);
+    if (!(std::abs(jump_m) > least_m) || (largest && std::abs(jump_m) < std::abs(largest->size_m)))
+      continue;
+    largest = {time_ns[i], encoder_m[i - 1], jump_m};
   }
   return largest;
 }

@@ -156,6 +156,47 @@ TEST(EncoderJumpInMotion, JumpBesideALargeJumpIsRejected) {
   }
 }
 
+// The rows before row kAt are not in the log. Without a jump, the larger step of the encoder is the
+// motion of the axis. A jump during the gap is found with its size.
+TEST(EncoderJumpInMotion, MissingRowsAreNoJump) {
+  for (const double speed : kSpeeds_mm_s) {
+    for (const std::size_t lost : {1u, 2u, 3u}) {
+      for (const double size_um : {0.0, 100.0, -100.0}) {
+        auto rows = Motion{.speed_mm_s = speed, .jump_um = size_um}.encoder_m();
+        std::vector<std::int64_t> time_ns;
+        for (std::size_t i = 0; i < kRows; ++i)
+          time_ns.push_back(static_cast<std::int64_t>(i) * kScan_ns);
+        rows.erase(rows.begin() + kAt - lost, rows.begin() + kAt);
+        time_ns.erase(time_ns.begin() + kAt - lost, time_ns.begin() + kAt);
+        const auto jump = find_jump(time_ns, rows, 0, rows.size(), kScan_ns, 5e-6);
+        ASSERT_EQ(jump.has_value(), size_um != 0) << speed << " mm/s, lost " << lost;
+        if (jump) {
+          EXPECT_NEAR(jump->size_m, 1e-6 * size_um, 1e-12) << speed << " mm/s, lost " << lost;
+        }
+      }
+    }
+  }
+}
+
+// The axis starts or stops while rows are lost, so its motion in these rows is unknown.
+TEST(EncoderJumpInMotion, StartOrStopInMissingRowsIsNoJump) {
+  for (const double speed : kSpeeds_mm_s) {
+    for (std::size_t from = kAt - 3; from <= kAt; ++from) {
+      std::vector<double> start, stop;
+      std::vector<std::int64_t> time_ns;
+      for (std::size_t i = 0; i < kRows; ++i) {
+        if (i >= kAt - 3 && i < kAt) continue;
+        const double before = static_cast<double>(std::min(i, from));
+        start.push_back(1e-6 * speed * (static_cast<double>(i) - before));
+        stop.push_back(1e-6 * speed * before);
+        time_ns.push_back(static_cast<std::int64_t>(i) * kScan_ns);
+      }
+      for (const auto& rows : {start, stop})
+        EXPECT_FALSE(find_jump(time_ns, rows, 0, rows.size(), kScan_ns, 1e-6)) << speed;
+    }
+  }
+}
+
 TEST(EncoderJumpInMotion, MissingPositionsAreNoJump) {
   auto rows = Motion{.speed_mm_s = 10}.encoder_m();
   for (std::size_t i = 25; i < 35; ++i) rows[i] = kNaN;

@@ -276,7 +276,6 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
   range_since_stop_ = {left_m_, left_m_};
   const std::size_t end_row = std::min(find_rest_end(slots_[slots_.size() - 2]), cut_row_);
   const double still_s = ns_to_s(slots_[slots_.size() - 2].begin_ns - still_since_ns_);
-  summary_.longest_still_s = std::max(summary_.longest_still_s, still_s);
   const auto settled_ns = still_since_ns_ + static_cast<std::int64_t>(options_.settle_s * 1e9);
   const auto first = std::lower_bound(buffer_.time_ns.begin(), buffer_.time_ns.end(), settled_ns);
   const auto first_row = static_cast<std::size_t>(first - buffer_.time_ns.begin());
@@ -289,6 +288,7 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
   } else if (still_s >= options_.min_length_s) {
     note({DwellEventKind::short_stop, still_since_ns_, left_m_, 0, still_s});
   }
+  if (last_stop_is_point_ || !long_enough) take_rest(still_s);
   if (last_stop_is_point_) {
     travel_observed_ = true;
     travelled_range_ = {left_m_, left_m_};
@@ -318,8 +318,10 @@ bool DwellDetector::keep_or_report(Point point, std::size_t first_row, std::size
   const bool spiky = has_flag(point, Flag::spike, "encoder");
   if (crept_m > kCreepFactor * summary_.tolerance_m && !spiky) {
     const bool kept = crept_m <= kMostCreep_m;
+    const double length_s = ns_to_s(point.end_ns - point.begin_ns);
     note({kept ? DwellEventKind::crept : DwellEventKind::creep, point.begin_ns, point.position_m,
-          std::copysign(crept_m, *(end - 1) - *begin), ns_to_s(point.end_ns - point.begin_ns)});
+          std::copysign(crept_m, *(end - 1) - *begin), length_s});
+    if (!kept) take_rest(length_s * summary_.tolerance_m / crept_m);
     if (!kept) return false;
     add_flag(point, Flag::creep);
   }

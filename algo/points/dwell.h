@@ -79,7 +79,7 @@ class DwellDetector {
     double period_s = 0;         // median of the first intervals
     std::uint64_t gaps = 0;      // number of intervals longer than three periods
     std::uint64_t unplaced = 0;  // frames without a valid position, not in `scans`
-    double longest_still_s = 0;  // longest time at rest; explains why no stop was found
+    double longest_still_s = 0;  // longest time within the tolerance
     double tolerance_m = 0;      // current value
     // Stops that became no point because they are too short or creep; only the first
     // kMaxPassedOver.
@@ -126,6 +126,9 @@ class DwellDetector {
   void examine_window(bool still);
   void find_encoder_jump();
   void note(const DwellEvent& event);
+  void take_rest(double length_s) {
+    summary_.longest_still_s = std::max(summary_.longest_still_s, length_s);
+  }
   // Returns whether the stop has become a point.
   bool keep_or_report(Point point, std::size_t first_row, std::size_t end_row,
                       std::vector<Point>& out);

@@ -123,6 +123,15 @@ TEST(DwellTimes, SlowTravelIsNoStop) {
   }
 }
 
+// An axis that moves at 20 µm/s stays within the tolerance of 2 µm for 0.1 s.
+TEST(DwellTimes, SlowTravelIsAtRestForTheTimeWithinTheTolerance) {
+  SteppingAxis axis = fast_axis();
+  for (int i = 0; i < 30000; ++i) axis.x_m += 0.02e-6, axis.scan();
+  const Found found = found_in(axis.frames);
+  EXPECT_TRUE(found.points.empty());
+  EXPECT_NEAR(found.summary.longest_still_s, 0.1, 0.002);
+}
+
 // The axis creeps at 0.2 mm/s between fast motions. Up to 200 um this is a creeping stop. The
 // detected stretch begins with the slot in which the creeping begins, and ends three slots before
 // its end.

@@ -1,6 +1,8 @@
 #include "schema/rig/reference.h"
 
+#include "schema/base/number/number_text.h"
 #include "schema/rig/rig.h"
+#include "schema/units.h"
 
 namespace mdof {
 
@@ -23,6 +25,14 @@ bool reference_from(std::string_view name, Reference& reference) {
     return true;
   }
   return false;
+}
+
+std::string reference_text(const StatedAt& at) {
+  std::string text = to_string(at.reference);
+  if (at.reference != Reference::tool) return text;
+  for (std::size_t k = 0; k < at.point_m.size(); ++k)
+    text += (k ? ", " : " ") + plain_number(to_mm(at.point_m[k]), 6);
+  return text + " mm";
 }
 
 Result<StatedAt> stated_at(const Rig& rig, Reference reference) {

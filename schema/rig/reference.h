@@ -2,6 +2,7 @@
 // the error of that point of the target that is at P.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "schema/axis.h"
@@ -25,6 +26,8 @@ struct StatedAt {
   Vec3 point_m{};  // P in M, components along the machine's axes; undefined for the carriage
   bool operator==(const StatedAt&) const = default;
 };
+// The point as a text for readers: "fixture", "carriage", "tool 1, 2, 30 mm".
+std::string reference_text(const StatedAt& at);
 inline constexpr StatedAt kAtFixture{Reference::fixture, {}};
 inline constexpr StatedAt kAtCarriage{Reference::carriage, {}};
 

@@ -75,7 +75,8 @@ void write_software(Xml& xml, const Report& report) {
   write_text(
       xml, "dcc:description",
       "mdof_position, mdof_target, mdof_pass, mdof_direction: position, target, pass and "
-      "direction of approach of each point; mdof_EYX and others: error (actual minus nominal), "
+      "direction of approach of each point; mdof_flags: flags of each point, with a comma between "
+      "two flags, - for no flag; mdof_EYX and others: error (actual minus nominal), "
       "named as in ISO 230-1; mdof_figure: result of a run such as a straightness, "
       "calculated from the mean of the measured approaches");
   xml.leaf("dcc:namespace", "mdof");

@@ -100,6 +100,21 @@ void close_result(Xml& xml) {
   for (int i = 0; i < 3; ++i) xml.close();
 }
 
+// Writes the flags of each point: "spike:A,creep", or "-" if the point has no flag.
+void write_flags(Xml& xml, const std::vector<MeasuredPoint>& points) {
+  std::string texts;
+  for (const MeasuredPoint& p : points) {
+    std::string of_point;
+    for (const std::string& flag : flag_texts(p.point.flags))
+      of_point += (of_point.empty() ? "" : ",") + flag;
+    texts += (texts.empty() ? "" : " ") + (of_point.empty() ? "-" : of_point);
+  }
+  xml.open("dcc:quantity", {{"refType", "mdof_flags"}});
+  write_text(xml, "dcc:name", "flags");
+  xml.leaf("dcc:charsXMLList", texts);
+  xml.close();
+}
+
 void write_points(Xml& xml, const ReportRun& run) {
   const Run& r = run.results.run;
   const auto& points = r.points;
@@ -129,6 +144,7 @@ void write_points(Xml& xml, const ReportRun& run) {
         [&](std::size_t i) { return known[i].U[k]; },
         [&](std::size_t i) { return known[i].coverage_factor[k]; });
   }
+  write_flags(xml, points);
   close_result(xml);
 }
 
@@ -232,7 +248,7 @@ void write_meta_data(Xml& xml, const ReportRun& run) {
   xml.open("dcc:measurementMetaData");
   write_declaration(xml, kMetaData, "state", to_string(header.state));
   write_declaration(xml, kMetaData, "model", header.provenance.model);
-  write_declaration(xml, kMetaData, "straightness refers to", to_string(header.stated.reference));
+  write_declaration(xml, kMetaData, "straightness refers to", reference_text(header.stated));
   write_declaration(xml, kMetaData, "moving body, travel",
                     std::string(header.sides.moves()) + ", " + header.sides.travel());
   if (run.superseded_by)

@@ -11,6 +11,7 @@
 #include "daemon/output/charts/labels.h"
 #include "daemon/output/charts/run/points.h"
 #include "daemon/output/charts/svg.h"
+#include "daemon/output/documents/qif_facts.h"
 #include "daemon/output/documents/xml.h"
 #include "schema/axis.h"
 #include "schema/base/sha256.h"
@@ -24,11 +25,19 @@ using report::ReportRun;
 
 namespace {
 
-// xs:decimal allows neither an exponent nor NaN. Callers never pass NaN.
+// xs:decimal allows neither an exponent nor NaN. Callers never pass NaN. xmllint accepts at most
+// 24 digits, so the digits after 20 decimals are left out.
 std::string decimal(double x) {
+  constexpr std::size_t kMostDecimals = 20;
   char buffer[400];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, x + 0.0, std::chars_format::fixed);
-  return {buffer, end.ptr};
+  std::string text(buffer, end.ptr);
+  const std::size_t point = text.find('.');
+  if (point == text.npos || text.size() <= point + 1 + kMostDecimals) return text;
+  text.resize(point + 1 + kMostDecimals);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
 }
 
 bool is_stated(double u) {
@@ -56,6 +65,7 @@ struct Measured {
   double u, U, k;
   std::vector<std::pair<std::string, double>> attributes;
   std::string reason, status = "NOT_ANALYZED";
+  std::vector<Attribute> texts;
 };
 
 struct MeasuredRun {
@@ -83,12 +93,16 @@ void add_figure(Document& document, MeasuredRun& measured, const Budget& b,
               b.coverage_factor,
               {},
               "",
-              "NOT_ANALYZED"};
+              "NOT_ANALYZED",
+              {}};
   for (const auto& [figure, decision] : decided)
     if (figure == b.figure) {
       characteristic.limit = to_key_unit(decision.limit);
       of.status = status_of(decision.conformity);
       of.reason = decision.reason;
+      of.texts.emplace_back("decision rule", decision.rule);
+      if (std::isfinite(decision.guard_band))
+        of.attributes.emplace_back("guard_band", to_key_unit(decision.guard_band));
     }
   document.characteristics.push_back(std::move(characteristic));
   measured.all.push_back(std::move(of));
@@ -121,7 +135,9 @@ void add_points(Document& document, MeasuredRun& measured) {
                   known[row].coverage_factor[k],
                   {},
                   p.errors.reason,
-                  "NOT_ANALYZED"};
+                  "NOT_ANALYZED",
+                  {}};
+      if (!p.point.flags.empty()) of.texts.emplace_back("flags", to_string(p.point.flags));
       if (p.errors.valid) of.value = to_key_unit(errors[k]);
       of.attributes = {{"row", static_cast<double>(row)},
                        {"pass", static_cast<double>(p.run)},
@@ -203,8 +219,6 @@ void write_characteristics(Xml& xml, const std::vector<Characteristic>& all) {
   xml.close();
 }
 
-using Attribute = std::pair<std::string, std::string>;
-
 void write_attribute(Xml& xml, const char* element, const Attribute& of) {
   xml.leaf(element, "", {{"name", of.first}, {"value", of.second}});
 }
@@ -218,9 +232,10 @@ void write_measurement(Xml& xml, const Measured& of, const std::string& kind, st
          {std::pair("U", of.U), {"k", of.k}, {"coverage_probability", 0.95}})
       attributes.emplace_back(name, charts::exact_text(value));
   xml.open(kind + "Measurement", {{"id", std::to_string(id)}});
-  if (!attributes.empty()) {
-    xml.open("Attributes", {{"n", std::to_string(attributes.size())}});
+  if (const std::size_t n = attributes.size() + of.texts.size(); n > 0) {
+    xml.open("Attributes", {{"n", std::to_string(n)}});
     for (const Attribute& attribute : attributes) write_attribute(xml, "AttributeD1", attribute);
+    for (const Attribute& attribute : of.texts) write_attribute(xml, "AttributeStr", attribute);
     xml.close();
   }
   if (!of.reason.empty()) xml.leaf("Description", of.reason);
@@ -236,70 +251,17 @@ void write_measurement(Xml& xml, const Measured& of, const std::string& kind, st
   xml.close();
 }
 
-std::vector<Attribute> facts_of(const ReportRun& run) {
-  const RunHeader& header = run.results.run.header;
-  std::vector<Attribute> facts = {
-      {"run", std::to_string(header.id)},
-      {"axis", std::string(1, letter(header.axis))},
-      {"state", to_string(header.state)},
-      {"simulated", header.simulated ? "true" : "false"},
-      {"U covers", covers_text(run.results.uncertainty)},
-      {"SHA-256 of the recording", header.provenance.recording_sha256},
-      {"SHA-256 of the result", run.result_sha256},
-      {"measured with", header.provenance.software_version},
-      {"straightness refers to", to_string(header.stated.reference)},
-      {"moving body, travel", std::string(header.sides.moves()) + ", " + header.sides.travel()}};
-  std::string keys;
-  for (const std::string& key : run.results.uncertainty.not_declared)
-    keys += (keys.empty() ? "" : ", ") + key;
-  if (!keys.empty())
-    facts.emplace_back("uncertainties that the rig does not declare, so that U is too small", keys);
-  if (run.superseded_by)
-    facts.emplace_back("superseded by run", std::to_string(*run.superseded_by));
-  if (const std::string approach = daemon::only_approach(run.results.run); !approach.empty())
-    facts.emplace_back("only measured approach", approach);
-  for (const std::string& mark : charts::with_noise_only_mark(
-           run.results.uncertainty.noise_only, daemon::warning_marks(run.results.run),
-           output::Language::english))
-    facts.emplace_back("warning", mark);
-  for (const Notice& notice : header.notices)
-    facts.emplace_back(to_string(notice.severity), words::text(notice, output::Language::english));
-  if (header.temperature)
-    facts.emplace_back("temperature: mean, lowest, highest / degree Celsius",
-                       charts::exact_text(header.temperature->mean_C) + ", " +
-                           charts::exact_text(header.temperature->min_C) + ", " +
-                           charts::exact_text(header.temperature->max_C));
-  return facts;
-}
-
-void write_traceability(Xml& xml, const ReportFacts& facts) {
-  xml.open("InspectionTraceability");
-  xml.open("InspectingOrganization");
-  xml.leaf("Name", stated(facts.laboratory));
-  xml.close();
-  xml.open("CustomerOrganization");
-  xml.leaf("Name", stated(facts.customer));
-  xml.leaf("CustomerNumber", "not stated");
-  xml.close();
-  if (!facts.number.empty()) xml.leaf("ReportNumber", stated(facts.number));
-  xml.open("InspectionOperator");
-  xml.leaf("Name", stated(facts.operator_name));
-  xml.close();
-  xml.leaf("ReportType", "test report");
-  xml.close();
-}
-
 void write_results(Xml& xml, const Document& document, const ReportFacts& facts) {
   std::size_t id = kFirst + 3 * document.characteristics.size();
   xml.open("Results");
   xml.open("MeasurementResultsSet", {{"n", std::to_string(document.runs.size())}});
   for (const MeasuredRun& measured : document.runs) {
     xml.open("MeasurementResults", {{"id", std::to_string(id++)}});
-    const auto attributes = facts_of(*measured.run);
+    const auto attributes = facts_of(*measured.run, facts);
     xml.open("Attributes", {{"n", std::to_string(attributes.size())}});
     for (const Attribute& attribute : attributes) write_attribute(xml, "AttributeStr", attribute);
     xml.close();
-    write_traceability(xml, facts);
+    write_traceability(xml, *measured.run, facts);
     if (!measured.all.empty()) {
       xml.open("MeasuredCharacteristics");
       xml.open("CharacteristicMeasurements", {{"n", std::to_string(measured.all.size())}});

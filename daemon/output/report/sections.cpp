@@ -39,11 +39,13 @@ std::string temperature_of(const RunHeader& h, Language language) {
                 {C(h.temperature->mean_C), C(h.temperature->min_C), C(h.temperature->max_C)});
 }
 
-std::string reference_point_text(const StatedAt& at) {
-  std::string text = to_string(at.reference);
-  if (at.reference == Reference::tool)
-    for (const double x : at.point_m) text += " " + charts::number_text(to_mm(x), 6);
-  return at.reference == Reference::tool ? text + " mm" : text;
+std::string declared_temperature(const Rig& rig, Language language) {
+  if (!rig.expansion.any) return phrase(Phrase::not_stated, language);
+  const auto C = [](const BodyExpansion& body) {
+    return charts::number_text(20 + body.above_20_K, 6);
+  };
+  return phrase(Phrase::temperature_declared, language,
+                {C(rig.expansion.scale), C(rig.expansion.fixture)});
 }
 
 std::string vector_text(const Vec3& v, double factor) {
@@ -150,7 +152,7 @@ void write_conditions(Html& html, const ReportRun& run, Language language) {
               {of(Phrase::temperature), temperature_of(h, language)},
               {of(Phrase::model), h.provenance.model},
               {of(Phrase::moves), std::string(h.sides.moves()) + ", " + h.sides.travel()},
-              {of(Phrase::stated_at), reference_point_text(h.stated)},
+              {of(Phrase::stated_at), reference_text(h.stated)},
               {of(Phrase::scans), scans_text(h, language)},
               {of(Phrase::measured_by), h.provenance.software_version},
               {of(Phrase::note), h.note}});

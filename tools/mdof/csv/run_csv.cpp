@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "daemon/output/charts/svg.h"
+#include "schema/rig/reference.h"
 #include "schema/sample.h"
 #include "schema/units.h"
 #include "tools/mdof/csv/csv_text.h"
@@ -15,8 +17,18 @@ double known_noise(double u) {
   return u > 0 ? to_key_unit(u) : kNaN;
 }
 
+// Writes the last two cells of a row: the reference point of straightness, and its coordinates with
+// a space between two numbers. The carriage moves, so its cell of the coordinates is empty.
+void add_reference(CsvText& csv, const StatedAt& at) {
+  std::vector<std::string> mm;
+  for (const double x : at.point_m) mm.push_back(charts::exact_text(to_mm(x)));
+  csv.cells({to_string(at.reference), at.reference == Reference::carriage ? "" : joined(mm, " ")})
+      .end_row();
+}
+
 void add_point(CsvText& csv, const MovingAxis& moving, const MeasuredPoint& p,
-               const ErrorsUncertainty& uncertainty, const RunUncertainty& of_run) {
+               const ErrorsUncertainty& uncertainty, const RunUncertainty& of_run,
+               const StatedAt& at) {
   const Errors5 named = named_from_local(moving, p.errors.local);
   const bool valid = p.errors.valid;
   csv.cell(static_cast<long long>(p.target)).cell(to_mm(p.target_m));
@@ -28,7 +40,8 @@ void add_point(CsvText& csv, const MovingAxis& moving, const MeasuredPoint& p,
   for (const double U : uncertainty.U) csv.cell(to_key_unit(U));
   csv.cell(static_cast<long long>(p.point.samples)).cell(to_string(p.point.flags));
   csv.cell(valid ? "" : p.errors.reason);
-  csv.cells({covers_text(of_run), joined(of_run.not_declared, " ")}).end_row();
+  csv.cells({covers_text(of_run), joined(of_run.not_declared, " ")});
+  add_reference(csv, at);
 }
 
 }  // namespace
@@ -39,9 +52,12 @@ std::string points_csv(const Run& run, const RunUncertainty& uncertainty) {
   for (const auto& name : error_names(run.header.axis)) csv.cell(std::string_view(name.key));
   for (const std::string of : {"u_", "u_random_", "U_"})
     for (const auto& name : error_names(run.header.axis)) csv.cell(of + name.key);
-  csv.cells({"samples", "flags", "reason", "u_covers", "not_declared"}).end_row();
+  csv.cells(
+      {"samples", "flags", "reason", "u_covers", "not_declared", "reference", "reference_mm"});
+  csv.end_row();
   for (std::size_t j = 0; j < run.points.size(); ++j)
-    add_point(csv, run.header.moving(), run.points[j], uncertainty.points[j], uncertainty);
+    add_point(csv, run.header.moving(), run.points[j], uncertainty.points[j], uncertainty,
+              run.header.stated);
   return csv.take();
 }
 
@@ -55,10 +71,11 @@ void add_uncertainty(CsvText& csv, const StatedFigures& figures, const std::stri
   csv.cell(budget ? to_key_unit(budget->U) : kNaN);
 }
 
-void add_covers(CsvText& csv, const StatedFigures& figures) {
+void add_covers(CsvText& csv, const StatedFigures& figures, const StatedAt& at) {
   const bool any = !figures.budgets.empty();
   csv.cell(any ? covers_text(figures.budgets) : figures.why);
-  csv.cell(any ? joined(figures.budgets.front().not_declared, " ") : "").end_row();
+  csv.cell(any ? joined(figures.budgets.front().not_declared, " ") : "");
+  add_reference(csv, at);
 }
 
 }  // namespace
@@ -85,7 +102,9 @@ std::string figures_csv(const Run& run, const StatedFigures& figures) {
              "u_range_urad",
              "U_range_urad",
              "u_covers",
-             "not_declared"});
+             "not_declared",
+             "reference",
+             "reference_mm"});
   csv.end_row();
   for (const auto& f : run.straightness) {
     const std::string error = f.error_key.substr(0, 3);
@@ -96,7 +115,7 @@ std::string figures_csv(const Run& run, const StatedFigures& figures) {
     csv.cell(to_urad(f.form_rad)).cell(to_urad(f.slope_end_point_rad));
     csv.cell(to_mm(f.peak_position_m)).cell(to_mm(f.valley_position_m));
     csv.cells({"", "", "", "", "", ""});
-    add_covers(csv, figures);
+    add_covers(csv, figures, run.header.stated);
   }
   for (const auto& f : run.angles) {
     const std::string error = f.error_key.substr(0, 3);
@@ -104,7 +123,7 @@ std::string figures_csv(const Run& run, const StatedFigures& figures) {
     csv.cell(to_urad(f.start_rad)).cell(to_urad(f.min_rad)).cell(to_urad(f.max_rad));
     csv.cell(to_urad(f.max_rad - f.min_rad));
     add_uncertainty(csv, figures, f.approach, error + "_range_urad");
-    add_covers(csv, figures);
+    add_covers(csv, figures, run.header.stated);
   }
   return csv.take();
 }

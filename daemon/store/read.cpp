@@ -96,8 +96,11 @@ Result<std::vector<std::string>> Store::texts(std::string_view json_array) {
   MDOF_TRY(Statement rows, connection_.prepare("SELECT value FROM json_each(?)"));
   rows.bind(json_array);
   for (;;) {
-    MDOF_TRY(const bool row, rows.step());
-    if (!row) return list;
+    const auto row = rows.step();
+    if (!row)
+      return bad_input("a list of texts is damaged (" + std::string(json_array.substr(0, 40)) +
+                       "); restore the database from a backup");
+    if (!*row) return list;
     list.emplace_back(rows.text(0));
   }
 }

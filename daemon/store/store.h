@@ -219,6 +219,9 @@ class Store {
   // results of runs, figures of studies and checkpoints. Returns one sentence for each fault;
   // empty: no damage.
   Result<std::vector<std::string>> verify();
+  // Compares the tables, indexes, views and triggers with those of a new database. A trigger that
+  // is not in a new database could change data; other objects may have been added by a user.
+  Result<std::vector<std::string>> verify_definitions();
   // chain_head(): the head of the chain of hashes. has_hash(): whether the chain contains a link
   // with this hash.
   Result<ChainHead> chain_head() { return store::chain_head(connection_); }

@@ -1,12 +1,65 @@
 // Functions of Store that check the integrity of the database.
+#include <cctype>
+#include <map>
+
 #include "daemon/store/file/announced_head.h"
+#include "daemon/store/file/migrate.h"
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 #include "schema/base/sha256.h"
+#include "schema/sql/sql.h"
 
 namespace mdof::store {
 
+using sqlite::Connection;
 using sqlite::Statement;
+
+namespace {
+
+// Removes comments and white space, because they can differ between versions of mdof.
+std::string without_comments(std::string_view sql) {
+  std::string text;
+  for (std::size_t i = 0; i < sql.size(); ++i) {
+    if (sql.substr(i, 2) == "--") i = std::min(sql.find('\n', i), sql.size());
+    if (i < sql.size() && !std::isspace(static_cast<unsigned char>(sql[i]))) text += sql[i];
+  }
+  return text;
+}
+
+using Definitions = std::map<std::string, std::string>;  // ["view mdof_run"]: the SQL
+
+Result<Definitions> definitions_of(Connection& connection) {
+  MDOF_TRY(Statement rows, connection.prepare("SELECT type || ' ' || name, sql FROM sqlite_schema "
+                                              "WHERE name NOT LIKE 'sqlite~_%' ESCAPE '~'"));
+  Definitions all;
+  for (;;) {
+    MDOF_TRY(const bool row, rows.step());
+    if (!row) return all;
+    all[std::string(rows.text(0))] = without_comments(rows.text(1));
+  }
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> Store::verify_definitions() {
+  MDOF_TRY(Connection fresh, Connection::open(":memory:", sqlite::OpenMode::create));
+  MDOF_CHECK(migrate(fresh, sql::migrations()));
+  MDOF_TRY(const Definitions right, definitions_of(fresh));
+  MDOF_TRY(const Definitions now, definitions_of(connection_));
+  std::vector<std::string> findings;
+  const char* const remedy = "; restore the database from a backup";
+  for (const auto& [name, sql] : right) {
+    const auto found = now.find(name);
+    if (found == now.end())
+      findings.push_back("the " + name + " is missing" + remedy);
+    else if (found->second != sql)
+      findings.push_back("the definition of the " + name + " was changed" + remedy);
+  }
+  for (const auto& [name, sql] : now)
+    if (name.starts_with("trigger ") && !right.contains(name))
+      findings.push_back("the " + name + " was added, and is not a part of mdof" + remedy);
+  return findings;
+}
 
 Result<std::vector<std::string>> Store::verify() {
   std::vector<std::string> findings;
@@ -90,8 +143,12 @@ Status Store::verify_runs(std::vector<std::string>& findings) {
     MDOF_TRY(const bool row, rows.step());
     if (!row) return {};
     const std::int64_t run = rows.integer(0);
-    MDOF_TRY(const std::string sha256, result_sha256(run));
-    if (sha256 != rows.text(1))
+    const auto sha256 = result_sha256(run);
+    if (!sha256) {
+      if (sha256.error().code != ErrorCode::bad_input) return tl::unexpected(sha256.error());
+      findings.push_back("the results of run " + std::to_string(run) +
+                         " cannot be read: " + sha256.error().message);
+    } else if (*sha256 != rows.text(1))
       findings.push_back("the results of run " + std::to_string(run) +
                          " were changed after they were stored; replay the recording of this run");
   }

@@ -132,6 +132,14 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
   }
 }
 
+// The reason why mdofd cannot store data; empty: it can, or the reason is unknown.
+std::string storage_fault(rpc::Client& client) {
+  const auto info = client.call("server.info");
+  if (!info) return "";
+  simdjson::dom::parser parser;
+  return text(parser.parse(simdjson::padded_string(*info)), "storage_reason");
+}
+
 // Prints the run in the format of `mdof show`. Error: the run differs from the request.
 Status print_result(rpc::Client& client, std::int64_t run, const std::string& result,
                     bool as_json) {
@@ -141,6 +149,8 @@ Status print_result(rpc::Client& client, std::int64_t run, const std::string& re
   const std::string state = text(parser.parse(simdjson::padded_string(result)), "state");
   if (state == "complete") return {};
   const std::string id = std::to_string(run);
+  if (const std::string fault = storage_fault(client); !fault.empty())
+    return fail(ErrorCode::io, "run " + id + " is " + state + "; storage: " + fault);
   return fail(ErrorCode::check,
               "run " + id + " is " + state +
                   (state == "partial" ? ": the notices of the run list the missing points; "

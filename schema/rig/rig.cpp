@@ -218,6 +218,11 @@ Notices overdue_calibrations(const Rig& rig, std::string_view day) {
   Notices overdue;
   for (const Probe& probe : rig.probes) {
     const Calibration& c = probe.calibration;
+    if (day.substr(0, c.calibrated.size()) < c.calibrated)
+      overdue.push_back(notice(NoticeCode::calibrated_after_measurement, probe.id,
+                               {{"calibrated", c.calibrated},
+                                {"day", std::string(day.substr(0, c.calibrated.size()))},
+                                {"certificate", c.certificate}}));
     if (c.due.empty() || day.substr(0, c.due.size()) <= c.due) continue;
     overdue.push_back(notice(NoticeCode::calibration_overdue, probe.id,
                              {{"due", c.due}, {"certificate", c.certificate}}));

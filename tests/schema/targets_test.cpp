@@ -68,5 +68,18 @@ TEST(Calibrations, ReportsAnOverdueCalibration) {
   EXPECT_EQ(test::shown(overdue[0]), "calibration_overdue B due=2026-05-01 certificate=K-77");
 }
 
+TEST(Calibrations, ReportsACalibrationThatIsLaterThanTheMeasurement) {
+  Rig rig;
+  rig.probes.resize(1);
+  rig.probes[0].id = "A";
+  rig.probes[0].calibration.calibrated = "2026-05-02";
+  rig.probes[0].calibration.certificate = "K-77";
+  EXPECT_TRUE(overdue_calibrations(rig, "2026-05-02T00:00:00Z").empty());
+  const auto found = overdue_calibrations(rig, "2026-05-01T23:59:59Z");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(test::shown(found[0]),
+            "calibrated_after_measurement A calibrated=2026-05-02 day=2026-05-01 certificate=K-77");
+}
+
 }  // namespace
 }  // namespace mdof

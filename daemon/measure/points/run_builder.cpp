@@ -39,6 +39,7 @@ RunHeader RunBuilder::head(const algo::DwellDetector::Summary& summary) const {
   header.scans_lost = lost_;
   header.temperature = temperature_.of_run();
   header.notices = datum_notices(options_.datum);
+  if (auto left_out = temperature_.left_out()) header.notices.push_back(std::move(*left_out));
   return header;
 }
 

@@ -63,6 +63,7 @@ Status use_stated_date(Report& report, sys_seconds now) {
     if (!recorded) {
       std::erase_if(header.notices, [](const Notice& each) {
         return each.code == NoticeCode::calibration_overdue ||
+               each.code == NoticeCode::calibrated_after_measurement ||
                each.code == NoticeCode::record_expired || each.code == NoticeCode::log_has_no_date;
       });
       append(header.notices, overdue_calibrations(run.rig, date));

@@ -139,15 +139,6 @@ double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint
   return std::sqrt(square / (n - 1) / n);
 }
 
-Result<AxisPair> pair_of(const Run& a, const Run& b) {
-  if (a.header.axis < b.header.axis) return AxisPair{a.header.axis, b.header.axis};
-  const auto of = [](const Run& run) {
-    return "run " + std::to_string(run.header.id) + " measures axis " + letter(run.header.axis);
-  };
-  return bad_input(of(a) + " and " + of(b) +
-                   "; give runs of two different axes, in the order X, Y, Z");
-}
-
 Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t named,
                                              const StatedAt& at) {
   const Run run = restate(measured, at);
@@ -179,6 +170,15 @@ Status check_given(const ArtefactGiven& given) {
 }
 
 }  // namespace
+
+Result<AxisPair> pair_of(const Run& a, const Run& b) {
+  if (a.header.axis < b.header.axis) return AxisPair{a.header.axis, b.header.axis};
+  const auto of = [](const Run& run) {
+    return "run " + std::to_string(run.header.id) + " measures axis " + letter(run.header.axis);
+  };
+  return bad_input(of(a) + " and " + of(b) +
+                   "; give runs of two different axes, in the order X, Y, Z");
+}
 
 Result<SquareArtefact> combined_artefact(const Rig& rig_a, const Rig& rig_b,
                                          const ArtefactGiven& given) {

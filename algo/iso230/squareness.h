@@ -34,6 +34,9 @@ struct StatedPair {
   bool operator==(const StatedPair&) const = default;
 };
 
+// Returns the axes of the runs. Error: the same axis, or not in the order X, Y, Z.
+Result<AxisPair> pair_of(const Run& run_a, const Run& run_b);
+
 // Calculates the squareness from the straightness of each axis in the direction of the other axis:
 // EYX and EXY for X and Y, EZX and EXZ for X and Z, EZY and EYZ for Y and Z. Fits a least-squares
 // line to the mean of both approaches of each straightness error. `at` gives the reference points

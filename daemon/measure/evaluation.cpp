@@ -314,6 +314,7 @@ Result<SquarenessRuns> squareness_runs(store::Store& store, const SquarenessRequ
   MDOF_CHECK(check_axes(request, a, b));
   MDOF_TRY(Rig rig_a, rig_of(a.header));
   MDOF_TRY(Rig rig_b, rig_of(b.header));
+  if (const auto pair = algo::pair_of(a, b); !pair) return tl::unexpected(pair.error());
   MDOF_TRY(const SquareArtefact artefact, algo::combined_artefact(rig_a, rig_b, request.given));
   MDOF_TRY(Squareness fitted, algo::squareness(a, b, artefact, request.partial));
   return SquarenessRuns{std::move(a), std::move(b), std::move(rig_a), std::move(rig_b),

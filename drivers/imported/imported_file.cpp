@@ -64,6 +64,11 @@ Result<ImportedSeries> read(const std::string& path, const std::string& text,
     return fail(ErrorCode::usage,
                 "angles can be imported only from a CSV file with the columns position_mm and "
                 "deviation_urad");
+  if (format == "csv" && !error.angle && text.find("deviation_urad") != text.npos)
+    return bad_input(source +
+                         ": the column deviation_urad contains an angular error, but this error is "
+                         "a length",
+                     Remedy::name_angular_error);
   if (format == "rtl") return parse_rtl(text, source, error.is_stated);
   return format == "iso230-2" ? read_positioning_series(path, descriptor)
                               : read_csv_series(path, error.angle, descriptor);

@@ -123,10 +123,13 @@ Status add_column(CsvHeader& header, std::size_t column) {
                                              ? Channel{name, Unit::other}
                                              : channel_of(name);
   if (!channel || channel->id.empty())
-    return bad_input(where(header, column) +
-                     "unknown unit; known units are _um, _mm, _V and _C (columns in _s, _hz, "
-                     "_urad, _deg, _percent or _hPa are allowed, but not read); convert the values "
-                     "(probes to um), or rename the column");
+    return bad_input(where(header, column) + "unknown unit; " +
+                     (header.kind == CsvKind::table
+                          ? "known units are _um, _mm and _urad; convert the values and rename the "
+                            "column"
+                          : "known units are _um, _mm, _V and _C (columns in _s, _hz, _urad, _deg, "
+                            "_percent, _hPa or _kPa are allowed, but not read); convert the values "
+                            "(probes to um), or rename the column"));
   for (std::size_t k = 0; k < header.channels.size(); ++k)
     if (header.channels[k].id == channel->id)
       return bad_input(where(header, column) + "channel \"" + channel->id +

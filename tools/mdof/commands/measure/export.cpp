@@ -161,6 +161,7 @@ Status export_run(const ExportCommand& command) {
   choice.database = command.request.database;
   choice.run = source;
   choice.out = command.out;
+  choice.all_warnings = true;  // the command has no option --all-warnings
   choice.csv = command.format == "csv";
   choice.json = !choice.csv;
   return show_run(choice);

@@ -47,6 +47,10 @@ bool begins_character(char c) {
   return (c & 0xC0) != 0x80;  // only continuation bytes of UTF-8 begin with 10
 }
 
+int decimals_of(double u) {
+  return std::clamp(1 - decimal_exponent(u), 0, 9);
+}
+
 }  // namespace
 
 double power_of_ten(int exponent) {
@@ -89,6 +93,15 @@ std::string number_text(double x, int digits) {
   int exponent = 0;
   std::from_chars(text.data() + e + (text[e + 1] == '+' ? 2 : 1), end.ptr, exponent);
   return with_minus(text.substr(0, e)) + "×" + power_text(exponent);
+}
+
+std::string uncertainty_text(double u) {
+  if (u == 0) return "0";
+  return u > 0 && std::isfinite(u) ? fixed_text(u, decimals_of(u)) : "–";
+}
+
+std::string value_text(double value, double u) {
+  return u > 0 && std::isfinite(u) ? fixed_text(value, decimals_of(u)) : number_text(value);
 }
 
 std::string power_text(int exponent) {

@@ -19,6 +19,12 @@ std::string number_text(double x, int digits = 4);  // "−0.5", "1.235×10⁶";
 std::string power_text(int exponent);               // "10⁻⁶"
 std::string count_text(std::uint64_t n);            // "1 000 000", without line breaks
 
+// U and u have two significant digits. A value is rounded to the last digit of its uncertainty (GUM
+// 7.2.6), or to four significant digits if the uncertainty is unknown. The numbers are in the unit
+// of the key. Unknown values are "–".
+std::string uncertainty_text(double u);
+std::string value_text(double value, double u);
+
 // The name and the unit in a key: "EAX_urad" has the name "EAX" and the unit "µrad". If a key has
 // no known unit, `name` is the whole key.
 struct Key {

@@ -57,11 +57,10 @@ std::vector<Bar> contributor_bars(const Budget& budget, Language language) {
 
 std::string budget_line(const Budget& b) {
   const Key key = split_key(b.figure);
-  const auto shown = [&](double si, int digits) {
-    return number_text(to_key_unit(si), digits) + " " + key.unit;
-  };
-  return key.name + " = " + shown(b.value, 4) + ", u = " + shown(b.u, 2) +
-         ", U = " + shown(b.U, 2) + " (k = " + fixed_text(b.coverage_factor, 2) + ", 95 %" +
+  const auto shown = [&](double u) { return uncertainty_text(to_key_unit(u)) + " " + key.unit; };
+  return key.name + " = " + value_text(to_key_unit(b.value), to_key_unit(b.U)) + " " + key.unit +
+         ", u = " + shown(b.u) + ", U = " + shown(b.U) +
+         " (k = " + fixed_text(b.coverage_factor, 2) + ", 95 %" +
          (b.U_by_trials ? ", Monte Carlo" : "") + ")";
 }
 

@@ -53,7 +53,7 @@ std::string U_line(const StatedResults& results, std::size_t named, Language lan
     k.include(results.uncertainty.points[row].coverage_factor[named]);
   }
   if (U.empty || k.empty) return phrase(Phrase::U_is_unknown, language);
-  const std::string low = number_text(U.low, 2), high = number_text(U.high, 2);
+  const std::string low = uncertainty_text(U.low), high = uncertainty_text(U.high);
   const std::string k_low = fixed_text(k.low, 2), k_high = fixed_text(k.high, 2);
   return phrase(Phrase::U_and_k, language,
                 {(low == high ? low : low + "–" + high) + " " + unit,

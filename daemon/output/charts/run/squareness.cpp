@@ -139,11 +139,10 @@ std::string squareness_svg(const SquarenessResults& results, Language language) 
   const std::string title = phrase(Phrase::squareness_of_runs, language,
                                    {std::to_string(s.run_a), std::to_string(s.run_b), a, b_axis});
   const double U = to_urad(b.U);
-  const int decimals = U > 0 ? std::clamp(1 - decimal_exponent(U), 0, 9) : 3;
   const std::string angle =
-      name + " = " + fixed_text(to_urad(s.error_rad), decimals) + " µrad, " +
+      name + " = " + value_text(to_urad(s.error_rad), U) + " µrad, " +
       (U > 0 ? phrase(Phrase::U_and_k, language,
-                      {number_text(U, 2) + " µrad", fixed_text(b.coverage_factor, 2)})
+                      {uncertainty_text(U) + " µrad", fixed_text(b.coverage_factor, 2)})
              : std::string(phrase(Phrase::U_is_unknown, language)));
   const double top = run_head_height(marks) + kPictureLegendPx;
   const Picture picture = picture_of(x, y, top);
@@ -174,10 +173,9 @@ std::string squareness_svg(const SquarenessResults& results, Language language) 
       svg, y, [&](double along, double c) { return picture.on_y(along, c); }, -1, b_axis.c_str());
   const double right = picture.panel.corner.x + kPicturePx + 24;
   svg.text("text title", {right, top + 60}, Anchor::start, name);
-  svg.text("text", {right, top + 86}, Anchor::start,
-           fixed_text(to_urad(s.error_rad), decimals) + " µrad");
+  svg.text("text", {right, top + 86}, Anchor::start, value_text(to_urad(s.error_rad), U) + " µrad");
   svg.text("text", {right, top + 108}, Anchor::start,
-           U > 0 ? "U = " + number_text(U, 2) + " µrad" : phrase(Phrase::U_is_unknown, language));
+           U > 0 ? "U = " + uncertainty_text(U) + " µrad" : phrase(Phrase::U_is_unknown, language));
   svg.end_group();
   draw_notes(svg, top + kPicturePx + 40, notes);
   return svg.take();

@@ -2,6 +2,7 @@
 // and the residuals from the least-squares line (ISO 230-1).
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -177,15 +178,16 @@ std::string figure_line(const StatedResults& results, const StraightnessOfError&
   if (!both) return "";
   const std::string figure = std::string(error.name->name) + "_straightness_um";
   const Budget* budget = find_budget(results.figures.budgets, figure);
-  const std::string U = budget ? phrase(Phrase::U_and_k, language,
-                                        {number_text(to_um(budget->U), 2) + " µm",
-                                         fixed_text(budget->coverage_factor, 2)})
-                               : phrase(Phrase::U_is_unknown, language);
+  const double U_um = budget ? to_um(budget->U) : std::nan("");
+  const std::string U =
+      budget ? phrase(Phrase::U_and_k, language,
+                      {uncertainty_text(U_um) + " µm", fixed_text(budget->coverage_factor, 2)})
+             : phrase(Phrase::U_is_unknown, language);
   return std::string(error.name->name) + ": " +
          phrase(Phrase::straightness_value, language,
-                {number_text(to_um(both->lines->least_squares.zone_m)), U,
-                 number_text(to_um(both->lines->end_point.zone_m)),
-                 number_text(to_um(both->lines->minimum_zone.zone_m))});
+                {value_text(to_um(both->lines->least_squares.zone_m), U_um), U,
+                 value_text(to_um(both->lines->end_point.zone_m), U_um),
+                 value_text(to_um(both->lines->minimum_zone.zone_m), U_um)});
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ std::string fault(std::string_view key, const std::string& value) {
       value != "other")
     return "\"" + value +
            "\" is not one of the known places; give \"laboratory\", \"customer\" or \"other\"";
-  if (key == "date" && !value.empty() && !is_date(value))
+  if ((key == "date" || key == "issued") && !value.empty() && !is_date(value))
     return "\"" + value + "\" is not a date; give YYYY-MM-DD";
   return "";
 }
@@ -64,6 +64,7 @@ const std::vector<ReportKey>& report_keys() {
                                               {"conditions", &F::conditions},
                                               {"place", &F::place},
                                               {"date", &F::date},
+                                              {"issued", &F::issued},
                                               {"country", &F::country}};
   return keys;
 }

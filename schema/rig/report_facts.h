@@ -20,6 +20,7 @@ struct ReportFacts {
   std::string conditions;  // free text about the conditions of the measurement
   std::string place;       // place of the measurement: laboratory, customer, other
   std::string date;        // date of the measurement, YYYY-MM-DD; a CSV log contains no date
+  std::string issued;      // date on which the report is issued, YYYY-MM-DD
   std::string country;     // country of the laboratory, two capital letters of ISO 3166-1
 };
 

@@ -101,6 +101,7 @@ void write_core_data(Xml& xml, const Report& report, const Days& days,
   xml.leaf("dcc:beginPerformanceDate", days.first);
   xml.leaf("dcc:endPerformanceDate", days.last);
   xml.leaf("dcc:performanceLocation", facts.place.empty() ? "other" : facts.place);
+  if (!facts.issued.empty()) xml.leaf("dcc:issueDate", facts.issued);
   xml.close();
 }
 

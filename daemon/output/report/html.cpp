@@ -3,6 +3,8 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstdio>
 
 #include "daemon/output/charts/svg.h"
 
@@ -43,6 +45,8 @@ constexpr std::string_view kStyle =
     "figure{margin:3mm 0;break-inside:avoid}figure svg{width:100%;height:auto}"
     "pre{font-size:7.5pt;white-space:pre-wrap;overflow-wrap:anywhere;background:#f6f8fa;"
     "padding:2mm;margin:2mm 0}"
+    ".end{text-align:center;margin-top:6mm}"
+    "@page{@bottom-left{font:7.5pt sans-serif}@bottom-right{font:7.5pt sans-serif}}"
     "p{margin:1.5mm 0}.quiet{color:#59636e}"
     "@media print{body{margin:0;padding:0;max-width:none}"
     "*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}";
@@ -57,6 +61,17 @@ std::string base64(std::string_view bytes) {
 }
 
 }  // namespace
+
+std::string css_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    char code[8];
+    std::snprintf(code, sizeof code, "\\%x ", byte);
+    escaped += byte < 128 && !std::isalnum(byte) ? std::string(code) : std::string(1, c);
+  }
+  return escaped;
+}
 
 void Html::element(std::string_view tag, std::string_view text, std::string_view css_class) {
   const std::string name(tag);
@@ -111,12 +126,13 @@ void Html::figure(std::string_view svg) {
   text_ += "</figure>\n";
 }
 
-std::string Html::take(std::string_view language, std::string_view title, bool pictures) {
+std::string Html::take(std::string_view language, std::string_view title, bool pictures,
+                       std::string_view style) {
   return "<!DOCTYPE html>\n<html lang=\"" + std::string(language) +
          "\">\n<head>\n<meta charset=\"utf-8\">\n" + policy(pictures) +
          "<meta name=\"viewport\" content=\"width=device-width\">\n<title>" + xml_escaped(title) +
-         "</title>\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n" +
-         std::move(text_) + "</body>\n</html>\n";
+         "</title>\n<style>" + std::string(kStyle) + std::string(style) +
+         "</style>\n</head>\n<body>\n" + std::move(text_) + "</body>\n</html>\n";
 }
 
 }  // namespace mdof::report

@@ -8,6 +8,9 @@
 
 namespace mdof::report {
 
+// The text as the content of a string in CSS, also inside an HTML element <style>.
+std::string css_escaped(std::string_view text);
+
 class Html {
  public:
   // Writes <tag>text</tag>. The text is escaped; a user's text therefore cannot contain markup.
@@ -29,7 +32,9 @@ class Html {
 
   // Returns the complete page. `pictures`: the page may show images from data: URLs, for example
   // the logo of a company.
-  std::string take(std::string_view language, std::string_view title, bool pictures = false);
+  // `style`: CSS of this document.
+  std::string take(std::string_view language, std::string_view title, bool pictures = false,
+                   std::string_view style = "");
 
  private:
   std::string text_;

@@ -53,6 +53,7 @@ void write_title(Html& html, const Report& report) {
   html.element("h1", phrase(Phrase::report_title, language));
   const ReportFacts& facts = report.facts;
   html.facts({{phrase(Phrase::report_number, language), facts.number},
+              {phrase(Phrase::issued_on, language), stated(facts.issued)},
               {phrase(Phrase::customer, language), stated(facts.customer)},
               {phrase(Phrase::customer_address, language), facts.customer_address},
               {phrase(Phrase::machine, language), stated(facts.machine)},
@@ -67,6 +68,7 @@ void write_title(Html& html, const Report& report) {
               {phrase(Phrase::stated_conditions, language), facts.conditions},
               {phrase(Phrase::runs, language), runs},
               {phrase(Phrase::report_by, language), report.software_version}});
+  html.element("p", phrase(Phrase::what_the_report_is, language), "quiet");
   if (language != Language::english)
     html.element("p", phrase(Phrase::english_texts, language), "quiet");
 }
@@ -105,6 +107,18 @@ void write_squareness(Html& html, const charts::SquarenessOfPair& pair,
     write_decided(html, of_pair, {b}, language);
   }
   html.figure(charts::squareness_svg(*pair.results, language));
+}
+
+// The style of the bottom margin of each printed page: the number of the report, and the page.
+std::string page_style(const Report& report) {
+  const auto string_of = [](const std::string& text) { return '"' + css_escaped(text) + '"'; };
+  const std::string title = phrase(Phrase::report_title, report.language);
+  const std::string& number = report.facts.number;
+  return "@page{@bottom-left{content:" + string_of(number.empty() ? title : title + " " + number) +
+         "}@bottom-right{content:" +
+         string_of(std::string(phrase(Phrase::page, report.language)) + " ") + "counter(page)" +
+         string_of(" " + std::string(phrase(Phrase::of_pages, report.language)) + " ") +
+         "counter(pages)}}";
 }
 
 void write_attachments(Html& html, const Report& report) {
@@ -157,8 +171,9 @@ std::string report_html(const Report& report) {
   }
   for (const auto& pair : report.squareness) write_squareness(html, pair, report.decided, language);
   write_attachments(html, report);
+  html.element("p", phrase(Phrase::end_of_report, language), "end");
   return html.take(output::code_of(language), phrase(Phrase::report_title, language),
-                   !report.head.empty());
+                   !report.head.empty(), page_style(report));
 }
 
 }  // namespace mdof::report

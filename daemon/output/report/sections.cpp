@@ -150,6 +150,8 @@ void write_conditions(Html& html, const ReportRun& run, Language language) {
   html.facts({{of(is_evaluation ? Phrase::evaluated : Phrase::started), h.started_utc},
               {of(Phrase::state), state},
               {of(Phrase::temperature), temperature_of(h, language)},
+              {of(Phrase::declared_temperature), declared_temperature(run.rig, language)},
+              {of(Phrase::reference_temperature), of(Phrase::not_converted)},
               {of(Phrase::model), h.provenance.model},
               {of(Phrase::moves), std::string(h.sides.moves()) + ", " + h.sides.travel()},
               {of(Phrase::stated_at), reference_text(h.stated)},

@@ -123,6 +123,18 @@ class SmallDisk(Served):
         client.call("run.stop", run=new, abort=True)
         client.call("compensation.deactivate", axis="X")
 
+    def test_record_states_that_the_disk_is_full(self):
+        client = self.daemon.start()
+        record = subprocess.Popen([MDOF, "record", "--axis", "X", "--socket", self.daemon.socket], text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        next(line for line in record.stderr if "is in progress" in line)
+        self.fill()
+        self.wait_for_storage(client, "full")
+        record.send_signal(signal.SIGINT)
+        _, err = record.communicate(timeout=60)
+        self.assertEqual(record.returncode, 4, err)
+        self.assertRegex(" ".join(err.split()), "run 1 is [a-z]+; storage: .*full")
+
     def remount(self, how):
         subprocess.run(["mount", "-o", f"remount,{how}", self.disk], check=True)
 

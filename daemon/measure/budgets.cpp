@@ -157,20 +157,18 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
 namespace {
 
 struct FoundSetUp {
+  SquarenessRuns of;
   algo::SquareSetUp set_up;
-  Notices notices;
-  bool simulated = false;
 };
 
 // Calculates the squareness of one set-up under the assumption that the square has no angle error.
 Result<FoundSetUp> square_set_up(store::Store& store, SquarenessRequest request) {
   request.given = {0.0, 0.0};
-  MDOF_TRY(const SquarenessRuns of, squareness_runs(store, request));
+  MDOF_TRY(SquarenessRuns of, squareness_runs(store, request));
   MDOF_TRY(Budget budget,
            algo::squareness_budget(of.rig_a, of.a, of.rig_b, of.b, of.fitted.artefact));
-  return FoundSetUp{{of.fitted.artefact.corner, std::move(budget)},
-                    algo::inherited_notices({&of.a, &of.b}),
-                    of.fitted.simulated};
+  const int corner = of.fitted.artefact.corner;
+  return FoundSetUp{std::move(of), {corner, std::move(budget)}};
 }
 
 }  // namespace
@@ -179,11 +177,13 @@ Result<FoundSquareReversal> square_reversal(store::Store& store, const Squarenes
                                             const SquarenessRequest& second) {
   MDOF_TRY(FoundSetUp a, square_set_up(store, first));
   MDOF_TRY(FoundSetUp b, square_set_up(store, second));
+  const algo::Runs runs{&a.of.a, &a.of.b, &b.of.a, &b.of.b};
+  // square_set_up() has already checked whether each run is complete.
+  MDOF_CHECK(algo::check_usable(runs, true, "a separation"));
   MDOF_TRY(const SquareReversal found, algo::square_reversal(a.set_up, b.set_up));
-  FoundSquareReversal out{found, std::move(a.set_up.budget.not_declared), std::move(a.notices),
-                          a.simulated || b.simulated};
+  FoundSquareReversal out{found, std::move(a.set_up.budget.not_declared),
+                          algo::inherited_notices(runs), a.of.fitted.simulated};
   append_new(out.not_declared, std::move(b.set_up.budget.not_declared));
-  append_new(out.notices, std::move(b.notices));
   return out;
 }
 

@@ -68,7 +68,8 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
 
 // Squareness from two set-ups of the same square. The square is turned over between the two
 // set-ups. The angle of the square that the rigs state is not used. Nothing is stored. Errors:
-// those of algo::square_reversal() and of squareness_runs() for each set-up.
+// those of algo::square_reversal() and of squareness_runs() for each set-up; runs with readings in
+// common.
 struct FoundSquareReversal {
   SquareReversal found;
   std::vector<std::string> not_declared;  // keys of the uncertainties that the rigs do not declare

@@ -34,6 +34,14 @@ Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
           "turned about the moving axis, or give --despite-unseen");
 }
 
+Notices compared_sides(const LoadedSources& loaded) {
+  std::vector<algo::SidesOfSetUp> set_ups;
+  for (std::size_t k = 0; k < loaded.probes.size(); ++k)
+    set_ups.push_back({loaded.record.sources[k].name, loaded.request.set_ups[k].turn.height_sign,
+                       loaded.probes[k]});
+  return algo::compare_sides(set_ups, loaded.request.match_m);
+}
+
 // Adds the names of the files and runs to an error message, in which the algorithm only writes
 // "set-up 2".
 Error with_set_up_names(Error error, const SeparationRecord& record) {
@@ -69,6 +77,7 @@ Status separate_and_print(LoadedSources loaded, const char* method, const Output
   record.created_utc = daemon::utc_now();
   record.result = std::move(*separated);
   Notices& notices = loaded.notices;
+  append(notices, compared_sides(loaded));
   append(notices, record.result.notices);
   show_notices(notices, options.all_warnings);
   const daemon::Judged judged{daemon::JudgedKind::separation, "", record.simulated,

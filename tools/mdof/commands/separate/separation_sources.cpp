@@ -155,6 +155,7 @@ Status add_run(store::Store& store, const Run& run, const SourceOptions& options
     probe_at.push_back(series.position_m);
     set_up = std::move(series.set_up);
   }
+  loaded.probes.push_back(algo::probes_across(rig, loaded.record.normal, options.probe));
   loaded.request.set_ups.push_back(std::move(set_up));
   loaded.record.sources.push_back({"run " + std::to_string(run.header.id), sha256});
   loaded.record.simulated = loaded.record.simulated || run.header.simulated;

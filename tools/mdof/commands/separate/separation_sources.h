@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algo/separation/separate.h"
+#include "algo/separation/sides.h"
 #include "schema/base/result.h"
 #include "schema/notice/notice.h"
 #include "schema/separation/separation.h"
@@ -35,6 +36,8 @@ struct LoadedSources {
   algo::SeparationRequest request;
   SeparationRecord record;  // The record without the result.
   Notices notices;          // Notices of the runs, and notices about the set-ups.
+  // For runs: the probes at the surface in the rig of each set-up.
+  std::vector<std::vector<algo::ProbeAcross>> probes;
 };
 
 // Errors:

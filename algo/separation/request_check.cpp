@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "algo/separation/shared_readings.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -58,16 +60,8 @@ Status check_request(const SeparationRequest& request) {
 
 Status check_shared(const Grid& grid, const std::vector<SetUp>& set_ups) {
   for (const auto* at : {&grid.at_position, &grid.at_place}) {
-    std::vector<std::size_t> first_set_up(at->size(), set_ups.size());
-    bool shared = false;
-    std::size_t row = 0;
-    for (std::size_t k = 0; k < set_ups.size(); ++k)
-      for (std::size_t i = 0; i < set_ups[k].position_m.size(); ++i) {
-        std::size_t& first = first_set_up[(*at)[row++]];
-        if (first == set_ups.size()) first = k;
-        shared = shared || first != k;
-      }
-    if (!shared)
+    const std::vector<bool> shared = are_shared(*at, set_ups);
+    if (std::none_of(shared.begin(), shared.end(), [](bool is) { return is; }))
       return bad_input(std::string("no two set-ups measure the same point of the ") +
                        (at == &grid.at_position ? "machine" : "target") +
                        ", so the errors cannot be separated; measure at the same positions, and "

@@ -11,6 +11,7 @@
 #include "algo/linear_algebra/spectra.h"
 #include "algo/separation/grid.h"
 #include "algo/separation/request_check.h"
+#include "algo/separation/shared_readings.h"
 #include "algo/separation/unseen.h"
 #include "algo/uncertainty/coverage.h"
 #include "schema/base/number/number_text.h"
@@ -222,11 +223,14 @@ std::vector<double> hidden_shifts(const std::vector<SetUp>& set_ups, double step
 
 }  // namespace
 
-Result<Separation> separate(const SeparationRequest& request) {
-  MDOF_CHECK(check_request(request));
-  MDOF_TRY(Grid grid, grid_of(request.at, request.set_ups, request.match_m));
-  MDOF_CHECK(check_shared(grid, request.set_ups));
-  const Equations e = equations_of(request, std::move(grid));
+Result<Separation> separate(const SeparationRequest& given) {
+  MDOF_CHECK(check_request(given));
+  MDOF_TRY(Grid grid, grid_of(given.at, given.set_ups, given.match_m));
+  MDOF_CHECK(check_shared(grid, given.set_ups));
+  MDOF_TRY(SharedReadings shared, shared_readings(given.set_ups, std::move(grid)));
+  SeparationRequest request = given;
+  request.set_ups = std::move(shared.set_ups);
+  const Equations e = equations_of(request, std::move(shared.grid));
   if (e.A.cols() > in(kMostUnknowns))
     return bad_input("these set-ups have " + std::to_string(e.A.cols()) +
                      " unknowns, but at most " + std::to_string(kMostUnknowns) +
@@ -237,6 +241,7 @@ Result<Separation> separate(const SeparationRequest& request) {
   result.readings = static_cast<std::size_t>(e.A.rows());
   result.unknowns = static_cast<std::size_t>(e.A.cols());
   result.rank = static_cast<std::size_t>(solution.rank);
+  result.notices = std::move(shared.notices);
   result.noise_only = request.u_is_noise && e.declared.cols() == 0;
   const ReadingUncertainty u = judge(e, solution, result);
   const auto periods =

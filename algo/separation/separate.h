@@ -30,8 +30,9 @@ struct SeparationRequest {
 // includes u of the readings and the declared uncertainties of each set-up. A quantity that is
 // common to several set-ups is one quantity, and its effects are added with their signs. u does not
 // include a tilt of the target between the set-ups, because b_k describes it. `unseen` describes
-// the shapes that the set-ups do not determine (null space of the equations). Errors: as
-// check_request() and check_shared(); too many unknowns; as grid_of().
-Result<Separation> separate(const SeparationRequest& request);
+// the shapes that the set-ups do not determine (null space of the equations). Readings that
+// shared_readings() leaves out are not used. Errors: as check_request(), grid_of(), check_shared()
+// and shared_readings(); too many unknowns.
+Result<Separation> separate(const SeparationRequest& given);
 
 }  // namespace mdof::algo

@@ -103,15 +103,16 @@ std::string rest_name(const std::vector<double>& places_m, const MatrixXd& rest)
   const std::string count =
       std::to_string(rest.cols()) + (rest.cols() == 1 ? " more shape" : " more shapes");
   const std::string middle = mm_text((places_m.front() + places_m.back()) / 2);
-  const int symmetric = symmetry(places_m, rest);
-  if (symmetric != 0)
-    return count + (symmetric > 0 ? " symmetric about " : " antisymmetric about ") + middle;
   Index first = rest.rows() - 1, last = 0;
   for (Index i = 0; i < rest.rows(); ++i) {
     if (rest.row(i).norm() < kNothing) continue;
     first = std::min(first, i);
     last = i;
   }
+  if (first == last) return count + " at " + mm_text(places_m[static_cast<std::size_t>(first)]);
+  const int symmetric = symmetry(places_m, rest);
+  if (symmetric != 0)
+    return count + (symmetric > 0 ? " symmetric about " : " antisymmetric about ") + middle;
   return count + ", from " + mm_text(places_m[static_cast<std::size_t>(first)]) + " to " +
          mm_text(places_m[static_cast<std::size_t>(last)]);
 }

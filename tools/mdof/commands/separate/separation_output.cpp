@@ -1,6 +1,7 @@
 #include "tools/mdof/commands/separate/separation_output.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "daemon/paths.h"
 #include "daemon/words/words.h"
@@ -14,6 +15,17 @@
 
 namespace mdof::tools {
 namespace {
+
+// What the user can do so that the set-ups determine the complete map.
+std::string remedy_of_unseen(const SeparationRecord& record) {
+  const bool is_turned =
+      std::any_of(record.sources.begin(), record.sources.end(), [](const SeparationSource& s) {
+        return s.height_sign < 0 && !s.end_for_end && s.shift_m == 0;
+      });
+  return is_turned ? "Measure at the same positions in all set-ups"
+                   : "Measure once more with the target turned about the moving axis, but not "
+                     "shifted";
+}
 
 // Errors: the height map may not be used, or it has undetermined components. The rig would subtract
 // the map without these components, as if the target were flat in them.
@@ -30,8 +42,8 @@ Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
       ErrorCode::check,
       "these set-ups do not determine the complete height map of the target (not determined: " +
           undetermined_text(record.result.target) +
-          "). The map would contain 0 for the undetermined part. Measure once more with the target "
-          "turned about the moving axis, or give --despite-unseen");
+          "). The map would contain 0 for the undetermined part. " + remedy_of_unseen(record) +
+          ", or give --despite-unseen");
 }
 
 Notices compared_sides(const LoadedSources& loaded) {

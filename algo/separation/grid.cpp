@@ -68,6 +68,12 @@ Result<long> step_on_target(const ReadAt& at, const SetUp& set_up, std::size_t n
   const double steps = (place_on_target(at, set_up, position_m) - origin) / grid.step_m;
   const double off = (steps - std::round(steps)) * grid.step_m;
   if (std::abs(off) <= match_m) return std::lround(steps);
+  if (set_up.turn.end_for_end)
+    return bad_input("set-up " + std::to_string(number) + ": the target was turned about " +
+                     in_mm(set_up.shift_m / 2) + ", so this set-up measures points that are " +
+                     in_mm(std::abs(off)) +
+                     " away from those of the first set-up; turn the target about a measured place "
+                     "of the target, or about the middle between two such places");
   return bad_input("set-up " + std::to_string(number) + ": the shift of " + in_mm(set_up.shift_m) +
                        " is " + in_mm(std::abs(off)) + " away from a multiple of the step of " +
                        in_mm(grid.step_m) +

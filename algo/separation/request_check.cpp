@@ -42,6 +42,9 @@ Status check_request(const SeparationRequest& request) {
     return bad_input(
         "one set-up cannot separate the machine from the target; measure again with the "
         "target turned or shifted");
+  if (!(std::abs(request.at.place_m) <= kMost_m))
+    return bad_input(
+        "the position of the probe is not a finite number below 1000 km; check the unit");
   std::size_t readings = 0;
   for (std::size_t k = 0; k < request.set_ups.size(); ++k) {
     MDOF_CHECK(check_set_up(request.set_ups[k], k + 1));

@@ -54,6 +54,20 @@ Notices compared_sides(const LoadedSources& loaded) {
   return algo::compare_sides(set_ups, loaded.request.match_m);
 }
 
+Status write_separation(const SeparationRecord& record, const Notices& notices,
+                        const OutputOptions& options) {
+  if (options.rig_toml) return write_out(separation_plane_toml(record));
+  if (options.csv) return write_out(separation_csv(record));
+  if (options.json) return write_line(with_notices(separation_json(record), notices, words::text));
+  return write_out(separation_text(record, terminal_columns()));
+}
+
+// False: the set-ups contradict each other.
+bool is_consistent(const Separation& result) {
+  return std::none_of(result.notices.begin(), result.notices.end(),
+                      [](const Notice& n) { return n.severity == Severity::invalid; });
+}
+
 // Adds the names of the files and runs to an error message, in which the algorithm only writes
 // "set-up 2".
 Error with_set_up_names(Error error, const SeparationRecord& record) {
@@ -97,10 +111,11 @@ Status separate_and_print(LoadedSources loaded, const char* method, const Output
   MDOF_CHECK(check_map(record, judged, options));
   record.marks = daemon::warning_marks(judged);
   record.doubtful = !judged.doubtful.empty();
-  if (options.rig_toml) return write_out(separation_plane_toml(record));
-  if (options.csv) return write_out(separation_csv(record));
-  if (options.json) return write_line(with_notices(separation_json(record), notices, words::text));
-  return write_out(separation_text(record, terminal_columns()));
+  MDOF_CHECK(write_separation(record, notices, options));
+  if (is_consistent(record.result)) return {};
+  return fail(ErrorCode::check,
+              "the result is invalid, because the set-ups contradict each other; correct the cause "
+              "and separate again");
 }
 
 }  // namespace mdof::tools

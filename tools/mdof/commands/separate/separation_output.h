@@ -19,9 +19,10 @@ struct OutputOptions {
 
 void add_output_options(CLI::App& command, OutputOptions& options);
 
-// Separates the errors and prints the result. Errors (check), if a height map is requested:
-// daemon/measure/gate/gate.h rejects the data, for example because the set-ups contradict each
-// other; or the map has undetermined components besides offset and slope.
+// Separates the errors and prints the result. Errors (check): the set-ups contradict each other
+// (the result is printed, but not as a height map); for a height map also:
+// daemon/measure/gate/gate.h rejects the data; the map has undetermined components besides offset
+// and slope.
 Status separate_and_print(LoadedSources loaded, const char* method, const OutputOptions& options);
 
 }  // namespace mdof::tools

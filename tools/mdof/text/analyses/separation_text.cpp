@@ -71,6 +71,10 @@ std::string fit_text(const Separation& fit) {
   if (fit.freedom() > 0)
     text += "; residuals of the fit " + in_um(fit.residual_m) + " µm (RMS, " +
             std::to_string(fit.freedom()) + " degrees of freedom)";
+  else
+    text +=
+        "\nno degrees of freedom: mdof cannot detect a wrong order, sign or length of the stated "
+        "turns and shifts;\nanother set-up makes a test possible";
   return text + "\n";
 }
 

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "algo/uncertainty/coverage.h"
+#include "schema/base/number/number_text.h"
 #include "schema/base/random.h"
+#include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
@@ -14,6 +17,7 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kWidestGap_rad = kTurn / 6;
 constexpr double kLeastTurnsForDrift = 1 + 1.0 / 6;
+constexpr double kMostHeight_m = 1;
 
 double sine(double angle_rad) {
   return sine_of_turns(angle_rad / kTurn);
@@ -31,21 +35,58 @@ double widest_gap(const std::vector<double>& angles) {
   return widest;
 }
 
-// Sum of the absolute rotations between successive readings, in turns. Each rotation is taken as
-// the shorter one of the two possible rotations.
+// The rotation from the reading i - 1 to the reading i in turns, taken as the shorter one of the
+// two possible rotations.
+double step_in_turns(const std::vector<double>& angles, std::size_t i) {
+  const double step = (angles[i] - angles[i - 1]) / kTurn;
+  return step - std::round(step);
+}
+
+// Sum of the absolute rotations between successive readings, in turns.
 double turns_of(const std::vector<double>& angles) {
   double turns = 0;
-  for (std::size_t i = 1; i < angles.size(); ++i) {
-    const double step = (angles[i] - angles[i - 1]) / kTurn;
-    turns += std::abs(step - std::round(step));
-  }
+  for (std::size_t i = 1; i < angles.size(); ++i) turns += std::abs(step_in_turns(angles, i));
   return turns;
+}
+
+tl::unexpected<Error> not_in_order(std::size_t i, const std::string& why) {
+  return bad_input("reading " + std::to_string(i + 1) + " of the circle: " + why +
+                   ", so the readings are probably not in the order of time; sort them, or give "
+                   "the time of each reading (time_s)");
+}
+
+// Readings without times. Errors: a step of more than 90°; more than one change of the direction.
+// Rotations of less than kBack are not a change of the direction.
+Status check_order(const std::vector<double>& angles) {
+  constexpr double kLongestStep = 0.25 + 1e-6, kBack = 5.0 / 360;  // in turns
+  double at = 0, farthest = 0, direction = 0;
+  int changes = 0;
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    const double step = step_in_turns(angles, i);
+    if (std::abs(step) > kLongestStep)
+      return not_in_order(i, "the angle changes by " + plain_number(360 * std::abs(step), 3) +
+                                 "° from the reading before (limit 90°)");
+    at += step;
+    if ((at - farthest) * direction > 0) {
+      farthest = at;
+    } else if (std::abs(at - farthest) > kBack) {
+      changes += direction == 0 ? 0 : 1;
+      direction = at > farthest ? 1 : -1;
+      farthest = at;
+    }
+    if (changes > 1)
+      return not_in_order(i, "the direction of rotation changes for the second time (limit 1)");
+  }
+  return {};
 }
 
 // Time of each reading since the first reading, divided by the total time (0 to 1).
 Result<Eigen::VectorXd> times_of(const CircleReadings& r) {
   const auto n = static_cast<Eigen::Index>(r.angle_rad.size());
-  if (r.time_s.empty()) return Eigen::VectorXd::LinSpaced(n, 0, 1);
+  if (r.time_s.empty()) {
+    MDOF_CHECK(check_order(r.angle_rad));
+    return Eigen::VectorXd::LinSpaced(n, 0, 1);
+  }
   Eigen::VectorXd share(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -67,6 +108,11 @@ Status check(const CircleReadings& r, int highest, bool drift) {
     return bad_input(std::to_string(n) + (n == 1 ? " reading is" : " readings are") +
                      " too few for " + std::to_string(highest) + " harmonics; give at least " +
                      std::to_string(unknowns + 2) + " readings, or fewer harmonics");
+  for (const auto* heights : {&r.height_m, &r.axes_m})
+    for (const double height_m : *heights)
+      if (!(std::abs(height_m) <= kMostHeight_m))
+        return bad_input("a height of " + plain_number(to_um(height_m)) +
+                         " um is above the limit of 1 m; check the unit");
   if (widest_gap(r.angle_rad) > kWidestGap_rad)
     return bad_input(
         "the readings have a gap of more than 60° on the circle, so the first harmonic cannot be "

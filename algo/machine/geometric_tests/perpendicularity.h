@@ -15,7 +15,7 @@ struct CircleReadings {
   std::vector<double>
       angle_rad;  // angle of the spot about the table's axis, + from +X to +Y of the machine
   std::vector<double> height_m;
-  std::vector<double> time_s;  // time of each reading; empty: equal time intervals
+  std::vector<double> time_s;  // time of each reading; empty: equal time intervals, in this order
   // Values that were measured separately, for each angle; empty if not measured. tilt_a_rad,
   // tilt_b_rad: rotations of the table about X and Y. axes_m: height error by the two linear axes.
   std::vector<double> tilt_a_rad, tilt_b_rad, axes_m;
@@ -45,7 +45,8 @@ struct Perpendicularity {
 //            + higher harmonics + drift + noise
 // u is calculated from the residuals. The noise is assumed to be independent from reading to
 // reading. Errors: too few readings; a gap of more than 60° on the circle; a radius outside 0 to
-// 100 m; times that do not increase.
+// 100 m; a height above 1 m; times that do not increase; no times, and angles that are not in the
+// order of one rotation forwards and back.
 Result<Perpendicularity> perpendicularity(const CircleReadings& readings, int highest);
 
 }  // namespace mdof::algo

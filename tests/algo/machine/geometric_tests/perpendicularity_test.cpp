@@ -151,6 +151,48 @@ TEST(PerpendicularityTest, IntervalsCoverTheTruthUnderDrift) {
   }
 }
 
+// Without times the order of the readings is their time. One change of the direction is possible,
+// and an angle that scatters by less than 5°.
+TEST(PerpendicularityTest, RefusesReadingsInAnotherOrder) {
+  std::mt19937 source(10);
+  const auto says = [](const CircleReadings& r, const std::string& words) {
+    const auto p = perpendicularity(r, 5);
+    ASSERT_FALSE(p) << words;
+    EXPECT_NE(p.error().message.find(words), std::string::npos) << p.error().message;
+    EXPECT_NE(p.error().message.find("time_s"), std::string::npos) << p.error().message;
+  };
+  const auto arranged = [](const CircleReadings& r, const std::vector<std::size_t>& order) {
+    CircleReadings out = r;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      out.angle_rad[i] = r.angle_rad[order[i]];
+      out.height_m[i] = r.height_m[order[i]];
+      out.tilt_a_rad[i] = r.tilt_a_rad[order[i]];
+      out.tilt_b_rad[i] = r.tilt_b_rad[order[i]];
+      out.axes_m[i] = r.axes_m[order[i]];
+    }
+    return out;
+  };
+  const CircleReadings two = turning_circle(20e-6, -7e-6, 0, source, 2, 3e-6);
+  std::vector<std::size_t> order(two.angle_rad.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  EXPECT_TRUE(perpendicularity(arranged(two, order), 5));
+  std::reverse(order.begin() + 72, order.end());
+  EXPECT_TRUE(perpendicularity(arranged(two, order), 5));  // forwards and back
+  std::rotate(order.begin() + 72, order.begin() + 108, order.end());
+  says(arranged(two, order), "reading 73 of the circle: the angle changes by 180°");
+  // Readings 19 to 36 in the reverse order: forwards, back and forwards again.
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::reverse(order.begin() + 18, order.begin() + 36);
+  says(arranged(two, order), "the direction of rotation changes for the second time");
+  CircleReadings scattering = two;
+  for (std::size_t i = 0; i < 144; i += 2) scattering.angle_rad[i] += 0.11;  // 6.3° of steps of 5°
+  EXPECT_TRUE(perpendicularity(scattering, 5));
+  scattering.height_m[3] = 2;
+  const auto high = perpendicularity(scattering, 5);
+  ASSERT_FALSE(high);
+  EXPECT_NE(high.error().message.find("limit of 1 m"), std::string::npos);
+}
+
 TEST(PerpendicularityTest, RefusesAPartOfATurn) {
   std::mt19937 source(7);
   auto r = circle(0, 0, 1e-7, source, false);

@@ -22,6 +22,13 @@ void keep_common(SurfaceMap& map, const SurfaceMap& other) {
     if (std::isnan(other.z_m[k])) map.z_m[k] = SurfaceMap::kMissing;
 }
 
+// Three pixels determine piston and tilt, so no deformation remains.
+Status check_common(const SurfaceMap& common, const std::string& maps) {
+  if (common.measured() >= 4) return {};
+  return bad_input(maps +
+                   " have fewer than 4 pixels in common; give all maps in the same coordinates");
+}
+
 }  // namespace
 
 Result<ClampingParts> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K) {
@@ -31,6 +38,7 @@ Result<ClampingParts> clamping_by_K(const SurfaceMap& before, const SurfaceMap& 
                                       "deformation is the clamping deformation divided by 1 + K");
   ClampingParts result;
   MDOF_TRY(result.clamping, difference(before, after));
+  MDOF_CHECK(check_common(result.clamping, before.name + " and " + after.name));
   remove_plane(result.clamping);
   result.K = K;
   result.elastic = scaled(result.clamping, 1 / (1 + K));
@@ -45,9 +53,8 @@ Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const Surfac
   MDOF_TRY(result.plastic, difference(before, released));
   keep_common(result.clamping, result.plastic);
   keep_common(result.plastic, result.clamping);
-  if (result.clamping.measured() < 4)
-    return bad_input(before.name + ", " + after.name + " and " + released.name +
-                     " have fewer than 4 pixels in common; give all maps in the same coordinates");
+  MDOF_CHECK(
+      check_common(result.clamping, before.name + ", " + after.name + " and " + released.name));
   remove_plane(result.clamping);
   remove_plane(result.plastic);
   result.elastic = result.clamping;

@@ -25,7 +25,7 @@ struct ClampingParts {
 //   elastic = after - released
 //   plastic = released - before
 // clamping_by_release() calculates K by least squares. clamping_by_K() calculates both parts from
-// `clamping` and K. Errors: K at or below -1; maps that do not overlap.
+// `clamping` and K. Errors: K at or below -1; fewer than 4 common pixels.
 Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const SurfaceMap& after,
                                           const SurfaceMap& released);
 Result<ClampingParts> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K);

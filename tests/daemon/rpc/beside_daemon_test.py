@@ -22,25 +22,26 @@ LOG = {axis: os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz") for axis in 
 BAD_INPUT, IN_USE = 3, 4
 SCAN = '[scan]\nprobe = "F"\nposition_mm = [0, 0, 0]\nmeasures = "+Z"\ncentre_mm = 0\n'
 # The commands run in this order in one database. WRITES makes the data that READS shows. "@" is the folder. Runs: 1
-# and 4 measure X; 2 measures Y; 3 is from a laser; 5 is a scan.
+# and 4 measure X; 2 measures Y; 3 is from a laser; 5 and 6 are scans.
 WRITES = [("replay", LOG["X"], "--rig", RIG["X"]), ("replay", LOG["Y"], "--rig", RIG["Y"]),
           ("import", "@/laser.csv", "--axis", "X", "--u-um", "0.3", "--sense", "body", "--travel", "-", "--note", "laser"),
           ("replay", "@/again.csv", "--rig", RIG["X"], "--settle-s", "0.12", "--note", "again"),
           ("replay", "@/scan.csv", "--rig", "@/scan.toml"), ("squareness", "1", "2"),
           ("compensation", "build", "1"), ("compensation", "build", "3"),
           ("compensation", "build", "--machine", "@/machine.toml", "--plane", "XY", "--step-mm", "10", "--incomplete"),
-          ("compensation", "activate", "1"), ("compensation", "deactivate", "--axis", "X"), ("compensation", "activate", "1")]
+          ("compensation", "activate", "1"), ("compensation", "deactivate", "--axis", "X"), ("compensation", "activate", "1"),
+          ("replay", "@/scan_2.csv", "--rig", "@/scan.toml")]
 READS = [("runs",), ("show", "1"), ("show", "3"), ("show", "1", "--figures"), ("parallelism", "1", "4"), ("compare", "1", "4"),
          ("iso230-2", "--run", "1"), ("trend", "--axis", "X"), ("budget", "1"), ("budget", "1", "2"),
          ("compensation", "show", "1"), ("compensation", "list"), ("machine", "error", "@/machine.toml", "--at", "X=10,Y=5"),
          ("machine", "map", "@/machine.toml", "--step-mm", "10"), ("machine", "diagonal", "@/machine.toml"),
          ("machine", "circle", "@/machine.toml", "--radius-mm", "5"), ("machine", "budget", "@/machine.toml", "--at", "X=10"),
-         ("part", "@/part.toml"), ("form", "compare", "5", "5"), ("form", "clamp", "5", "5"), ("separate", "reversal", "--surface", "side", "1", "4"),
+         ("part", "@/part.toml"), ("form", "compare", "5", "6"), ("form", "clamp", "5", "6"), ("separate", "reversal", "--surface", "side", "1", "4"),
          ("compensation", "check", "2", "--format", "linuxcnc", "--unverified-sign"),
          ("verify",), ("history",), ("studies",)]
 FILES = [("plot", "1", "--out", "@/plots"), ("report", "1", "--out", "@/report.html"),
          ("export", "1", "--format", "qif", "--out", "@/run.qif"), ("form", "scan", "5", "--pixel-mm", "5", "--out", "@/map.csv"),
-         ("form", "cut", "5", "5", "--out", "@/next.csv"),
+         ("form", "cut", "5", "6", "--out", "@/next.csv"),
          ("form", "path", "5", "--speed-rpm", "300", "--feed-mm-min", "300", "--out", "@/spiral.csv"),
          ("compensation", "export", "1", "--format", "json", "--out", "@/table.json")]
 # sensitivity would write checkpoints for hours, and `studies` shows studies. shift and square accept the same runs as
@@ -80,9 +81,10 @@ class BesideDaemon(unittest.TestCase):
             series.write("position_mm,deviation_um\n0,1\n5,2\n10,0\n")
         with open(os.path.join(cls.folder, "again.csv"), "w") as log:
             log.write(changed_log(lambda n, row: row[:2] + [f"{float(row[2]) + 1e-3 * (n % 2):.6f}"] + row[3:]))
-        with open(os.path.join(cls.folder, "scan.csv"), "w") as log:
-            log.write(changed_log(lambda n, row: row[:2] + [f"{float(row[2]) + 2e-3 * (n % 2):.6f}"] + row[3:] +
-                                  [str(n % 360), "0"], ["angle_deg", "F_um"]))
+        for name, height_um in (("scan", "0"), ("scan_2", "1")):
+            with open(os.path.join(cls.folder, f"{name}.csv"), "w") as log:
+                log.write(changed_log(lambda n, row: row[:2] + [f"{float(row[2]) + 2e-3 * (n % 2):.6f}"] + row[3:] +
+                                      [str(n % 360), height_um], ["angle_deg", "F_um"]))
         with open(RIG["X"]) as rig, open(os.path.join(cls.folder, "scan.toml"), "w") as scan:
             scan.write(rig.read() + SCAN)
         for name, text in (("machine.toml", MACHINE), ("part.toml", PART), ("path.csv", "x_mm,y_mm,z_mm\n1,1,0\n9,9,0\n")):

@@ -55,8 +55,10 @@ Result<Clamped> clamped(const FormClampCommand& o) {
   Clamped found;
   MDOF_TRY(const SurfaceMap before, load_map(o.before, o.maps));
   MDOF_TRY(const SurfaceMap after, load_map(o.after, o.maps));
+  MDOF_CHECK(check_distinct({&before, &after}));
   if (!o.released.empty()) {
     MDOF_TRY(const SurfaceMap released, load_map(o.released, o.maps));
+    MDOF_CHECK(check_distinct({&before, &after, &released}));
     MDOF_TRY(found.clamping, algo::clamping_by_release(before, after, released));
   } else {
     MDOF_TRY(found.clamping, algo::clamping_by_K(before, after, o.K.value_or(0)));

@@ -94,6 +94,9 @@ Status form_compare(const FormCompareCommand& o) {
   MDOF_CHECK(check_out(o.out, {o.a, o.b}));
   MDOF_TRY(const SurfaceMap a, load_map(o.a, o.maps));
   MDOF_TRY(const SurfaceMap b, load_map(o.b, o.maps));
+  if (are_identical(a, b))
+    warn(o.b + ": this map is identical to " + o.a +
+         "; if these are two measurements, one was given twice");
   Compared compared;
   MDOF_TRY(compared.found, algo::compare(a, b, register_from(o.register_how)));
   compared.measured = a.measured();

@@ -109,6 +109,9 @@ Status form_cut(const FormCutCommand& o) {
     MDOF_TRY(SurfaceMap cut, load_map(file, o.maps));
     passes.cuts.push_back(std::move(cut));
   }
+  std::vector<const SurfaceMap*> maps{&passes.wanted};
+  for (const SurfaceMap& cut : passes.cuts) maps.push_back(&cut);
+  MDOF_CHECK(check_distinct(maps));
   passes.repeated = o.repeated;
   passes.gain = o.gain == "mean"      ? algo::CuttingGain::mean
                 : o.gain == "optimal" ? algo::CuttingGain::optimal

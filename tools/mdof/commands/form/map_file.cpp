@@ -1,6 +1,8 @@
 #include "tools/mdof/commands/form/map_file.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -87,6 +89,22 @@ Status check_out(const std::string& out, const std::vector<std::string>& maps) {
     if (!out.empty() && !scanned_run_number(map) && std::filesystem::equivalent(out, map, unknown))
       return fail(ErrorCode::usage, "--out " + out + ": this is the file of the map " + map +
                                         ", which mdof would overwrite; give another file");
+  return {};
+}
+
+bool are_identical(const SurfaceMap& a, const SurfaceMap& b) {
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  return a.nx == b.nx && a.ny == b.ny && a.x0_m == b.x0_m && a.y0_m == b.y0_m && a.dx_m == b.dx_m &&
+         a.dy_m == b.dy_m && std::equal(a.z_m.begin(), a.z_m.end(), b.z_m.begin(), same);
+}
+
+Status check_distinct(const std::vector<const SurfaceMap*>& maps) {
+  for (std::size_t i = 0; i < maps.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (are_identical(*maps[j], *maps[i]))
+        return bad_input(maps[i]->name + ": this map is identical to " + maps[j]->name +
+                         ", so one measurement was probably given twice; give each map its own "
+                         "measurement");
   return {};
 }
 

@@ -27,6 +27,11 @@ std::optional<std::int64_t> scanned_run_number(const std::string& name);
 // Error (usage): the output file `out` is one of the input files `maps`.
 Status check_out(const std::string& out, const std::vector<std::string>& maps);
 
+// True if both maps have the same pixels with the same heights.
+bool are_identical(const SurfaceMap& a, const SurfaceMap& b);
+// Error (bad_input): two of the maps are identical, so one file was probably given twice.
+Status check_distinct(const std::vector<const SurfaceMap*>& maps);
+
 // True if `common` < 0.9 `measured` (numbers of pixels).
 bool has_few_common_pixels(std::size_t common, std::size_t measured);
 // Prints a warning if has_few_common_pixels() is true for the measured pixels of `map`. `rest`: a

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "algo/form/map_figures.h"
 #include "algo/form/registration.h"
@@ -73,6 +74,43 @@ Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const Surfac
   for (std::size_t k = 0; k < left.z_m.size(); ++k) left.z_m[k] -= result.K * result.elastic.z_m[k];
   result.K_unexplained_rms_m = figures_of(left).rms_m;
   return result;
+}
+
+namespace {
+
+SurfaceMap mirrored(const SurfaceMap& map, bool in_x, bool in_y) {
+  SurfaceMap result = map;
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i)
+      result.z_m[j * map.nx + i] = map.at(in_x ? map.nx - 1 - i : i, in_y ? map.ny - 1 - j : j);
+  return result;
+}
+
+std::optional<MapFigures> difference_figures(const SurfaceMap& before, const SurfaceMap& after) {
+  auto found = difference(before, after);
+  if (!found) return std::nullopt;
+  remove_plane(*found);
+  return figures_of(*found);
+}
+
+}  // namespace
+
+std::optional<MirroredMatch> mirrored_match(const SurfaceMap& before, const SurfaceMap& after) {
+  constexpr double kCloser = 0.5, kLeastPixels = 0.9;
+  const auto given = difference_figures(before, after);
+  if (!given) return std::nullopt;
+  MirroredMatch best{"", given->rms_m, kCloser * given->rms_m};
+  const std::pair<bool, bool> ways[] = {{true, false}, {false, true}, {true, true}};
+  for (const auto& [in_x, in_y] : ways) {
+    const auto found = difference_figures(before, mirrored(after, in_x, in_y));
+    if (!found || !(found->rms_m < best.mirrored_rms_m) ||
+        static_cast<double>(found->pixels) < kLeastPixels * static_cast<double>(given->pixels))
+      continue;
+    best.mirrored = in_x && in_y ? "x, y" : in_x ? "x" : "y";
+    best.mirrored_rms_m = found->rms_m;
+  }
+  if (best.mirrored.empty()) return std::nullopt;
+  return best;
 }
 
 }  // namespace mdof::algo

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "schema/base/result.h"
 #include "schema/form/height_map.h"
@@ -29,6 +30,15 @@ struct ClampingParts {
 Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const SurfaceMap& after,
                                           const SurfaceMap& released);
 Result<ClampingParts> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K);
+
+// The map `after`, mirrored, is closer to `before` than `after` itself.
+struct MirroredMatch {
+  std::string mirrored;                  // "x", "y" or "x, y": the directions that are reversed
+  double rms_m = 0, mirrored_rms_m = 0;  // differences from `before`, without piston and tilt
+};
+// Mirrors `after` about the middle of its pixels. nullopt: no mirrored map has less than half of
+// the difference.
+std::optional<MirroredMatch> mirrored_match(const SurfaceMap& before, const SurfaceMap& after);
 
 struct Plate {
   double thickness_m = 0, youngs_modulus_Pa = 0, poisson = 0;

@@ -2,16 +2,20 @@
 // the deformation stays elastic.
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <vector>
 
 #include "algo/form/clamping.h"
 #include "algo/form/map_figures.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
+#include "schema/notice/notice_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/form/map_file.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -31,7 +35,20 @@ struct Clamped {
   algo::ClampingParts clamping;
   std::optional<algo::PlateStress> stress;
   std::optional<bool> is_elastic;
+  Notices notices;
 };
+
+// A notice for each map that matches `before` better if it is mirrored.
+Notices mirrored_notices(const SurfaceMap& before, const std::vector<const SurfaceMap*>& maps) {
+  Notices notices;
+  for (const SurfaceMap* map : maps)
+    if (const auto match = algo::mirrored_match(before, *map))
+      notices.push_back(notice(NoticeCode::map_matches_mirrored, map->name,
+                               {{"mirrored", match->mirrored},
+                                {"rms_um", to_um(match->rms_m)},
+                                {"mirrored_rms_um", to_um(match->mirrored_rms_m)}}));
+  return notices;
+}
 
 // Error: the user stated only some of the data. The stress needs all data of the plate; the verdict
 // also needs the yield limit.
@@ -60,8 +77,10 @@ Result<Clamped> clamped(const FormClampCommand& o) {
     MDOF_TRY(const SurfaceMap released, load_map(o.released, o.maps));
     MDOF_CHECK(check_distinct({&before, &after, &released}));
     MDOF_TRY(found.clamping, algo::clamping_by_release(before, after, released));
+    found.notices = mirrored_notices(before, {&after, &released});
   } else {
     MDOF_TRY(found.clamping, algo::clamping_by_K(before, after, o.K.value_or(0)));
+    found.notices = mirrored_notices(before, {&after});
   }
   warn_few_common_pixels(before, algo::figures_of(found.clamping.clamping).pixels,
                          "the clamping deformation at the remaining pixels is unknown");
@@ -115,6 +134,7 @@ std::string clamp_json(const Clamped& found, const FormClampCommand& o) {
     json.value(*found.is_elastic);
   else
     json.null();
+  write_notices(json, "notices", found.notices, words::text);
   json.end_object();
   return json.take();
 }
@@ -155,6 +175,7 @@ Status form_clamp(const FormClampCommand& o) {
     return fail(ErrorCode::usage,
                 "mdof calculates K from the map RELEASED; leave out RELEASED or --K");
   MDOF_TRY(const Clamped found, clamped(o));
+  show_notices(found.notices);
   if (o.released.empty() && !o.K)
     warn(
         "neither RELEASED nor --K is given: the whole clamping deformation is taken as elastic (K "

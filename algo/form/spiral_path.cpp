@@ -277,6 +277,18 @@ MapMiddle middle_of(const SurfaceMap& map) {
   return {(map.x_m(least_i) + map.x_m(most_i)) / 2, (map.y_m(least_j) + map.y_m(most_j)) / 2};
 }
 
+MapMiddle mean_pixel(const SurfaceMap& map) {
+  double x_m = 0, y_m = 0;
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i) {
+      if (std::isnan(map.at(i, j))) continue;
+      x_m += map.x_m(i);
+      y_m += map.y_m(j);
+    }
+  const auto count = static_cast<double>(map.measured());
+  return {x_m / count, y_m / count};
+}
+
 FarthestPixel farthest_pixel(const SurfaceMap& map, double x_centre_m, double y_centre_m) {
   double square = -1;
   FarthestPixel found;

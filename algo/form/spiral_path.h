@@ -78,6 +78,8 @@ struct MapMiddle {
   double x_m = 0, y_m = 0;
 };
 MapMiddle middle_of(const SurfaceMap& map);
+// The mean position of all measured pixels.
+MapMiddle mean_pixel(const SurfaceMap& map);
 
 // The measured pixel with the largest distance from the centre.
 struct FarthestPixel {

@@ -94,6 +94,11 @@ TEST(ReachByHand, MiddleAndFarthestMeasuredPixel) {
   const MapMiddle middle = algo::middle_of(map);
   EXPECT_EQ(middle.x_m, 10 + 2 * 2);
   EXPECT_EQ(middle.y_m, -1 + 1.5 * 3);
+  // The mean of the pixels (16, 2), (12, 5) and (14, 2).
+  z[1 * 4 + 2] = 0;
+  const MapMiddle mean = algo::mean_pixel(small_map(4, 5, z));
+  EXPECT_EQ(mean.x_m, 14);
+  EXPECT_EQ(mean.y_m, 3);
   // The distances of the pixels (16, 2) and (12, 5) from (13, 1) are (3, 1) and (1, 4).
   const FarthestPixel far = farthest_pixel(map, 13, 1);
   EXPECT_NEAR(far.radius_m, std::sqrt(17), 1e-12);

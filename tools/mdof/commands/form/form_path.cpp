@@ -42,6 +42,7 @@ struct FoundPath {
   double frequency_hz = 0, stroke_m = 0, stroke_on_part_m = 0, acceleration_m_s2 = 0,
          duration_s = 0;
   std::optional<algo::MotionAboveBand> left_out;
+  double centre_off_m = 0;  // distance of the mean pixel from an assumed centre; 0: not notable
 };
 
 CLI::Validator whole_number_in(double least, double most) {
@@ -126,9 +127,22 @@ Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMa
   return request;
 }
 
+// A missing pixel at the edge moves the middle of the extreme pixels by up to half a pixel, but
+// hardly moves the mean of all pixels.
+constexpr double kPixelsOff = 0.1;
+
+double centre_off_m(const FormPathCommand& o, const SurfaceMap& map,
+                    const algo::SpiralRequest& request) {
+  if (!o.centre.empty() || scanned_run_number(o.map)) return 0;
+  const algo::MapMiddle mean = algo::mean_pixel(map);
+  const double off_m = std::hypot(mean.x_m - request.x_centre_m, mean.y_m - request.y_centre_m);
+  return off_m > kPixelsOff * std::min(map.dx_m, map.dy_m) ? off_m : 0;
+}
+
 Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   FoundPath found;
   MDOF_TRY(found.request, request_of(o, map));
+  found.centre_off_m = centre_off_m(o, map, found.request);
   MDOF_TRY(const algo::SpiralPath path, algo::SpiralPath::over(map, found.request));
   const double per_s = o.speed_rpm / 60;
   algo::TurnSpectrum spectrum(found.request.points_per_turn,
@@ -177,6 +191,11 @@ Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
   const algo::SpiralRequest& request = found.request;
   const algo::SpiralCounts& counts = found.counts;
   Notices notices;
+  if (found.centre_off_m > 0)
+    notices.push_back(notice(NoticeCode::path_centre_assumed, o.map,
+                             {{"x_mm", to_mm(request.x_centre_m)},
+                              {"y_mm", to_mm(request.y_centre_m)},
+                              {"off_um", to_um(found.centre_off_m)}}));
   if (request.tool_radius_m > 0 && !feed_roughness_if_closed(found))
     notices.push_back(
         notice(NoticeCode::feed_leaves_rings, "",

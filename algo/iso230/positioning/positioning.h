@@ -37,4 +37,8 @@ Result<Positioning> positioning(const std::vector<PositioningReading>& readings)
 //   (scale_period_m; 0: unknown)
 Notices plan_notices(const Positioning& positioning, double scale_period_m);
 
+// Returns a notice if the deviations are probably absolute positions. Their slope over the targets
+// is then 1, or 0.001 if positions in mm were given as µm.
+Notices slope_notices(const Positioning& positioning);
+
 }  // namespace mdof::algo

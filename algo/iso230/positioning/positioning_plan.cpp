@@ -63,6 +63,26 @@ std::vector<double> in_millimetres(std::vector<double> targets_m) {
   return targets_m;
 }
 
+// Mean of the approaches that have readings.
+double mean_deviation(const PositioningTarget& t) {
+  return t.forward.n == 0 ? t.reverse.mean : t.reverse.n == 0 ? t.forward.mean : t.mean;
+}
+
+// Slope of the deviations over the targets, by least squares.
+double slope_over_targets(const Positioning& p) {
+  double mean_x = 0, mean_y = 0, product = 0, square = 0;
+  const auto count = static_cast<double>(p.targets.size());
+  for (const PositioningTarget& t : p.targets) {
+    mean_x += t.target_m / count;
+    mean_y += mean_deviation(t) / count;
+  }
+  for (const PositioningTarget& t : p.targets) {
+    product += (t.target_m - mean_x) * (mean_deviation(t) - mean_y);
+    square += (t.target_m - mean_x) * (t.target_m - mean_x);
+  }
+  return product / square;
+}
+
 }  // namespace
 
 Notices plan_notices(const Positioning& p, double scale_period_m) {
@@ -76,6 +96,14 @@ Notices plan_notices(const Positioning& p, double scale_period_m) {
   else if (targets_m.size() > 2 && has_equal_intervals(targets_m))
     found.push_back(notice(NoticeCode::equal_intervals));
   return found;
+}
+
+Notices slope_notices(const Positioning& p) {
+  constexpr double kOfPositions = 0.5, kOfMmAsUm = 1e-3, kSame = 0.05;
+  const double slope = slope_over_targets(p), size = std::abs(slope);
+  if (!(size > kOfPositions) && !(std::abs(size - kOfMmAsUm) <= kSame * kOfMmAsUm)) return {};
+  return {notice(NoticeCode::deviations_follow_targets, "",
+                 {{"slope_um_per_mm", to_um(slope) / to_mm(1)}})};
 }
 
 }  // namespace mdof::algo

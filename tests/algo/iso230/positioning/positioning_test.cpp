@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "algo/iso230/positioning/positioning_uncertainty.h"
@@ -150,6 +152,26 @@ std::string notices_of(const Positioning& p, double scale_period_m = 0) {
 }
 
 const std::vector<double> kGood_m = {0, 0.011, 0.0202, 0.0297, 0.0404};
+
+// Positions as deviations: 40.4 mm as 40400 µm, or as 40.4. The deviations themselves have a slope
+// of 20 µm/m.
+TEST(Slope, ReportsPositionsInsteadOfDeviations) {
+  for (const auto& [slope, stated] :
+       {std::pair{0.0, false}, std::pair{1.0, true}, std::pair{-1.0, true}, std::pair{1e-3, true},
+        std::pair{0.9e-3, false}, std::pair{20e-3, false}})
+    for (const int least_direction : {-1, 1}) {
+      std::vector<PositioningReading> readings;
+      for (const double target_m : kGood_m)
+        for (int direction = least_direction; direction <= 1; direction += 2)
+          readings.push_back({target_m, direction, 1, (slope + 20e-6) * target_m + 5e-6});
+      const Notices found = slope_notices(positioning(readings).value());
+      ASSERT_EQ(found.size(), stated ? 1U : 0U) << slope << " " << least_direction;
+      if (!stated) continue;
+      EXPECT_EQ(found[0].code, NoticeCode::deviations_follow_targets);
+      EXPECT_NEAR(std::get<double>(*value(found[0], "slope_um_per_mm")), 1e3 * (slope + 20e-6),
+                  1e-9);
+    }
+}
 
 TEST(Plan, FiveUnevenTargetsAndRunsAreEnough) {
   EXPECT_EQ(notices_of(planned(kGood_m)), "");

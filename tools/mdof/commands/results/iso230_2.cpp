@@ -79,7 +79,8 @@ Status iso230_of_file(const Iso230Command& command) {
   MDOF_TRY(const auto csv, drivers::read_positioning_csv(command.file));
   auto figures = algo::positioning(csv.readings);
   if (!figures) return in_context(csv.source, std::move(figures.error()));
-  const Notices notices = algo::plan_notices(*figures, from_mm(command.scale_period_mm));
+  Notices notices = algo::plan_notices(*figures, from_mm(command.scale_period_mm));
+  append(notices, algo::slope_notices(*figures));
   show_notices(notices, command.all_warnings);
   MDOF_CHECK(draw_file(csv, *figures, command.plots));
   const auto U = uncertainty_of(command);

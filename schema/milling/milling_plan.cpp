@@ -19,6 +19,7 @@ struct Limits {
   bool includes_lower = false;
 };
 constexpr double kHuge = 1e12;
+constexpr double kMostYoung_GPa = 10'000;  // diamond: 1100
 constexpr Limits kPositive{0, kHuge}, kNotNegative{0, kHuge, true}, kFinite{-kHuge, kHuge};
 
 class Reader {
@@ -69,9 +70,6 @@ class Reader {
   static std::string text(double x) { return plain_number(x, 6); }
   static std::string range(const Limits& limits) {
     std::string lower = limits.includes_lower ? "at least " : "above ";
-    if (limits.up_to >= kHuge)
-      return limits.above <= -kHuge ? "it must be finite"
-                                    : "it must be " + lower + text(limits.above);
     return "it must be " + lower + text(limits.above) + " and at most " + text(limits.up_to);
   }
 
@@ -81,8 +79,8 @@ class Reader {
       const std::string u_key = "u_" + key;
       if (!table_->has(u_key)) continue;
       const double u = table_->number(u_key);
-      if (!(u >= 0 && u < kHuge))
-        table_->reject(u_key, "is " + text(u) + "; it must be at least 0");
+      if (!(u >= 0 && u <= kHuge))
+        table_->reject(u_key, "is " + text(u) + "; " + range(kNotNegative));
       if (u > 0) u_.emplace_back(&input, u * input.unit);
     }
   }
@@ -197,7 +195,7 @@ Result<DeclaredMillingPlan> parse_milling_plan(std::string_view text, const std:
   plan.teeth = read.count("teeth", 1, 20);
   plan.helix_rad = read.number("helix_deg", {0, 80, true}, 0.0) * kDeg;
   read_sections(tool, read, plan);
-  plan.youngs_modulus_Pa = read.number("youngs_modulus_GPa", kPositive) * 1e9;
+  plan.youngs_modulus_Pa = read.number("youngs_modulus_GPa", {0, kMostYoung_GPa}) * 1e9;
 
   if (root.has("runout")) {
     read.table("runout");

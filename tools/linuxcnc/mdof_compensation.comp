@@ -63,7 +63,7 @@ include <rtapi_slab.h>;
 
 static hal_stream_t stream;
 static struct mdof_table tables[2];
-static const struct mdof_table* in_force; /* table in use; NULL: none */
+static const struct mdof_table* active_table; /* table in use; NULL: none */
 static struct mdof_receiver receiver;
 static struct mdof_offset offsets[3];
 static double last_position[3]; /* the last valid positions */
@@ -87,7 +87,7 @@ EXTRA_CLEANUP() {
 }
 
 static void apply(struct __comp_state* __comp_inst, const struct mdof_table* table) {
-  in_force = table;
+  active_table = table;
   generation = table ? table->generation_number : 0;
   max_abs_offset = table ? table->largest : 0;
   simulated = table && table->is_simulated;
@@ -122,11 +122,11 @@ static void receive(struct __comp_state* __comp_inst) {
 
 static void judge(struct __comp_state* __comp_inst, const double position[3], double period) {
   silent_s += period;
-  age_s = in_force ? age_s + period : 0;
+  age_s = active_table ? age_s + period : 0;
   if (silent_s > loader_timeout_s) connected = 0;
   fault_code = 0;
-  if (in_force && silent_s > loader_timeout_s) fault_code = 1;
-  if (in_force && age_s > max_age_s) fault_code = 2;
+  if (active_table && silent_s > loader_timeout_s) fault_code = 1;
+  if (active_table && age_s > max_age_s) fault_code = 2;
   if (!isfinite(position[0] + position[1] + position[2])) fault_code = 3;
   fault = fault_code != 0;
   fault_s = fault ? fault_s + period : 0;
@@ -143,14 +143,14 @@ FUNCTION(command) {
   double before[3] = {0, 0, 0}, now[3] = {0, 0, 0};
   receive(__comp_inst);
   judge(__comp_inst, position, seconds);
-  bool asked = in_force && enable && all_homed;
+  bool asked = active_table && enable && all_homed;
   for (int j = 0; j < JOINTS; ++j) asked = asked && !homing(j);
   const bool stands = asked && (machine_on ? fault && fault_s <= hold_s : true);
   active = asked && !stands && !fault;
   inside = 0;
   if (active) {
-    mdof_table_at(in_force, last_position, before);
-    inside = mdof_table_at(in_force, position, now);
+    mdof_table_at(active_table, last_position, before);
+    inside = mdof_table_at(active_table, position, now);
   }
   limited = 0;
   homing_inhibit = 0;

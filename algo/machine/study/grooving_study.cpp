@@ -24,8 +24,8 @@ struct Wave {
   double size = 0, length = 0, phase_turns = 0;  // m or rad; m or rad; turns
 };
 
-ErrorFunction function_of(double length, std::size_t steps, double slope_size,
-                          const std::vector<Wave>& waves) {
+ErrorFunction error_function(double length, std::size_t steps, double slope_size,
+                             const std::vector<Wave>& waves) {
   ErrorFunction f;
   for (std::size_t i = 0; i <= steps; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(steps);
@@ -39,7 +39,7 @@ ErrorFunction function_of(double length, std::size_t steps, double slope_size,
 }
 
 ErrorFunction along_axis(double slope_size, const std::vector<Wave>& waves) {
-  return function_of(kWidth_m, 200, slope_size, waves);
+  return error_function(kWidth_m, 200, slope_size, waves);
 }
 
 MachineFrame linear_axis(const ChainAxis& axis, std::size_t direction) {
@@ -88,8 +88,8 @@ MachineFrame axis_c(const ChainAxis& chain) {
   c.carries_work = chain.carries_work;
   c.at_m = {kCentre_m, kCentre_m, 0};
   c.range = {0.0, kTurn};
-  c.error[3] = function_of(kTurn, 360, 0, {{1.5e-6, kTurn / 2, 0.6}, {0.4e-6, kTurn / 3, 0}});
-  c.error[4] = function_of(kTurn, 360, 0, {{1.2e-6, kTurn / 2, 0.35}, {0.5e-6, kTurn / 3, 0.2}});
+  c.error[3] = error_function(kTurn, 360, 0, {{1.5e-6, kTurn / 2, 0.6}, {0.4e-6, kTurn / 3, 0}});
+  c.error[4] = error_function(kTurn, 360, 0, {{1.2e-6, kTurn / 2, 0.35}, {0.5e-6, kTurn / 3, 0.2}});
   c.location[3].value = 12e-6;
   c.location[4].value = -8e-6;
   return c;

@@ -137,8 +137,8 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
       u.push_back(std::fmax(table.positioning_u_at(true, i), table.positioning_u_at(false, i)));
     // The table is in controller coordinates. Errors of the body are positive in the + direction.
     const double body = frame.against_command ? -1 : 1;
-    ErrorFunction function = function_of(table.position_m, scaled(along.forward, body),
-                                         scaled(along.reverse, body), u, noise);
+    ErrorFunction function = error_function(table.position_m, scaled(along.forward, body),
+                                            scaled(along.reverse, body), u, noise);
     function.noise_only = table.noise_only();
     return take(frame, frame.direction, std::move(function));
   }
@@ -152,8 +152,8 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
       u.push_back(std::fmax(table.u_of(table.u_forward, named, row),
                             table.u_of(table.u_reverse, named, row)));
     ErrorFunction function =
-        function_of(table.position_m, table.forward[named], table.reverse[named], u,
-                    larger(table.u_forward[named], table.u_reverse[named]));
+        error_function(table.position_m, table.forward[named], table.reverse[named], u,
+                       larger(table.u_forward[named], table.u_reverse[named]));
     function.noise_only = table.noise_only();
     if (error_names(table.axis)[named].angle) set_angle_zero_at(function, zero_m);
     MDOF_CHECK(take(frame, body_error_index(table, named), std::move(function)));

@@ -12,9 +12,9 @@
 
 namespace mdof::daemon {
 
-ErrorFunction function_of(const std::vector<double>& position, const std::vector<double>& forward,
-                          const std::vector<double>& reverse, const std::vector<double>& u,
-                          const std::vector<double>& u_noise) {
+ErrorFunction error_function(const std::vector<double>& position,
+                             const std::vector<double>& forward, const std::vector<double>& reverse,
+                             const std::vector<double>& u, const std::vector<double>& u_noise) {
   ErrorFunction f;
   for (std::size_t i = 0; i < position.size(); ++i) {
     const bool has_forward = std::isfinite(forward[i]), has_reverse = std::isfinite(reverse[i]);

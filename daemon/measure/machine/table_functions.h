@@ -16,9 +16,9 @@ namespace mdof::daemon {
 // approach has a value, both approaches get this value. An unknown u (NaN) is replaced by the
 // largest known u. If no u is known, the function has no u. The curvature is the larger curvature
 // of the two approaches.
-ErrorFunction function_of(const std::vector<double>& position, const std::vector<double>& forward,
-                          const std::vector<double>& reverse, const std::vector<double>& u,
-                          const std::vector<double>& u_noise);
+ErrorFunction error_function(const std::vector<double>& position,
+                             const std::vector<double>& forward, const std::vector<double>& reverse,
+                             const std::vector<double>& u, const std::vector<double>& u_noise);
 // Sets the curvature of a function that has u and at least three positions. The curvature increases
 // u between the positions. The known noise of the values does not count as curvature.
 void add_curvature(ErrorFunction& f);

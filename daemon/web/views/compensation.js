@@ -133,9 +133,9 @@ class AxisPanel {
       setRows(this.table, list.tables.map((t) => this.row(t)));
       if (this.openId) this.show(this.openId);
       this.build(runs.filter((r) => ["complete", "partial"].includes(r.state)));
-      const deeds = history.filter((d) => d.deed.startsWith("compensation."));
-      this.history.replaceChildren(deeds.length === 0 ? h("p", {}, "No table was built or activated yet.") : table("Actions on the tables of all axes, newest first",
-        [["when", "w"], ["action"], ["object"], ["by"], ["reason"]], deeds.map((d) => [time(d.utc), d.deed.replace("compensation.", ""),
+      const actions = history.filter((d) => d.deed.startsWith("compensation."));
+      this.history.replaceChildren(actions.length === 0 ? h("p", {}, "No table was built or activated yet.") : table("Actions on the tables of all axes, newest first",
+        [["when", "w"], ["action"], ["object"], ["by"], ["reason"]], actions.map((d) => [time(d.utc), d.deed.replace("compensation.", ""),
           `${d.of === "compensation_table" || d.of === "volumetric_table" ? "table" : "generation"} ${d.id}`, d.user || `uid ${d.uid}`, d.detail ?? "–"])));
     } catch (error) {
       this.wrong.replaceChildren(problem(error));

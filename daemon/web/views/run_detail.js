@@ -103,7 +103,7 @@ export function pointsTable(points) {
       ...keys.flatMap((key) => [fixed(p[key], decimals(p.U?.[key])), fixed(p.U?.[key], decimals(p.U?.[key]))]), [p.reason, ...p.flags ?? []].filter(Boolean).join(", ")])));
 }
 
-const deeds = (list) => list.length === 0 ? null : h("section", {}, h("h2", {}, "History"), h("ul", {},
+const actions = (list) => list.length === 0 ? null : h("section", {}, h("h2", {}, "History"), h("ul", {},
   list.map((d) => h("li", {}, `${time(d.utc)}: ${d.deed} by ${d.user || `uid ${d.uid}`}${d.detail ? `: ${d.detail}` : ""}`))));
 
 // The runs that can be compared with this run, or from which a squareness can be calculated with
@@ -147,7 +147,7 @@ function showImported(body, run, points, runs, opened) {
     h("h2", {}, "Readings"), charts.element,
     h("p", {class: "quiet"}, "Deviations are actual − nominal, as in the file. Blue solid line: forward; orange dashed line: reverse; marks without a line: approach unknown."), readings(points),
     h("h2", {}, "Results according to ISO 230-2"), run.uncertainty_reason ? h("p", {}, `Not calculated: ${run.uncertainty_reason}.`) : "", figures.length === 0 ? ""
-      : facts(figures.map(([key, figure]) => [titleOf(key), measured(figure, unitOf(key))])), deeds(run.history) ?? "");
+      : facts(figures.map(([key, figure]) => [titleOf(key), measured(figure, unitOf(key))])), actions(run.history) ?? "");
   charts.set(points);
 }
 
@@ -168,7 +168,7 @@ export function openRun(place, id) {
         covers(run))), notices(run.notices) ?? "",
       h("h2", {}, "Five errors"), charts.element,
       h("p", {class: "quiet"}, "Errors are actual − nominal. Blue solid line: forward; orange dashed line: reverse. Bands of the newest four passes: U (95 %) about each point. Bands of all older passes: from the smallest to the largest error, with the mean as a thin line."), pointsTable(points),
-      straightness.element, h("h2", {}, "Angles"), angles(run), new Budget(run).element, deeds(run.history) ?? "");
+      straightness.element, h("h2", {}, "Angles"), angles(run), new Budget(run).element, actions(run.history) ?? "");
     charts.set(points);
     straightness.draw();
   }

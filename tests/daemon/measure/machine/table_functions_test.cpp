@@ -13,10 +13,10 @@ namespace {
 
 TEST(TableFunctions, AnUnknownUIsReplacedByTheLargestKnownU) {
   const ErrorFunction f =
-      function_of({0, 1, 2}, {5, 6, 7}, {5, kNaN, 7}, {0.1, kNaN, 0.3}, {0.01, kNaN, 0.02});
+      error_function({0, 1, 2}, {5, 6, 7}, {5, kNaN, 7}, {0.1, kNaN, 0.3}, {0.01, kNaN, 0.02});
   EXPECT_EQ(f.reverse, (std::vector<double>{5, 6, 7}));
   EXPECT_EQ(f.u, (std::vector<double>{0.1, 0.3, 0.3}));
-  const ErrorFunction none = function_of({0, 1}, {5, 6}, {5, 6}, {kNaN, kNaN}, {kNaN, kNaN});
+  const ErrorFunction none = error_function({0, 1}, {5, 6}, {5, 6}, {kNaN, kNaN}, {kNaN, kNaN});
   EXPECT_TRUE(none.u.empty());
   EXPECT_TRUE(none.u_independent.empty());
 }
@@ -25,7 +25,7 @@ TEST(TableFunctions, AnUnknownUIsReplacedByTheLargestKnownU) {
 // mean is 4.5.
 TEST(TableFunctions, AnAngleIsSetToZeroAtTheGivenPosition) {
   const ErrorFunction table =
-      function_of({-2, 0, 4}, {-1, 3, 5}, {1, 5, 7}, {0.3, 0.4, 0.8}, {0.1, 0.1, 0.1});
+      error_function({-2, 0, 4}, {-1, 3, 5}, {1, 5, 7}, {0.3, 0.4, 0.8}, {0.1, 0.1, 0.1});
   ErrorFunction f = table;
   set_angle_zero_at(f, 1);
   EXPECT_EQ(f.forward, (std::vector<double>{-5.5, -1.5, 0.5}));

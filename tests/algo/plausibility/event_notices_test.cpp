@@ -37,7 +37,7 @@ bool is_reported_event(DwellEventKind kind, double position_mm, double time_s,
 }
 
 // If a short stop is directly before or after a point at its position, it is not reported.
-TEST(NoticesTold, ShortStopBesideItsPointIsNotReported) {
+TEST(EventNotices, ShortStopBesideItsPointIsNotReported) {
   for (const DwellEventKind kind : {DwellEventKind::short_stop, DwellEventKind::creep}) {
     EXPECT_TRUE(is_reported_event(kind, 5, 15));
     EXPECT_FALSE(is_reported_event(kind, 9.99, 18.6));
@@ -51,7 +51,7 @@ TEST(NoticesTold, ShortStopBesideItsPointIsNotReported) {
 }
 
 // Short stops beyond the end targets are turns of the axis.
-TEST(NoticesTold, TurnBeyondTheEndsIsNotReported) {
+TEST(EventNotices, TurnBeyondTheEndsIsNotReported) {
   EXPECT_TRUE(is_reported_event(DwellEventKind::short_stop, 10.04, 30));
   EXPECT_FALSE(is_reported_event(DwellEventKind::short_stop, 10.06, 30));
   EXPECT_TRUE(is_reported_event(DwellEventKind::short_stop, -0.04, 30));
@@ -60,7 +60,7 @@ TEST(NoticesTold, TurnBeyondTheEndsIsNotReported) {
   EXPECT_EQ(event_notices({n}, {}, 0, 0.2).size(), 1u);
 }
 
-TEST(NoticesTold, EventsOfPositionsAreAlwaysReported) {
+TEST(EventNotices, EventsOfPositionsAreAlwaysReported) {
   for (const DwellEventKind kind :
        {DwellEventKind::jump, DwellEventKind::hole, DwellEventKind::crept}) {
     EXPECT_TRUE(is_reported_event(kind, 10, 20.5));
@@ -70,7 +70,7 @@ TEST(NoticesTold, EventsOfPositionsAreAlwaysReported) {
 
 // Ten notices of each kind are listed, followed by the number of the other notices. Jumps come
 // first.
-TEST(NoticesTold, ReportsTenOfAKind) {
+TEST(EventNotices, ReportsTenOfAKind) {
   std::vector<DwellEvent> events(10, {DwellEventKind::hole, kSecond_ns, 5e-3, 1e-3, 2});
   events.push_back({DwellEventKind::jump, 3 * kSecond_ns, 4e-3, -25e-6, 0});
   const auto ten = event_notices(events, two_points(), kSecond_ns, 0.2);

@@ -158,10 +158,12 @@ void note_saturated_probes(const RunToJudge& run, Notices& out) {
       return has_flag(p.point, Flag::saturated, probe.id) &&
              has_flag(p.point, Flag::lost, probe.id);
     });
-    if (lost > 0)
-      out.push_back(
-          notice(NoticeCode::probe_beyond_range, probe.id,
-                 {{"points", lost}, {"of", points.size()}, {"range_um", to_um(probe.range_m)}}));
+    if (lost == 0) continue;
+    const double range_um = to_um(probe.range_m);
+    out.push_back(static_cast<std::size_t>(lost) == points.size()
+                      ? notice(NoticeCode::probe_saturated, probe.id, {{"range_um", range_um}})
+                      : notice(NoticeCode::probe_beyond_range, probe.id,
+                               {{"points", lost}, {"of", points.size()}, {"range_um", range_um}}));
   }
 }
 

@@ -124,11 +124,22 @@ std::vector<FrozenProbe> ProbeWatch::frozen() const {
   const auto alive = std::count_if(probes_.begin(), probes_.end(), noisy);
   for (std::size_t k = 0; k < probes_.size(); ++k) {
     const Probe& p = probes_[k];
-    all.insert(all.end(), p.frozen.begin(), p.frozen.end());
+    for (const FrozenProbe& f : p.frozen) {
+      all.push_back(f);
+      all.back().at_limit = is_at_limit(p, f.value_m);
+    }
     if (never_changed(p) && 2 * alive >= static_cast<std::ptrdiff_t>(probes_.size()) - 1)
       all.push_back({k, p.since_ns, INT64_MAX, p.held_m});
   }
   return all;
+}
+
+bool ProbeWatch::is_at_limit(const Probe& p, double value_m) {
+  const bool came_back = std::any_of(p.frozen.begin(), p.frozen.end(), [&](const FrozenProbe& f) {
+    return f.value_m == value_m && f.end_ns != INT64_MAX;
+  });
+  return came_back &&
+         (value_m <= std::min(p.low_m, p.held_m) || value_m >= std::max(p.high_m, p.held_m));
 }
 
 bool ProbeWatch::never_changed(const Probe& p) const {
@@ -176,7 +187,7 @@ Notices probe_notices(const ProbeWatch& watch, const std::vector<std::string>& i
   for (const FrozenProbe& f : watch.frozen()) {
     const bool to_the_end = f.end_ns == INT64_MAX;
     frozen.push_back(notice(
-        NoticeCode::probe_frozen, ids[f.probe],
+        f.at_limit ? NoticeCode::probe_at_limit : NoticeCode::probe_frozen, ids[f.probe],
         {{"from_s", ns_to_s(f.begin_ns - start_ns)},
          {"to_s", to_the_end ? NoticeValue("the end") : NoticeValue(ns_to_s(f.end_ns - start_ns))},
          {"reading_um", to_um(f.value_m)}}));

@@ -19,6 +19,9 @@ struct FrozenProbe {
   std::size_t probe = 0;
   std::int64_t begin_ns = 0, end_ns = INT64_MAX;  // INT64_MAX: until the end of the log
   double value_m = 0;
+  // The reading is at the limit of the amplifier: it came back from this value, and no reading of
+  // the log is beyond this value.
+  bool at_limit = false;
 };
 
 struct SteppedProbe {
@@ -90,6 +93,7 @@ class ProbeWatch {
   };
 
   bool never_changed(const Probe& probe) const;
+  static bool is_at_limit(const Probe& probe, double value_m);
   void hold(Probe& probe, std::size_t index, double low_m, double high_m);
   void release(Probe& probe, double reading_m, std::int64_t time_ns);
   bool noise_says_frozen(const Probe& probe) const;

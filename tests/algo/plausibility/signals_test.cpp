@@ -157,6 +157,11 @@ TEST(Signals, ReportsAProbeBeyondItsRange) {
   const auto found = said(sequence);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(shown(found[0]), "probe_beyond_range B points=3 of=12 range_um=200");
+  for (MeasuredPoint& p : sequence.points)
+    p.point.flags = {{Flag::saturated, "B"}, {Flag::lost, "B"}};
+  const auto always = said(sequence);
+  ASSERT_EQ(always.size(), 1u);
+  EXPECT_EQ(shown(always[0]), "probe_saturated B range_um=200");
 }
 
 TEST(Signals, IgnoresStopsWithoutValue) {

@@ -191,8 +191,7 @@ TEST(Pipeline, AProbeThatIsAlwaysDeadIsTheReasonOfTheFailure) {
   const std::string saturated = refusal([](SampleBlock& b) {
     for (double& um : b.value[kC]) um += 150;
   });
-  EXPECT_SAYS(saturated,
-              "the reading of probe \"C\" is at the end of the range (200 um) in every stop");
+  EXPECT_SAYS(saturated, "the reading of probe \"C\" is beyond its range (200 um) in every stop");
   EXPECT_SAYS(saturated, "range_um");
 }
 

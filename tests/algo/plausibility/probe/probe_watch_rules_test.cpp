@@ -102,6 +102,31 @@ TEST(ProbeWatchRule, EachSpanHasItsTimesAndReading) {
   EXPECT_EQ(test::shown(found[0]), "probe_frozen B from_s=0.05 to_s=0.35 reading_um=7");
 }
 
+// Before and after a constant span, the readings are below it or, with `low`, above it. In between,
+// `beyond` readings are on the other side. Returns the notice of the span.
+std::string notice_of_span(bool low, int beyond, int scans_after) {
+  Watched w(1);
+  w.stops(0, 3, 2e-9);
+  const auto scan = [&](double reading_m) {
+    w.reading_m[0] = low ? -reading_m : reading_m, w.scan(0);
+  };
+  for (int i = 0; i < 50; ++i) scan(5e-6 + 1e-9 * (i % 7));
+  for (int i = 0; i < beyond; ++i) scan(6.1e-6);
+  for (int i = 0; i < 300; ++i) scan(6e-6);
+  for (int i = 0; i < scans_after; ++i) scan(5e-6 + 1e-9 * (i % 7));
+  const Notices found = probe_notices(w.watch, {"A"}, 0);
+  EXPECT_EQ(found.size(), 1u);
+  return found.empty() ? "" : to_string(found[0].code);
+}
+
+TEST(ProbeWatchRule, LargestOrSmallestReadingIsTheLimitOfTheAmplifier) {
+  for (const bool low : {false, true}) {
+    EXPECT_EQ(notice_of_span(low, 0, 50), "probe_at_limit");
+    EXPECT_EQ(notice_of_span(low, 1, 50), "probe_frozen");  // a reading is beyond the span
+    EXPECT_EQ(notice_of_span(low, 0, 0), "probe_frozen");   // the reading did not come back
+  }
+}
+
 struct Travel {
   int changes = 20, rows = 128;
   double travel_m = 10e-3, share = 0.9, range_in_steps = 5;

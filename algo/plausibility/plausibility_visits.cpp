@@ -184,11 +184,14 @@ void note_single_place(const RunToJudge& run, Notices& out) {
   std::set<int> places;
   for (const auto& p : run.sequence.points) places.insert(p.target);
   const double travel_m = run.dwells.encoder_max_m - run.dwells.encoder_min_m;
-  if (places.size() != 1 || travel_m < kLeastTravelOfStops_m) return;
+  const std::size_t others = run.dwells.passed_over.size();
+  if (places.size() != 1 || travel_m < kLeastTravelOfStops_m ||
+      run.sequence.left_out.size() > others)
+    return;
   out.push_back(notice(NoticeCode::stops_at_one_place, "",
                        {{"position_mm", to_mm(run.sequence.points.front().target_m)},
                         {"travel_mm", to_mm(travel_m)},
-                        {"others", run.dwells.passed_over.size()},
+                        {"others", others},
                         {"needed_s", run.least_dwell_s},
                         {"tolerance_um", to_um(run.dwells.tolerance_m)}}));
 }

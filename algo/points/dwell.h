@@ -92,6 +92,10 @@ class DwellDetector {
   };
   static constexpr std::size_t kMaxPassedOver = 10'000;
   const Summary& summary() const { return summary_; }
+  // Returns whether a stop crept too far to become a point.
+  bool crept() const;
+  // The reason why no stop became a point: "the axis stayed within 2 um for at most 0.1 s, …".
+  std::string why_no_stop() const;
   bool still() const { return dwelling_; }
 
  private:

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "algo/points/dwell.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -72,6 +73,22 @@ void DwellDetector::find_encoder_jump() {
     }
   }
   jumps_until_ns_ = std::max(jumps_until_ns_, until_ns);
+}
+
+bool DwellDetector::crept() const {
+  return std::any_of(summary_.passed_over.begin(), summary_.passed_over.end(),
+                     [](const Summary::PassedOver& stop) { return !stop.too_short; });
+}
+
+std::string DwellDetector::why_no_stop() const {
+  const std::string tolerance = plain_number(to_um(summary_.tolerance_m)) + " um";
+  const std::string longest = plain_number(summary_.longest_still_s) + " s";
+  if (crept())
+    return "for " + longest + ", the axis moved by no more than " + tolerance + " within each " +
+           plain_number(options_.window_s) +
+           " s, but too far for one stop, so mdof cannot separate its stops";
+  return "the axis stayed within " + tolerance + " for at most " + longest +
+         ", but a stop must last " + plain_number(options_.shortest_s()) + " s";
 }
 
 void DwellDetector::mark(std::vector<Point>& points) const {

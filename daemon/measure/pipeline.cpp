@@ -188,13 +188,11 @@ Status Pipeline::check_has_points() const {
   }
   return bad_input("no stop found in " + std::to_string(s.scans) + " scans from " +
                        plain_number(to_mm(s.encoder_min_m), 6) + " to " +
-                       plain_number(to_mm(s.encoder_max_m), 6) + " mm" +
-                       ": the axis stayed within " + plain_number(to_um(s.tolerance_m)) +
-                       " um for at most " + plain_number(s.longest_still_s) +
-                       " s, but a stop must last " + plain_number(options_.dwell.shortest_s()) +
-                       " s" + (problem ? "; " + words::text(*problem) : "") +
+                       plain_number(to_mm(s.encoder_max_m), 6) + " mm" + ": " +
+                       dwell_.why_no_stop() + (problem ? "; " + words::text(*problem) : "") +
                        time_unit_hint(s.period_s),
-                   Remedy::stop_longer);
+                   dwell_.crept() ? Remedy::move_faster : Remedy::stop_longer,
+                   plain_number(to_um(s.tolerance_m)));
 }
 
 // Adds a notice for each probe without values. Error: a probe has no values, and no point could be

@@ -10,6 +10,7 @@
 #include "daemon/measure/replay/replay.h"
 #include "drivers/calibration.h"
 #include "schema/base/number/number_text.h"
+#include "schema/units.h"
 
 namespace mdof::daemon {
 namespace {
@@ -38,6 +39,23 @@ void leave_out(Point& stop, const Rig& rig) {
   for (std::size_t k = 0; k < rig.probes.size(); ++k)
     for (const Flag fault : {Flag::saturated, Flag::frozen, Flag::step})
       if (algo::has_flag(stop, fault, rig.probes[k].id)) stop.probe_m[k] = kNaN;
+}
+
+// Error: no stop is long enough, or small slow steps look like one stop that creeps.
+Status check_stops(const std::string& path, const algo::DwellDetector& dwell,
+                   const std::vector<Point>& stops) {
+  const std::string larger_steps =
+      "move the axis faster from one stop to the next, in steps of more than " +
+      plain_number(to_um(dwell.summary().tolerance_m)) + " um";
+  if (stops.empty())
+    return bad_input(path + ": no stop found: " + dwell.why_no_stop() + "; " +
+                     (dwell.crept() ? larger_steps : "let the axis stop longer at each position"));
+  if (stops.size() == 1 && algo::has_flag(stops.front(), Flag::creep))
+    return bad_input(
+        path + ": the whole log is one stop, in which the axis crept by " +
+        plain_number(to_um(dwell.summary().encoder_max_m - dwell.summary().encoder_min_m)) +
+        " um; " + larger_steps);
+  return {};
 }
 
 }  // namespace
@@ -75,11 +93,7 @@ Result<LogStops> read_stops(const std::string& path, Axis axis, const Rig& rig) 
   take();
   dwell.flush(found.stops);
   dwell.mark(found.stops);
-  if (found.stops.empty())
-    return bad_input(path + ": no stop found: the axis was at rest for at most " +
-                     plain_number(dwell.summary().longest_still_s) + " s, but a stop must last " +
-                     plain_number(options.dwell.shortest_s()) +
-                     " s; let the axis stop longer at each position");
+  MDOF_CHECK(check_stops(path, dwell, found.stops));
   for (Point& stop : found.stops) leave_out(stop, rig);
   found.sha256 = log.sha256();
   found.started_utc = log.started_utc();

@@ -176,6 +176,16 @@ TEST(Plausibility, ReportsStopsAtOnePlaceOnly) {
   EXPECT_TRUE(judged.says(" others=14 needed_s=0.2 ")) << judged.all();
 }
 
+// The stops at the other targets are left out because only one target is given, and no stop is
+// short.
+TEST(Plausibility, GivenTargetIsNotTheOnlyPlaceOfStops) {
+  Machine m;
+  m.standard(1);
+  const Judged judged = judge(m, {m.at(3)});
+  EXPECT_FALSE(judged.says("stops_at_one_place")) << judged.all();
+  EXPECT_TRUE(judged.says("most_stops_left_out left_out=12 kept=2 ")) << judged.all();
+}
+
 TEST(Plausibility, ReportsGivenTargetsInAnotherUnit) {
   Machine m;
   m.standard(2);

@@ -163,8 +163,8 @@ TEST(Catalogue, NumbersAreReadable) {
           NoticeCode::stop_too_short, "",
           {{"length_s", 0.15}, {"position_mm", 20.00004}, {"time_s", 12.3456}, {"needed_s", 0.2}})),
       "a stop of 0.150 s at 20.0000 mm, 12.346 s after the first scan, was too short "
-      "(0.200 s are needed) and was left out; stop longer, or change --settle-s or "
-      "--min-length-s");
+      "(0.200 s are needed) and was left out; stop longer, or change settle_s or min_length_s in "
+      "[measure] (in mdof replay: --settle-s or --min-length-s)");
 }
 
 }  // namespace

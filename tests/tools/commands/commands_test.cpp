@@ -1,11 +1,17 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
+#include <set>
 
+#include "daemon/words/error_text.h"
+#include "daemon/words/words.h"
 #include "tools/mdof/commands/command.h"
 
 namespace mdof::tools {
@@ -93,6 +99,89 @@ TEST(Commands, EachNumberIsFiniteAndItsLimitsAreReadable) {
     }
   }
   EXPECT_GT(numbers, 30);
+}
+
+// The names of the commands with their options, "--json".
+std::map<std::string, std::set<std::string>> options_by_command() {
+  std::map<std::string, std::set<std::string>> all;
+  for (const Command& row : all_commands()) {
+    CLI::App app("", "mdof");
+    row.declare(app);
+    for (const CLI::Option* option : app.get_options())
+      for (const std::string& name : option->get_lnames()) all[row.name].insert("--" + name);
+  }
+  return all;
+}
+
+// For each option in the text: the command that is named last before it, within the same
+// parentheses ("" if none), and the option.
+std::vector<std::array<std::string, 2>> named_options(const std::string& text) {
+  static const auto commands = options_by_command();
+  static const std::regex word("mdof ([a-z0-9-]+ ?[a-z0-9-]*)|(--[a-z][a-z0-9-]*)|\\)");
+  std::vector<std::array<std::string, 2>> found;
+  std::string command;
+  for (std::sregex_iterator at(text.begin(), text.end(), word), end; at != end; ++at) {
+    if ((*at)[2].matched) found.push_back({command, (*at)[2]});
+    const std::string name = (*at)[1];
+    if (at->str() == ")") command = "";
+    if (commands.contains(name)) command = name;
+    if (const auto first = name.substr(0, name.find(' ')); commands.contains(first))
+      command = first;
+  }
+  return found;
+}
+
+constexpr words::Language kLanguages[] = {words::Language::english, words::Language::german};
+
+// Several commands show the notices of a run. A notice that names an option must therefore name the
+// command of this option, unless only the commands in this list give the notice.
+TEST(Commands, OptionsInNoticesExist) {
+  using Commands = std::vector<std::string>;
+  const std::map<NoticeCode, Commands> given_by = {
+      {NoticeCode::not_shown, {"show", "replay", "iso230-2", "budget", "squareness"}},
+      {NoticeCode::map_units_assumed, {"form clamp", "form cut", "form compare", "form path"}},
+      {NoticeCode::map_movement_gains_little, {"form compare"}},
+      {NoticeCode::path_mostly_bridged, {"form path"}},
+      {NoticeCode::path_stroke_bridged, {"form path"}},
+      {NoticeCode::made_of_several_probes, {"separate reversal", "separate shift"}}};
+  const auto options = options_by_command();
+  const auto check = [&](NoticeCode code, words::Language language) {
+    for (const auto& [command, option] : named_options(words::pattern(code, language))) {
+      const auto by = given_by.find(code);
+      const Commands commands =
+          command.empty() && by != given_by.end() ? by->second : Commands{command};
+      for (const std::string& each : commands)
+        EXPECT_TRUE(options.contains(each) && options.at(each).contains(option))
+            << to_string(code) << ": mdof " << each << " " << option;
+    }
+  };
+  for (const auto language : kLanguages) {
+#define NOTICE(code, severity, keys) check(NoticeCode::code, language);
+#include "schema/notice/notice_codes.inc"
+#undef NOTICE
+  }
+}
+
+// mdofd gives these remedies for a run that `mdof record` or `mdof replay` measures.
+constexpr Remedy kOfEachRun[] = {Remedy::raise_settle, Remedy::stop_longer, Remedy::move_faster};
+
+TEST(Commands, OptionsInRemediesExist) {
+  const auto options = options_by_command();
+  const auto check = [&](Remedy remedy, words::Language language) {
+    const bool needs_command =
+        std::find(std::begin(kOfEachRun), std::end(kOfEachRun), remedy) != std::end(kOfEachRun);
+    for (const auto& [command, option] : named_options(words::remedy(remedy, "", language))) {
+      bool exists = false;
+      for (const auto& [name, its] : options)
+        exists |= (name == command || (command.empty() && !needs_command)) && its.contains(option);
+      EXPECT_TRUE(exists) << to_string(remedy) << ": mdof " << command << " " << option;
+    }
+  };
+  for (const auto language : kLanguages) {
+#define REMEDY(code) check(Remedy::code, language);
+#include "schema/base/remedy/remedies.inc"
+#undef REMEDY
+  }
 }
 
 TEST(Commands, EachCommandHasAnExampleAndASummary) {

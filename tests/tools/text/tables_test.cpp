@@ -128,7 +128,7 @@ TEST(NoticeLines, ShowsThreeOfACodeAndACount) {
   Notices many{notice(NoticeCode::cycle_unknown)};
   for (int i = 0; i < 100; ++i)
     many.push_back(notice(NoticeCode::probe_stepped, "A", {{"step_um", i}, {"time_s", 2}}));
-  const auto few = summarised(many);
+  const auto few = summarised(many, false);
   ASSERT_EQ(few.size(), 5u);
   EXPECT_EQ(few[0], many[0]);
   EXPECT_EQ(few[3], many[3]);
@@ -136,7 +136,8 @@ TEST(NoticeLines, ShowsThreeOfACodeAndACount) {
   EXPECT_EQ(few[4].severity, Severity::doubtful);
   EXPECT_EQ(summarised(many, true), many);
   const Notices four(many.begin() + 1, many.begin() + 5);
-  EXPECT_EQ(summarised(four), four);  // a line "and 1 more" would be as long as the fourth notice
+  EXPECT_EQ(summarised(four, false),
+            four);  // a line "and 1 more" would be as long as the fourth notice
 }
 
 TEST(TerminalColumns, APipeHas80OrTheStatedColumns) {

@@ -208,7 +208,7 @@ void print_report_marks(const report::Report& report) {
   for (const report::ReportRun& run : report.runs)
     for (const std::string& mark : daemon::warning_marks(run.results.run)) warn(mark);
   for (const daemon::Comparison& comparison : report.comparisons)
-    show_notices(comparison.notices, false);
+    show_notices(comparison.notices, true);
 }
 
 }  // namespace mdof::tools

@@ -20,7 +20,7 @@ Result<std::string> read_text(rpc::Client& daemon, std::int64_t id) {
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
   MDOF_TRY(const auto actions, store.run_actions(id));
   const std::size_t width = terminal_columns();
-  return run_text(run, daemon::stated_run(run), sha256, width, Extent::brief) +
+  return run_text(run, daemon::stated_run(run), sha256, width, Extent::brief, true) +
          history_text(actions, width);
 }
 

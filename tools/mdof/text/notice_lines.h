@@ -10,10 +10,11 @@
 namespace mdof::tools {
 
 // If several notices have the same code and subject, keeps the first ones and adds the number of
-// the others. `all`: keeps every notice.
-Notices summarised(const Notices& notices, bool all = false);
+// the others. `all`: keeps every notice. It may be false only in a command that has the option
+// --all-warnings, because the text about the others names this option.
+Notices summarised(const Notices& notices, bool all);
 
 // Prints the summarised notices to the standard error, one line each, with their severity.
-void show_notices(const Notices& notices, bool all = false);
+void show_notices(const Notices& notices, bool all);
 
 }  // namespace mdof::tools

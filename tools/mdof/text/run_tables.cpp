@@ -199,13 +199,17 @@ std::string flagged_text(const Run& run, const RunUncertainty& uncertainty, std:
   for (std::size_t j = 0; j < run.points.size(); ++j)
     if (is_flagged(run.points[j]) && ++flagged <= kMostFlagged) rows.push_back(j);
   const std::string points = std::to_string(run.points.size());
-  if (flagged == 0) return "points: " + points + ", none has a flag (--all lists the points)\n";
+  // A command without the option --all also shows stored runs.
+  const std::string all =
+      run.header.id == 0 ? "--all" : "mdof show " + std::to_string(run.header.id) + " --all";
+  if (flagged == 0)
+    return "points: " + points + ", none has a flag (" + all + " lists the points)\n";
   return wrapped("points: " + points +
                      "; with a flag or without errors: " + std::to_string(flagged) +
                      (flagged > rows.size()
                           ? "; the first " + std::to_string(rows.size()) + " are shown"
                           : "") +
-                     " (--all lists all points)",
+                     " (" + all + " lists all points)",
                  width) +
          "\n" + rows_text(run, uncertainty, rows, width);
 }

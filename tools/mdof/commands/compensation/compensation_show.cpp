@@ -60,7 +60,7 @@ Status show_volume(store::Store& store, const ShowTableCommand& command, std::in
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   if (generation == 0) warn("table " + std::to_string(table.id) + " of the volume is not active");
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
-  show_notices(judged.doubtful);
+  show_notices(judged.doubtful, true);
   if (command.csv && table.simulated) warn("simulated data: no machine was measured");
   if (command.csv)
     return write_out(noise_only_comment(table.noise_only) +
@@ -82,7 +82,7 @@ Status show(const ShowTableCommand& command) {
   const auto read = daemon::doubtful_notices(store, table);
   if (!read) warn(words::text(read.error()));
   const Notices doubtful = read.value_or(Notices{notice(NoticeCode::run_unreadable)});
-  show_notices(doubtful);
+  show_notices(doubtful, true);
   if (command.csv && table.simulated) warn("simulated data: no machine was measured");
   const auto marks = daemon::warning_marks(
       {daemon::JudgedKind::table, std::to_string(table.id), table.simulated, doubtful});

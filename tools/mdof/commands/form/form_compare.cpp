@@ -102,7 +102,7 @@ Status form_compare(const FormCompareCommand& o) {
   compared.measured = a.measured();
   compared.pixel_m = std::min(a.dx_m, a.dy_m);
   const algo::Comparison& found = compared.found;
-  show_notices(notices_of(compared, o));
+  show_notices(notices_of(compared, o), true);
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
   MDOF_CHECK(plot_maps({{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
   return o.json ? write_line(compare_json(compared, o)) : write_out(compare_text(found, o));

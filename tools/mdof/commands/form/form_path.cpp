@@ -278,7 +278,7 @@ Status form_path(const FormPathCommand& o) {
   MDOF_CHECK(check_out(o.out, {o.map}));
   MDOF_TRY(const SurfaceMap map, load_map(o.map, o.maps));
   MDOF_TRY(const FoundPath found, write_path(o, map));
-  show_notices(notices_of(found, o));
+  show_notices(notices_of(found, o), true);
   MDOF_CHECK(o.json ? write_line(path_json(found, o)) : write_out(path_text(found, o)));
   if (o.bandwidth_hz && found.frequency_hz > *o.bandwidth_hz)
     return fail(ErrorCode::check, o.map + ": the path needs a servo bandwidth of " +

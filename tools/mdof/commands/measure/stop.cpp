@@ -122,7 +122,7 @@ Status write_ends(const std::vector<Stopped>& runs, const std::string& database)
     Notices notices;
     for (const Notice& each : run.notices)
       if (!has_failed(run) || each.code != NoticeCode::failure) notices.push_back(each);
-    show_notices(notices);
+    show_notices(notices, true);
     if (has_failed(run)) continue;
     MDOF_CHECK(write_line(name_of(run) + " has ended" +
                           (run.state.empty() ? "" : " (" + run.state + ")") +

@@ -185,7 +185,7 @@ Status part(const PartCommand& o) {
   found.layers = ranked(found.error.layers);
   found.causes = ranked(found.error.causes);
   clear_unknown_figures(found);
-  show_notices(found.part.notices);
+  show_notices(found.part.notices, true);
   return o.json ? write_line(part_json(found)) : write_out(part_text(found));
 }
 

@@ -8,6 +8,7 @@
 #include "daemon/measure/replay/on_the_fly_run.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
+#include "daemon/words/words.h"
 #include "drivers/calibration.h"
 #include "schema/rig/calibrated.h"
 #include "schema/rig/check/rig_check.h"
@@ -102,13 +103,23 @@ Status read_through(ReplayLog& log, Measuring& pipeline, const ProgressCallback&
   }
 }
 
+// The place of an error: a column without any value, which is probably the cause, otherwise the
+// log.
+std::string place_of_error(const ReplayLog& log) {
+  for (const Notice& each : log.notices())
+    if (each.code == NoticeCode::log_values_missing &&
+        *value(each, "missing") == *value(each, "rows"))
+      return words::text(each);
+  return log.path();
+}
+
 template <class Measuring>
 Result<Run> measured(ReplayLog& log, const Rig& rig, const PipelineOptions& options,
                      const ProgressCallback& progress) {
   MDOF_TRY(Measuring measuring, Measuring::create(rig, options));
   MDOF_CHECK(read_through(log, measuring, progress));
   auto run = measuring.finish();
-  if (!run) return in_context(log.path(), run.error());
+  if (!run) return in_context(place_of_error(log), run.error());
   return run;
 }
 

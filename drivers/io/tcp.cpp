@@ -50,6 +50,12 @@ int finish_connect(int fd, steady_clock::time_point until) {
   return error;
 }
 
+std::string ip_address(const addrinfo& a) {
+  char text[NI_MAXHOST] = "";
+  ::getnameinfo(a.ai_addr, a.ai_addrlen, text, sizeof text, nullptr, 0, NI_NUMERICHOST);
+  return text;
+}
+
 }  // namespace
 
 std::string Endpoint::text() const {
@@ -89,7 +95,9 @@ Result<ByteStream> connect_tcp(const Endpoint& to, milliseconds timeout) {
     return io_error(to.text() + ": " + ::gai_strerror(rc) + "; check the address");
   const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(list, ::freeaddrinfo);
   int error = ETIMEDOUT;
+  std::string address;
   for (const addrinfo* a = list; a; a = a->ai_next) {
+    address = ip_address(*a);
     const int fd = ::socket(a->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (fd < 0) {
       error = errno;
@@ -102,10 +110,10 @@ Result<ByteStream> connect_tcp(const Endpoint& to, milliseconds timeout) {
     if (error == 0) return stream;
   }
   const bool service = std::getenv("INVOCATION_ID") != nullptr;  // systemd sets this variable
-  return tl::unexpected(connect_error(to, error, service));
+  return tl::unexpected(connect_error(to, address, error, service));
 }
 
-Error connect_error(const Endpoint& to, int error, bool service) {
+Error connect_error(const Endpoint& to, const std::string& address, int error, bool service) {
   Error why{ErrorCode::io, to.text() + ": " + std::strerror(error)};
   const bool forbidden = error == EPERM || error == EACCES;
   why.message +=
@@ -114,7 +122,7 @@ Error connect_error(const Endpoint& to, int error, bool service) {
                   "the address is correct";
   if (forbidden || (service && error == ETIMEDOUT)) {
     why.remedy = Remedy::allow_network;
-    why.remedy_for = to.host;
+    why.remedy_for = address;
   }
   return why;
 }

@@ -104,9 +104,10 @@ TEST_F(NetworkAccess, DoctorNamesUnreachableDevices) {
 }
 
 TEST_F(NetworkAccess, ConnectErrorsNameTheSetupCommand) {
-  const drivers::Endpoint to{"192.168.0.7", 502};
+  const drivers::Endpoint to{"amplifier.lan", 502};  // mdof setup network accepts no name
   const auto names_setup_command = [&](int error, bool service) {
-    const std::string text = words::text(drivers::connect_error(to, error, service));
+    const std::string text = words::text(drivers::connect_error(to, "192.168.0.7", error, service));
+    EXPECT_EQ(text.find("amplifier.lan:502: "), 0u) << text;
     return text.find("mdof setup network 192.168.0.7") != std::string::npos;
   };
   EXPECT_TRUE(names_setup_command(EPERM, true));

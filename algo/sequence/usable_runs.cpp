@@ -12,9 +12,22 @@ std::string name_of(const Run& run) {
   return "run " + std::to_string(run.header.id);
 }
 
+// Such a run has the state "failed".
+bool is_renumbered(const Run& run) {
+  const Notices& all = run.header.notices;
+  return std::any_of(all.begin(), all.end(), [](const Notice& each) {
+    return each.code == NoticeCode::superseded_by_renumbering;
+  });
+}
+
 Status check_state(const Run& run, bool take_partial, const std::string& what) {
   const RunState state = run.header.state;
   if (state == RunState::complete || (take_partial && state == RunState::partial)) return {};
+  if (is_renumbered(run))
+    return bad_input(name_of(run) +
+                         " was replaced by a later run, because the targets were numbered again; "
+                         "give the later run",
+                     Remedy::list_runs);
   const std::string is =
       name_of(run) + (state == RunState::failed ? " " : " is ") + to_string(state);
   if (state == RunState::partial)

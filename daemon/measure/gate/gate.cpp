@@ -110,11 +110,11 @@ std::string undecidable_reason(store::Store& store, const Run& run) {
     return of + " is invalid: " + words::text(*wrong);
   for (const Notice& n : run.header.notices)
     if (n.code == NoticeCode::probes_dead) return of + ": " + words::text(n);
-  if (run.header.state != RunState::complete)
-    return of + (run.header.state == RunState::failed ? " " : " is ") + to_string(run.header.state);
   const auto by = store.superseded_by(run.header.id);
   if (!by) return by.error().message;
   if (*by) return "run " + std::to_string(**by) + " supersedes " + of;
+  if (run.header.state != RunState::complete)
+    return of + (run.header.state == RunState::failed ? " " : " is ") + to_string(run.header.state);
   const std::string approach = only_approach(run);
   if (!approach.empty() && !is_imported(run.header))
     return of + " has the " + approach + " approach only, so the reversal is unknown";

@@ -66,6 +66,13 @@ TEST(UsableRuns, NeverUsesAnAbortedOrFailedRun) {
   EXPECT_TRUE(inherited_notices(all_of({run_of(7, RunState::complete, "a")})).empty());
 }
 
+TEST(UsableRuns, ARunThatWasReplacedHasNotFailed) {
+  mdof::Run run = run_of(7, RunState::failed, "a");
+  run.header.notices = {notice(NoticeCode::superseded_by_renumbering)};
+  EXPECT_TRUE(contains(refusal({run}), "run 7 was replaced by a later run")) << refusal({run});
+  EXPECT_FALSE(contains(refusal({run}), "failed"));
+}
+
 // At the end of the travel a probe was saturated, which changed a squareness by 96 urad. Only the
 // run had a notice.
 TEST(UsableRuns, InheritsTheNoticesOfTheRuns) {

@@ -127,7 +127,8 @@ class MissingVisits {
       for (; i < cells.size() && cells[i].direction == first.direction && cells[i].run == first.run;
            ++i)
         targets.push_back(cells[i].target);
-      const bool all = targets.size() == visits_.targets.size();
+      const bool all =
+          targets.size() == visits_.targets.size() && code != NoticeCode::visit_doubled;
       Notice here{code, severity(code), "", {{"run", first.run}}, ""};
       here.values.emplace_back("approach", approach(first.direction));
       here.values.emplace_back("targets", all ? "any target" : numbered("target", targets));
@@ -180,6 +181,7 @@ void note_lost_stops(const RunToJudge& run, Notices& out) {
                         {"first_mm", to_mm(lost.front().position_m)}}));
 }
 
+// If more stops were left out than had no point, other notices state the cause.
 void note_single_place(const RunToJudge& run, Notices& out) {
   std::set<int> places;
   for (const auto& p : run.sequence.points) places.insert(p.target);

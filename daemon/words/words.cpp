@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
+#include <span>
 #include <string_view>
 
 #include "schema/base/number/number_text.h"
@@ -41,18 +42,35 @@ static_assert(std::none_of(kPatterns.begin(), kPatterns.end(),
 struct GermanName {
   std::string_view english, german;
 };
-constexpr GermanName kNames[] = {{"forward", "vorwärts"},         {"reverse", "rückwärts"},
-                                 {"target ", "Sollposition "},    {"run ", "Lauf "},
-                                 {"targets ", "Sollpositionen "}, {"runs ", "Läufe "},
-                                 {"the end", "zum Ende"}};
+constexpr GermanName kNames[] = {{"forward", "vorwärts"},
+                                 {"reverse", "rückwärts"},
+                                 {"any target", "irgendeiner Sollposition"},
+                                 {"target ", "Sollposition "},
+                                 {"targets ", "Sollpositionen "},
+                                 {"run ", "Lauf "},
+                                 {"runs ", "Läufe "},
+                                 {"the end", "zum Ende"},
+                                 {"no change is significant", "keine Änderung ist signifikant"}};
+// Words within a list of numbers or names, and within the text of a drift.
+constexpr GermanName kInList[] = {{" to ", " bis "}, {" and ", " und "}};
+constexpr GermanName kInDrift[] = {
+    {" from the first point to the last (", " vom ersten Messpunkt bis zum letzten ("}};
+
+std::string with_german(std::string text, std::span<const GermanName> words) {
+  for (const auto& [english, german] : words)
+    for (auto at = text.find(english); at != std::string::npos; at = text.find(english, at + 1))
+      text.replace(at, english.size(), german);
+  return text;
+}
 
 std::string german_name(const std::string& name) {
   for (const auto& [english, german] : kNames) {
     const bool whole = !english.ends_with(' ');
     if (whole ? name == english : name.starts_with(english))
-      return std::string(german) + name.substr(english.size());
+      return std::string(german) + with_german(name.substr(english.size()), kInList);
   }
-  return name;
+  const bool is_list = !name.empty() && name[0] >= '0' && name[0] <= '9';
+  return is_list ? with_german(name, kInList) : with_german(name, kInDrift);
 }
 
 // The source "run 3" is a stored run ("Messung"). In values of notices, a run is one pass over the

@@ -224,7 +224,8 @@ void write_results(Html& html, const ReportRun& run, Language language) {
   else if (!figures.budgets.empty())
     html.element("p", of(Phrase::U_explained_imported), "quiet");
   if (const std::string approach = daemon::only_approach(run.results.run); !approach.empty())
-    html.element("p", phrase(Phrase::one_approach, language, {approach}));
+    html.element("p", phrase(Phrase::one_approach, language,
+                             {of(approach == "forward" ? Phrase::forward : Phrase::reverse)}));
   if (figures.budgets.empty() || !figures.why.empty())
     html.element(
         "p", phrase(figures.budgets.empty() ? Phrase::U_missing_because : Phrase::left_out_because,

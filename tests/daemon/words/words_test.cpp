@@ -127,6 +127,19 @@ TEST(Catalogue, GermanLinesHaveSingularAndPlural) {
       "ungültig: die Aufspannungen widersprechen sich: Chi-Quadrat ist 40.5 bei 8 "
       "Freiheitsgraden, was Rauschen allein kaum je ergibt; Verschiebungen und Drehungen, "
       "Wiederholpräzision der Maschine und u der Messwerte prüfen");
+  const auto unsolved = [&](const char* targets) {
+    return line(notice(NoticeCode::visit_missing, "",
+                       {{"run", 2}, {"approach", "forward"}, {"targets", targets}}));
+  };
+  EXPECT_EQ(unsolved("targets 1, 10 to 13"),
+            "Lauf 2, vorwärts: keine Anfahrt von Sollpositionen 1, 10 bis 13");
+  EXPECT_EQ(unsolved("any target"), "Lauf 2, vorwärts: keine Anfahrt von irgendeiner Sollposition");
+  EXPECT_EQ(line(notice(NoticeCode::air_of_run, "", {{"conditions", "20 to 21 °C"}})).find(" to "),
+            std::string::npos);
+  const std::string drift = line(
+      notice(NoticeCode::drift_removed, "",
+             {{"changes", "EBX -332.41 ± 0.61 µrad from the first point to the last (1.11 min)"}}));
+  EXPECT_NE(drift.find("µrad vom ersten Messpunkt bis zum letzten (1.11 min)"), std::string::npos);
   Notice older = notice(NoticeCode::u_unknown, "", {{"reason", "a"}});
   older.values.clear();
   EXPECT_EQ(line(older), "u ist unbekannt: unbekannt");

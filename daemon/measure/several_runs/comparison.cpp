@@ -11,6 +11,7 @@
 #include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/base/json_writer.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/imported/series.h"
 #include "schema/notice/notice_json.h"
 #include "schema/recording/run_options.h"
@@ -114,7 +115,8 @@ Notices differences(const Run& before, const Run& after) {
                             {"after_from_mm", to_mm(b.first)},
                             {"after_to_mm", to_mm(b.second)}}));
   const Provenance &of_a = before.header.provenance, &of_b = after.header.provenance;
-  if (of_a.rig_text != of_b.rig_text) found.push_back(notice(NoticeCode::rigs_differ));
+  if (TomlTable::content(of_a.rig_text) != TomlTable::content(of_b.rig_text))
+    found.push_back(notice(NoticeCode::rigs_differ));
   if (of_a.model != of_b.model)
     found.push_back(
         notice(NoticeCode::models_differ, "", {{"before", of_a.model}, {"after", of_b.model}}));

@@ -13,6 +13,7 @@
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/words/error_text.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/imported/series.h"
 #include "schema/recording/run_options.h"
 #include "schema/units.h"
@@ -50,7 +51,8 @@ bool earlier(const RunHeader& a, const RunHeader& b) {
 }
 
 struct Chosen {
-  std::vector<RunHeader> runs;  // in the order of time
+  // In the order of time. rig_text is the content of the rig, without comments.
+  std::vector<RunHeader> runs;
   std::vector<std::string> left_out;
   Notices notices;
 };
@@ -94,9 +96,13 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
   Chosen chosen;
   std::vector<std::int64_t> simulated, partial, invalid, superseded, again, imported;
   std::set<std::string> recordings;
+  std::map<std::string, std::string> contents;  // of the rigs
   for (std::int64_t offset = 0;; offset += kRunsPage) {
     MDOF_TRY(const auto page, store.list_runs(offset, kRunsPage, axis));  // newest first
-    for (const RunHeader& run : page) {
+    for (RunHeader run : page) {
+      std::string& rig = run.provenance.rig_text;
+      if (!contents.contains(rig)) contents[rig] = TomlTable::content(rig);
+      rig = contents[rig];
       MDOF_TRY(const auto by, store.superseded_by(run.id));
       std::string recording = run.provenance.recording_sha256;
       // Use one run for each recording and kind. If `mixed` is true, use one run for each
@@ -115,7 +121,7 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
       else if (!recording.empty() && !recordings.insert(recording).second)
         again.push_back(run.id);
       else
-        chosen.runs.push_back(run);
+        chosen.runs.push_back(std::move(run));
     }
     if (static_cast<std::int64_t>(page.size()) < kRunsPage) break;
   }

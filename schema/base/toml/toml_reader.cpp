@@ -103,6 +103,14 @@ Result<TomlTable> TomlTable::parse(std::string_view text, const std::string& sou
   return TomlTable(std::move(document), std::move(node));
 }
 
+std::string TomlTable::content(const std::string& text) {
+  const auto table = parse(text, "");
+  if (!table) return text;
+  std::ostringstream content;
+  content << table->document_->root;
+  return content.str();
+}
+
 std::string TomlTable::where(std::string_view key) const {
   std::string place = document_->source;
   const auto* node = node_->table->get(key);

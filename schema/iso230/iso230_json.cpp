@@ -123,6 +123,7 @@ void write_run_positioning_uncertainty(JsonWriter& json, const RunPositioningUnc
   figures("U_R_forward", U.R_forward)("U_R_reverse", U.R_reverse)("U_R", U.R);
   figures("U_E_forward", U.E_forward)("U_E_reverse", U.E_reverse)("U_E", U.E)("U_M", U.M);
   figures("U_A_forward", kNoFigure)("U_A_reverse", kNoFigure)("U_A", kNoFigure);
+  json.field("U_A_reason", U.kWhyNotOfA);
   write_covers(json, U.covers, U.not_declared);
   json.field("R_is_of", "these visits").end_object();
 }

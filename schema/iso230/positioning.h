@@ -59,6 +59,9 @@ struct PositioningUncertainty {
 // propagated from the declared uncertainties of the rig and from the scatter of the run (GUM 5,
 // JCGM 101). NaN: the parameter does not exist.
 struct RunPositioningUncertainty {
+  static constexpr const char* kWhyNotOfA =
+      "A contains twice the standard deviation s at each end, and the uncertainty of s cannot be "
+      "estimated from so few approaches";
   // U of B, E and M. U contains the scatter of the visits, so it applies to the axis.
   double B = kNoFigure, B_mean = kNoFigure;
   double E_forward = kNoFigure, E_reverse = kNoFigure, E = kNoFigure, M = kNoFigure;

@@ -44,6 +44,13 @@ struct OutputSummary {
 struct StudyBin {
   double from = 0, to = 0;  // unit of StudyResult::binned_key
   std::vector<OutputSummary> outputs;
+
+  // The reason why a mean or a standard deviation of this bin is unknown; empty: all are known.
+  const char* reason() const {
+    for (const OutputSummary& output : outputs)
+      if (output.n < 2) return "fewer than two trials in this bin have a solution";
+    return "";
+  }
 };
 
 // Statistics of one output after a number of trials; they show how the statistics converge.

@@ -75,8 +75,7 @@ Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
 const char* const kNotInR =
     "R (ISO 230-2) is calculated only from the repeated approaches to each target in this run. U "
     "does not include the uncertainty that comes from the small number of approaches. U of A is "
-    "unknown (null), because A contains twice the standard deviation s at each end, and the "
-    "uncertainty of s cannot be estimated from so few approaches";
+    "unknown (null), because ";
 
 }  // namespace
 
@@ -133,7 +132,7 @@ std::string U_text(const RunPositioning& found, bool simulated, std::size_t widt
   std::string text = "U is the expanded uncertainty (95 %). It contains " + U->covers;
   if (!U->not_declared.empty()) text += "; not declared: " + joined(U->not_declared);
   return noise_only_notice(noise_only) + simulated_notice(simulated) +
-         wrapped(text + ". " + kNotInR, width) + "\n\n";
+         wrapped(text + ". " + kNotInR + U->kWhyNotOfA, width) + "\n\n";
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ void write_bins(JsonWriter& json, const StudyResult& result) {
   for (const StudyBin& bin : result.bins) {
     json.begin_object().field("from", bin.from).field("to", bin.to);
     write_errors(json, bin.outputs);
+    if (*bin.reason()) json.field("reason", bin.reason());
     json.end_object();
   }
   json.end_array().end_object();

@@ -49,13 +49,15 @@ std::string bins(const StudyResult& result) {
   std::vector<std::string> head{with_unit(result.binned_key)};
   for (const OutputSummary& s : result.outputs) head.push_back("sd " + with_unit(s.key));
   TextTable table(head);
+  std::string reason;
   for (const StudyBin& bin : result.bins) {
     std::vector<std::string> row{fixed(bin.from, 3) + " to " + fixed(bin.to, 3)};
     for (std::size_t k = 0; k < bin.outputs.size(); ++k)
       row.push_back(fixed(bin.outputs[k].sd, decimals_for(result.outputs[k].sd) + 1));
     table.add(std::move(row));
+    if (*bin.reason()) reason = std::string("\"-\": unknown, because ") + bin.reason() + "\n";
   }
-  return "\n" + table.text(terminal_columns());
+  return "\n" + table.text(terminal_columns()) + reason;
 }
 
 std::string indices(const OutputIndices& output) {

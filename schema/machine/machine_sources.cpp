@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
 namespace mdof {
 namespace {
 
 constexpr double kLargestFactor = 1e9;
-constexpr double kMostEffect_m = 0.01, kMostEffect_rad = 0.1;  // largest values of an error
-constexpr double kMove = 0.01;  // move of an axis for which an effect is checked, m or rad
 
 struct NamedError {
   std::string name;
@@ -115,13 +112,6 @@ ErrorSource read_source(TomlTable& table, const Machine& machine,
   source.shape = read_shape(table);
   for (TomlTable& effect : table.tables("acts_on"))
     source.acts_on.push_back(read_effect(effect, machine, errors));
-  for (const SourceEffect& effect : source.acts_on) {
-    const double by = std::abs(effect.factor) + kMove * std::abs(effect.factor_per_position);
-    if (!(source.u * by <= (effect.k < 3 ? kMostEffect_m : kMostEffect_rad)))
-      table.reject("u", plain_number(source.u) + " " + source.unit +
-                            " changes an error by more than 10,000 um or 100,000 urad; check the "
-                            "units of u and of the factor");
-  }
   if (source.acts_on.empty())
     table.reject("acts_on",
                  "must list the errors that the source changes, such as "

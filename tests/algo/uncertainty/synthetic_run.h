@@ -70,8 +70,8 @@ struct SyntheticRun {
       p.point.probe_m.push_back(reading_m + added(k, d, reading_m, time_s));
       p.point.probe_u_m.push_back(u_reading_m);
     }
-    p.errors = restate(solver.solve(d, p.point.probe_m, p.point.probe_u_m), model, rig.axis, d,
-                       kAtCarriage, stated);
+    p.errors = restate(solver.solve(d, p.point.probe_m, p.point.probe_u_m), model, {rig.axis, {}},
+                       d, kAtCarriage, stated);
     return p;
   }
 };

@@ -145,7 +145,6 @@ TEST(MachineToml, ErrorsNameTheInvalidKey) {
       {"u_EC0Y_urad = 0.4", "u_EC0Y_urad = -1", "from 0 to 100000, not -1"},
       {"u_EC0Y_urad = 0.4", "u_EC0Y_urad = 1e300", "u_EC0Y_urad: must be"},
       {"u_EXX_um = 0.2", "u_EXX_um = 10001", "from 0 to 10000, not 10001"},
-      {"u = 0.3", "u = 1e300", "source[1].u"},
       {"range_mm = [0, 400]", "angles_zero_at_mm = 0",
        "axis[1].angles_zero_at_mm: applies only to"},
       {"centre_mm = [200, 200, 0]\n", "", "centre_mm"},

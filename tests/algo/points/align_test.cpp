@@ -251,8 +251,8 @@ TEST(Aligner, ReportsAnUndeclaredSlowProbe) {
 }
 
 // One device scans the encoder and probe A at 5 Hz for 20 s; the readings are 8 ms late, so A reads
-// 2 (t - 8 ms), in ms. At 8 s one scan is missing, at 14 s four scans are missing. An interval of two
-// periods is no gap; the five periods from 13.8 to 14.8 s are a gap.
+// 2 (t - 8 ms), in ms. At 8 s one scan is missing, at 14 s four scans are missing. An interval of
+// two periods is no gap; the five periods from 13.8 to 14.8 s are a gap.
 struct SlowScans {
   FrameBlock out;
   std::size_t missing = 0;

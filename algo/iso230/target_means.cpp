@@ -189,12 +189,14 @@ std::vector<double> positions(const std::vector<TargetMean>& means) {
 
 std::vector<double> own_travels(const Sides& sides, const std::vector<TargetMean>& means) {
   std::vector<double> x;
+  x.reserve(means.size());
   for (const TargetMean& m : means) x.push_back(sides.moving_body_travel_m(m.position_m));
   return x;
 }
 
 std::vector<double> column(const std::vector<TargetMean>& means, std::size_t named) {
   std::vector<double> y;
+  y.reserve(means.size());
   for (const TargetMean& m : means) y.push_back(m.named[named]);
   return y;
 }

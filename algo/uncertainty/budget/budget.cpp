@@ -112,16 +112,31 @@ void RunBudgets::add(const Contributor& contributor, const std::vector<PointShif
   }
 }
 
-MeanErrors RunBudgets::moved(std::span<const double> shifts, double factor) const {
-  MeanErrors means = means_;
+void RunBudgets::move(MeanErrors& means, std::span<const double> shifts, double factor) const {
   for (std::size_t i = 0; i < means.targets.size(); ++i)
     for (std::size_t k = 0; k < kErrorCount; ++k)
-      means.targets[i].named[k] += factor * shifts[i * kErrorCount + k];
-  return means;
+      means.targets[i].named[k] = means_.targets[i].named[k] + factor * shifts[i * kErrorCount + k];
 }
 
 double RunBudgets::half_difference(const Figure& figure, const MeanShifts& shifts) const {
-  return (figure.of(moved(shifts, 1)) - figure.of(moved(shifts, -1))) / 2;
+  MeanErrors means = means_;
+  move(means, shifts, 1);
+  const double plus = figure.of(means);
+  move(means, shifts, -1);
+  return (plus - figure.of(means)) / 2;
+}
+
+double RunBudgets::half_difference_at(const Figure& figure, MeanErrors& means, std::size_t i,
+                                      const Errors5& shift) {
+  Errors5& at_target = means.targets[i].named;
+  const Errors5 measured = at_target;
+  const auto shifted = [&](double factor) {
+    for (std::size_t k = 0; k < kErrorCount; ++k) at_target[k] = measured[k] + factor * shift[k];
+    return figure.of(means);
+  };
+  const double plus = shifted(1), minus = shifted(-1);
+  at_target = measured;
+  return (plus - minus) / 2;
 }
 
 std::vector<RunBudgets::Contribution> RunBudgets::contributions(const Figure& figure) const {
@@ -230,7 +245,11 @@ std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figu
     quantities.push_back(s.parts.size() == 1 ? UnitQuantity(s.contributor.declared)
                                              : UnitQuantity(kInfinite));
   std::vector<Drawn> all(figures.size());
-  for (Drawn& of : all) of.values.resize(request.trials);
+  for (std::size_t f = 0; f < figures.size(); ++f) {
+    all[f].values.resize(request.trials);
+    all[f].changes.reserve(request.trials * measured[f].size());
+  }
+  MeanErrors means = means_, noisy = means_;  // of one trial
   for (std::uint64_t first = 0; first < request.trials; first += kTrialsPerBlock) {
     const std::size_t trials = std::min(kTrialsPerBlock, request.trials - first);
     BlockOfDraws draws({request.seed, stream}, first, trials);
@@ -243,9 +262,8 @@ std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figu
     std::optional<TargetNoise> of_targets;
     if (any_range) of_targets.emplace(draws, repeatability_);
     for (std::size_t t = 0; t < trials; ++t) {
-      const MeanErrors means = moved(std::span(shifts).subspan(t * width, width), 1);
-      std::optional<MeanErrors> noisy;
-      double by = 0;  // factor of the noise that `noisy` contains
+      move(means, std::span(shifts).subspan(t * width, width), 1);
+      std::optional<double> by;  // factor of the noise that `noisy` contains
       for (std::size_t f = 0; f < figures.size(); ++f) {
         if (measured[f].empty()) {
           all[f].values[first + t] =
@@ -253,11 +271,12 @@ std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figu
           continue;
         }
         const double factor = random[f].widened * of_targets->student(t, random[f].freedom);
-        if (!noisy || factor != by) {
+        if (factor != by) {
           noisy = means;
-          of_targets->add_to(*noisy, t, by = factor);
+          of_targets->add_to(noisy, t, factor);
+          by = factor;
         }
-        std::vector<double> deviations = figures[f].deviations(*noisy);
+        const std::vector<double> deviations = figures[f].deviations(noisy);
         const auto [least, most] = std::minmax_element(deviations.begin(), deviations.end());
         all[f].values[first + t] = *most - *least;
         for (std::size_t i = 0; i < deviations.size(); ++i)

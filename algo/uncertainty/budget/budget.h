@@ -92,13 +92,18 @@ class RunBudgets {
     Contributor contributor;  // contributor.parts is null
     std::vector<MeanShifts> parts;
   };
-  MeanErrors moved(std::span<const double> shifts, double factor) const;
+  // Sets the errors of `means`, a copy of means_, to the measured errors plus factor times shifts.
+  void move(MeanErrors& means, std::span<const double> shifts, double factor) const;
   std::vector<double> moved_by(BlockOfDraws& draws, std::size_t trials,
                                const std::vector<UnitQuantity>& quantities) const;
   std::vector<Drawn> drawn(const std::vector<Figure>& figures, const TrialsRequest& request,
                            std::uint32_t stream) const;
   double half_difference(const Figure& figure, const MeanShifts& shifts) const;
   Random random_of_targets(const Figure& figure) const;
+  // The same for a shift of the mean errors at target i only. `means`: a copy of means_; the function
+  // changes and restores it, because a new copy of all means for each target takes longer.
+  static double half_difference_at(const Figure& figure, MeanErrors& means, std::size_t i,
+                                   const Errors5& shift);
   std::optional<std::size_t> only_error(const Figure& figure, std::size_t i) const;
   Random random_of_runs(const Figure& figure) const;
   double by_removed_drift(const Figure& figure) const;

@@ -25,19 +25,20 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
   std::optional<std::size_t> error;  // the error, if the figure depends on one error only
   std::vector<double> by_target(targets);
   MeanShifts together;
+  MeanErrors means = means_;
   for (std::size_t i = 0; i < targets; ++i) {
-    MeanShifts alone(targets * kErrorCount), scattered = alone;
-    for (std::size_t k = 0; k < kErrorCount; ++k) {
-      alone[i * kErrorCount + k] = repeatability_.u[i][k];
-      if (repeatability_.by_scatter[k]) scattered[i * kErrorCount + k] = repeatability_.u[i][k];
-    }
-    const double part = half_difference(figure, alone);
+    const Errors5& u = repeatability_.u[i];
+    const double part = half_difference_at(figure, means, i, u);
     square += part * part;
-    if (part != 0 && !std::exchange(asked, true) && half_difference(figure, scattered) != 0) {
+    Errors5 scattered{};
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      if (repeatability_.by_scatter[k]) scattered[k] = u[k];
+    if (part != 0 && !std::exchange(asked, true) &&
+        half_difference_at(figure, means, i, scattered) != 0) {
       freedom = repeatability_.freedom;
       error = only_error(figure, i);
     }
-    if (error && repeatability_.u[i][*error] > 0) by_target[i] = part / repeatability_.u[i][*error];
+    if (error && u[*error] > 0) by_target[i] = part / u[*error];
     together.insert(together.end(), repeatability_.u_shift.begin(), repeatability_.u_shift.end());
   }
   const auto square_by = [&](const std::vector<std::vector<Errors5>>& parts) {
@@ -79,10 +80,11 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
 // has an effect.
 std::optional<std::size_t> RunBudgets::only_error(const Figure& figure, std::size_t i) const {
   std::optional<std::size_t> only;
+  MeanErrors means = means_;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
-    MeanShifts alone(means_.targets.size() * kErrorCount);
-    alone[i * kErrorCount + k] = repeatability_.u[i][k];
-    if (half_difference(figure, alone) == 0) continue;
+    Errors5 alone{};
+    alone[k] = repeatability_.u[i][k];
+    if (half_difference_at(figure, means, i, alone) == 0) continue;
     if (only) return std::nullopt;
     only = k;
   }

@@ -153,24 +153,31 @@ void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& 
       trend.u_not_declared.push_back(key);
 }
 
+// The values with u_random, but without trials for U, which take seconds for thousands of targets.
+std::vector<Budget> without_U(const algo::RunBudgets& noise,
+                              const std::vector<algo::Figure>& figures) {
+  std::vector<Budget> budgets;
+  for (const algo::Figure& figure : figures) budgets.push_back(noise.first_order(figure));
+  return budgets;
+}
+
 // Adds the values of all requested figures of one run. The run is read only once.
 Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>& trends,
                const std::vector<algo::Figure>& figures) {
   MDOF_TRY(const Run run, restated_run(store, header.id, Reference::fixture));
   MDOF_TRY(const Rig rig, rig_of(run.header));
-  auto whole = algo::RunBudgets::create(rig, run);
-  if (whole)
-    if (const Status quick = check_cost(*whole); !quick) whole = tl::unexpected(quick.error());
-  const algo::RunBudgets noise(rig, run);
+  const auto whole = algo::RunBudgets::create(rig, run);
+  const Status known = whole ? check_cost(*whole) : Status(tl::unexpected(whole.error()));
   const std::string run_name = "run " + std::to_string(header.id);
-  const std::vector<Budget> budgets = (whole ? *whole : noise).of(figures);
+  const std::vector<Budget> budgets =
+      known ? whole->of(figures) : without_U(algo::RunBudgets(rig, run), figures);
   for (std::size_t f = 0; f < figures.size(); ++f) {
     const Budget& budget = budgets[f];
-    if (!whole)
+    if (!known)
       trends[f].notices.push_back(inherited(
-          run_name, notice(NoticeCode::u_unknown, "", {{"reason", words::text(whole.error())}})));
+          run_name, notice(NoticeCode::u_unknown, "", {{"reason", words::text(known.error())}})));
     if (std::isfinite(budget.value))
-      add_value(trends[f], {header.id}, header.started_utc, budget, whole.has_value());
+      add_value(trends[f], {header.id}, header.started_utc, budget, known.has_value());
     else
       leave_out(trends[f].left_out, {header.id},
                 "too few targets have error values for this figure");

@@ -42,6 +42,7 @@ struct Budget {
   double coverage_factor = 0;  // k for 95 %, Student's t
   double U = 0;                // k u
   bool U_by_trials = false;    // true: U is from the Monte Carlo trials, and k = U / u
+  bool u_by_trials = false;    // true: u too, so `lines`, of first order, do not add up to u
   // True: the declarations of the rigs contribute nothing to u, or less than 1 %. Always false if
   // every key is declared.
   bool noise_only = false;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t kIntervalTrials = 2000;  // the error of U is then 2 %
 constexpr std::uint64_t kTrialsPerBlock = 64;    // the shifts of 64 trials fit into the cache
-constexpr double kLeastFirstOrder = 0.01;        // least u / U; k is then 100
+constexpr double kMostFirstOrderFactor = 3;      // largest U / u for which u is of first order
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
@@ -202,9 +202,10 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
     const double U = range.U();
     if (!(U > 0)) continue;
     budget.U = U;
-    // If all deviations are equal, +shift and -shift cause the same range. Then u of first order is
-    // 0 or rounding.
-    if (!(budget.u > kLeastFirstOrder * U)) budget.u = range.root_mean_square();
+    // If a shift is larger than the deviations, +shift and -shift cause nearly the same range, and
+    // u of first order is nearly 0.
+    budget.u_by_trials = !(kMostFirstOrderFactor * budget.u >= U);
+    if (budget.u_by_trials) budget.u = range.root_mean_square(std::max(0.0, budget.value - U));
     budget.coverage_factor = budget.U / budget.u;
     budget.U_by_trials = true;
   }

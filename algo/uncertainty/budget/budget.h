@@ -49,9 +49,10 @@ class RunBudgets {
   // (correlated_noise.h) and the shift that all targets of a pass have in common (repeatability.h).
   // The values of the figure in n runs, with the standard deviation s, give another variance s²/n.
   // If this variance is more than kRunsScatterMore times the variance by the visits, the difference
-  // is added. U is k u; for a range, U is calculated as in range_interval.h. If all deviations of a
-  // range are equal, u of first order is only rounding, and u is the root mean square of the
-  // trials. If the figure is NaN, the budget is NaN.
+  // is added. U is k u; for a range, U is calculated as in range_interval.h. If this U exceeds
+  // three times u of first order, the deviations are not larger than their uncertainty, and u is
+  // the root mean square of the trials about the true range R - U, at least 0. If the figure is
+  // NaN, the budget is NaN.
   Budget of(const Figure& figure) const;
   // Budgets of several figures, from the same trials.
   std::vector<Budget> of(const std::vector<Figure>& figures) const;
@@ -99,11 +100,11 @@ class RunBudgets {
   std::vector<Drawn> drawn(const std::vector<Figure>& figures, const TrialsRequest& request,
                            std::uint32_t stream) const;
   double half_difference(const Figure& figure, const MeanShifts& shifts) const;
-  Random random_of_targets(const Figure& figure) const;
   // The same for a shift of the mean errors at target i only. `means`: a copy of means_; the function
   // changes and restores it, because a new copy of all means for each target takes longer.
   static double half_difference_at(const Figure& figure, MeanErrors& means, std::size_t i,
                                    const Errors5& shift);
+  Random random_of_targets(const Figure& figure) const;
   std::optional<std::size_t> only_error(const Figure& figure, std::size_t i) const;
   Random random_of_runs(const Figure& figure) const;
   double by_removed_drift(const Figure& figure) const;

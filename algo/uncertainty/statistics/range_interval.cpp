@@ -95,10 +95,10 @@ double RangeTrials::standard_deviation() const {
   return std::sqrt(square / std::max(1.0, static_cast<double>(all.size()) - 1));
 }
 
-double RangeTrials::root_mean_square() const {
-  const std::vector<double> all = ranges(0);
+double RangeTrials::root_mean_square(double true_range) const {
+  const std::vector<double> all = ranges((highest_ - lowest_ - true_range) / 2);
   double square = 0;
-  for (const double v : all) square += std::pow(v - (highest_ - lowest_), 2);
+  for (const double v : all) square += std::pow(v - true_range, 2);
   return std::sqrt(square / static_cast<double>(all.size()));
 }
 

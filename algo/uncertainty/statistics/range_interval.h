@@ -25,7 +25,8 @@ class RangeTrials {
   RangeTrials(std::vector<double> measured, std::vector<double> changes);
   double U() const;
   double standard_deviation() const;  // of the ranges of the trials
-  double root_mean_square() const;    // of (range of a trial - measured range)
+  // Root mean square of (range of a trial - true range) for this true range.
+  double root_mean_square(double true_range) const;
 
  private:
   // c(T)

@@ -262,7 +262,7 @@ TEST(RangeTrials, MatchManualCalculation) {
   const RangeTrials trials(measured, changes);
   // Ranges: {4, -1, 4, 0}: 5; {3, 1, 4, -3}: 7; {-2, 0, 4, 0}: 6.
   EXPECT_NEAR(trials.standard_deviation(), 1, 1e-15);
-  EXPECT_NEAR(trials.root_mean_square(), std::sqrt((0 + 4 + 1) / 3.0), 1e-15);
+  EXPECT_NEAR(trials.root_mean_square(5), std::sqrt((0 + 4 + 1) / 3.0), 1e-15);
 }
 
 // Points of three runs. Different visits are missing in each run; all errors are 0.

@@ -227,7 +227,11 @@ TEST(RangeIntervalByHand, SpreadMatchesTheTrials) {
   // The ranges of the trials are 8, 14 and 11.
   const RangeTrials trials({1, 4, 11}, {0, 0, -2, 0, 0, 4, 0, 0, 1});
   EXPECT_NEAR(trials.standard_deviation(), 3, 1e-12);
-  EXPECT_NEAR(trials.root_mean_square(), std::sqrt((4 + 16 + 1) / 3.0), 1e-12);
+  EXPECT_NEAR(trials.root_mean_square(10), std::sqrt((4 + 16 + 1) / 3.0), 1e-12);
+  // With a true range of 0, all true deviations are 6, and the ranges are 2, 4 and 1.
+  EXPECT_NEAR(trials.root_mean_square(0), std::sqrt((4 + 16 + 1) / 3.0), 1e-12);
+  // With a true range of 6, they are 3, 4 and 9, and the ranges of the trials are 4, 10 and 7.
+  EXPECT_NEAR(trials.root_mean_square(6), std::sqrt((4 + 16 + 1) / 3.0), 1e-12);
   EXPECT_EQ(RangeTrials({1, 4}, {0, 2}).standard_deviation(), 0);
 }
 

@@ -52,7 +52,8 @@ std::string percent(double share) {
 std::string head_of(const Budget& b, std::size_t width) {
   return wrapped(b.figure.substr(0, b.figure.rfind('_')) + " = " + rounded_to_u(b, b.value, b.u) +
                      " ± " + shown_u(b, b.u) + " " + unit_of(b) +
-                     ", expanded U = " + shown(b, b.U) + (b.U_by_trials ? " by Monte Carlo" : "") +
+                     (b.u_by_trials ? " by Monte Carlo" : "") + ", expanded U = " + shown(b, b.U) +
+                     (b.U_by_trials ? " by Monte Carlo" : "") +
                      " (k = " + fixed(b.coverage_factor, 2) +
                      ", 95 %; effective degrees of freedom: " + freedom_text(b.freedom) + ")",
                  width, 2) +
@@ -60,9 +61,16 @@ std::string head_of(const Budget& b, std::size_t width) {
 }
 
 // A sentence with the largest contribution, and with u without this contribution. U without it is
-// not stated, because k would change.
+// not stated, because k would change. If the contributions do not add up to u, the sentence states
+// this.
 std::string improvement_text(const Budget& b, std::size_t width) {
   if (b.lines.empty() || !(b.u > 0)) return "";
+  if (b.u_by_trials)
+    return wrapped(
+               "The deviations are not larger than their uncertainties, so u is calculated by "
+               "Monte Carlo. The contributions are of first order, and they do not add up to u.",
+               width) +
+           "\n";
   const BudgetLine& first = b.lines.front();
   const double without = b.u * std::sqrt(std::max(0.0, 1 - first.share));
   return wrapped("Improve first: " + contributor_text(first.name) + ", " + percent(first.share) +
@@ -155,11 +163,12 @@ std::string budget_text(const Budget& b, const std::optional<Decision>& decision
                         std::size_t width) {
   TextTable table({"contributor", "u", "unit", "distribution", "sensitivity",
                    "contribution/" + unit_of(b), "share", "degrees of freedom"});
-  double rest = 0;
+  double rest = 0, rest_share = 0;
   std::size_t left_out = 0;
   for (const BudgetLine& line : b.lines) {
     if (line.share < kLeastShare && &line != &b.lines.front()) {
       rest += line.contribution * line.contribution;
+      rest_share += line.share;
       ++left_out;
       continue;
     }
@@ -171,7 +180,7 @@ std::string budget_text(const Budget& b, const std::optional<Decision>& decision
   }
   if (left_out > 0)
     table.add({std::to_string(left_out) + " more", "", "", "", "", shown_u(b, std::sqrt(rest)),
-               percent(b.u > 0 ? rest / (b.u * b.u) : 0), ""});
+               percent(rest_share), ""});
   std::string text = head_of(b, width) + "\n" + table.text(width) + "combined u " +
                      shown_u(b, b.u) + " " + unit_of(b) + "\n" + improvement_text(b, width);
   if (b.trials) text += trials_text(b);

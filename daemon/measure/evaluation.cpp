@@ -164,8 +164,8 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
   const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
   for (const Rig& rig : rigs) add_not_declared(table, rig.undeclared_uncertainties());
   MDOF_TRY(Notices notices, table_notices(runs));
-  MDOF_TRY(Notices superseded, superseded_notices(store, request.runs));
-  append(notices, std::move(superseded));
+  MDOF_TRY(Notices of_runs, source_run_notices(store, request.runs));
+  append(notices, std::move(of_runs));
   if (!declared)
     notices.push_back(
         notice(NoticeCode::declared_not_in_u, "", {{"reason", words::text(declared.error())}}));
@@ -203,30 +203,6 @@ Result<store::Activation> activate_checked(store::Store& store, const Activation
   return done;
 }
 
-// Rejects a table if one of its runs was measured while another table was active. If the controller
-// applied the active table, the run contains only the remaining errors. If the new table replaced
-// the active table, the errors that the active table corrects would return.
-Status check_measured_without(store::Store& store, const CompensationTable& table,
-                              const store::ActiveTable& active, const Consent& consent) {
-  if (consent.despite_warnings) return {};
-  for (const std::int64_t id : table.runs) {
-    MDOF_TRY(const RunHeader run, store.run_header(id));
-    if (run.provenance.recording_kind != "recording" || run.started_utc < active.activated_utc)
-      continue;
-    return fail(ErrorCode::conflict,
-                "run " + std::to_string(id) + " was measured while table " +
-                    std::to_string(active.table.id) +
-                    " was active. If the controller applied table " +
-                    std::to_string(active.table.id) + ", table " + std::to_string(table.id) +
-                    " contains only the remaining errors and must not replace table " +
-                    std::to_string(active.table.id) + "; deactivate table " +
-                    std::to_string(active.table.id) +
-                    ", measure without compensation and build a new table",
-                Remedy::allow_doubtful);
-  }
-  return {};
-}
-
 Result<store::Marks> check_activation(store::Store& store, const ActivationRequest& request) {
   MDOF_CHECK(store.check_generation(request.expected_generation));
   MDOF_TRY(const bool volumetric, store.is_volumetric(request.table));
@@ -246,7 +222,6 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   const auto now = store.active(table.axis);
   const bool is_active = now && now->table.id == request.table;
   if (!is_active) MDOF_CHECK(check_no_volumetric(store));
-  if (now && !is_active) MDOF_CHECK(check_measured_without(store, table, *now, request.consent));
   if (!is_active) MDOF_CHECK(check_gate(judged, request.consent, "the table is not activated"));
   return store::Marks{judged.simulated, !judged.doubtful.empty()};
 }
@@ -295,8 +270,8 @@ namespace {
 
 Result<Notices> squareness_notices(store::Store& store, const Run& a, const Run& b) {
   Notices notices = algo::inherited_notices({&a, &b});
-  MDOF_TRY(Notices superseded, superseded_notices(store, {a.header.id, b.header.id}));
-  append(notices, std::move(superseded));
+  MDOF_TRY(Notices of_runs, source_run_notices(store, {a.header.id, b.header.id}));
+  append(notices, std::move(of_runs));
   return notices;
 }
 

@@ -164,7 +164,10 @@ class Store {
                                 const std::optional<HistoryEntry>& action = std::nullopt,
                                 std::optional<std::int64_t> expected = std::nullopt);
   Result<ActiveTable> active(Axis axis);  // not_found if no table is active
-  Result<std::int64_t> generation();      // the largest generation; 0: no table was ever active
+  // The tables that were active at this time: the table of this axis, and a volumetric table. Does
+  // not check the ledger; active() and active_volumetric() do.
+  Result<std::vector<std::int64_t>> active_at(const std::string& utc, Axis axis);
+  Result<std::int64_t> generation();  // the largest generation; 0: no table was ever active
   Status check_generation(std::optional<std::int64_t> expected);  // error as for activate()
 
   // ---- volumetric tables ----

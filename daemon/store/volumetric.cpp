@@ -244,6 +244,25 @@ Result<ActiveVolumetric> Store::active_volumetric() {
   return active;
 }
 
+Result<std::vector<std::int64_t>> Store::active_at(const std::string& utc, Axis axis) {
+  MDOF_TRY(
+      Statement row,
+      connection_.prepare(
+          "SELECT * FROM (SELECT compensation_table FROM activation WHERE axis = ?1 AND "
+          "activated_utc <= ?2 AND generation > (SELECT coalesce(max(generation), 0) FROM "
+          "deactivation WHERE axis = ?1 AND deactivated_utc <= ?2) ORDER BY generation DESC "
+          "LIMIT 1) UNION ALL SELECT * FROM (SELECT volumetric_table FROM "
+          "volumetric_activation WHERE activated_utc <= ?2 ORDER BY generation DESC LIMIT 1)"));
+  const char letter_of_axis = letter(axis);
+  row.bind(std::string_view(&letter_of_axis, 1)).bind(std::string_view(utc));
+  std::vector<std::int64_t> tables;
+  for (;;) {
+    MDOF_TRY(const bool found, row.step());
+    if (!found) return tables;
+    if (!row.is_null(0)) tables.push_back(row.integer(0));  // null: deactivated
+  }
+}
+
 // List of the active tables, "axis X table 3, volume table 7".
 std::string Store::active_text() {
   std::string text;

@@ -1,12 +1,16 @@
-// A table can be activated only if its data equal the table that was built.
+// A table can be activated only if its data equal the table that was built, and if no run of the
+// table was measured while another table was active.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/machine/volumetric.h"
 #include "schema/base/sqlite/sqlite.h"
+#include "tests/daemon/store/fixtures.h"
 
 namespace mdof::daemon {
 namespace {
@@ -66,6 +70,31 @@ TEST_F(ActivationTest, RejectsAnotherTableWithTheSameId) {
             std::string::npos)
       << done.error().message;
   EXPECT_EQ(store_->generation().value(), 0);
+}
+
+// The volumetric table corrects X and Y (its grid has one position of Z) from 10:00 to 12:00.
+TEST_F(ActivationTest, RunsMeasuredWithAVolumetricTableAreNamed) {
+  const auto volume = store_->add_volumetric(store::make_volume()).value();
+  ASSERT_TRUE(store_->change_volumetric(volume, "me", "2026-11-22T10:00:00.000Z"));
+  ASSERT_TRUE(store_->change_volumetric(std::nullopt, "me", "2026-11-22T12:00:00.000Z"));
+  const auto named = [&](Axis axis, const char* hour, const char* kind = "recording") {
+    mdof::Run run;
+    run.header.axis = axis;
+    run.header.state = RunState::complete;
+    run.header.started_utc = std::string("2026-11-22T") + hour + ":00:00.000Z";
+    run.header.provenance.recording_kind = kind;
+    const auto id = store_->add_run(run).value();
+    const Notices found = doubtful_notices(*store_, store::make_volume({id})).value();
+    return std::count(
+        found.begin(), found.end(),
+        notice(NoticeCode::measured_with_table, "", {{"run", id}, {"table", volume}}));
+  };
+  EXPECT_EQ(named(Axis::x, "09"), 0);
+  EXPECT_EQ(named(Axis::x, "10"), 1);
+  EXPECT_EQ(named(Axis::y, "11"), 1);
+  EXPECT_EQ(named(Axis::z, "11"), 0) << "the correction is the same at all positions of Z";
+  EXPECT_EQ(named(Axis::x, "11", "csv"), 0) << "a log does not state when it was measured";
+  EXPECT_EQ(named(Axis::x, "12"), 0);
 }
 
 }  // namespace

@@ -40,6 +40,25 @@ const Notice* invalid_notice(const Notices& notices) {
   return found == notices.end() ? nullptr : &*found;
 }
 
+// The tables that a controller may have applied while this run was recorded. Only a recording
+// states when it was measured.
+Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64_t id) {
+  MDOF_TRY(const RunHeader run, store.run_header(id));
+  if (run.provenance.recording_kind != "recording") return std::vector<std::int64_t>();
+  MDOF_TRY(const std::vector<std::int64_t> active, store.active_at(run.started_utc, run.axis));
+  std::vector<std::int64_t> applied;
+  for (const std::int64_t table : active) {
+    MDOF_TRY(const bool volumetric, store.is_volumetric(table));
+    if (volumetric) {
+      MDOF_TRY(const VolumetricTable grid, store.volumetric(table));
+      const auto axis = static_cast<std::size_t>(run.axis);
+      if (grid.command_m[axis].size() < 2) continue;  // the same correction at all targets
+    }
+    applied.push_back(table);
+  }
+  return applied;
+}
+
 }  // namespace
 
 Notices without_information(Notices notices) {
@@ -58,12 +77,16 @@ Notices doubtful_notices(const std::vector<Run>& runs) {
   return doubtful_notices(algo::inherited_notices(algo::all_of(runs)));
 }
 
-Result<Notices> superseded_notices(store::Store& store, const std::vector<std::int64_t>& runs) {
+Result<Notices> source_run_notices(store::Store& store, const std::vector<std::int64_t>& runs) {
   Notices found;
   for (const std::int64_t run : runs) {
     MDOF_TRY(const auto by, store.superseded_by(run));
     if (by)
       found.push_back(notice(NoticeCode::made_from_superseded, "", {{"run", run}, {"by", *by}}));
+    MDOF_TRY(const std::vector<std::int64_t> tables, applied_tables(store, run));
+    for (const std::int64_t table : tables)
+      found.push_back(
+          notice(NoticeCode::measured_with_table, "", {{"run", run}, {"table", table}}));
   }
   return found;
 }
@@ -74,8 +97,8 @@ Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& t
     MDOF_TRY(runs[i], store.run(table.runs[i]));
   }
   Notices found = doubtful_notices(runs);
-  MDOF_TRY(Notices superseded, superseded_notices(store, table.runs));
-  append(found, std::move(superseded));
+  MDOF_TRY(Notices of_runs, source_run_notices(store, table.runs));
+  append(found, std::move(of_runs));
   if (runs.size() < 2 || is_imported(runs.front().header)) return found;
   MDOF_TRY(Notices uneven, algo::uneven_visit_notices(runs));
   append(found, std::move(uneven));

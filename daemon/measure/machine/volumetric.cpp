@@ -157,6 +157,8 @@ Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
   built.doubtful = without_information(built.notices);
   append(built.notices, std::move(stored.notices));
   append(built.doubtful, std::move(stored.doubtful));
+  MDOF_TRY(Notices of_runs, source_run_notices(store, built.table.runs));
+  append(built.notices, std::move(of_runs));
   return built;
 }
 
@@ -173,8 +175,8 @@ Result<Notices> doubtful_notices(store::Store& store, const VolumetricTable& tab
   MDOF_TRY(const std::vector<Run> runs, runs_of(store, table));
   append(found, one_sided(table, runs));
   append(found, doubtful_notices(runs));
-  MDOF_TRY(Notices superseded, superseded_notices(store, table.runs));
-  append(found, std::move(superseded));
+  MDOF_TRY(Notices of_runs, source_run_notices(store, table.runs));
+  append(found, std::move(of_runs));
   for (const Notice& each : table.doubtful)
     if (std::find(found.begin(), found.end(), each) == found.end()) found.push_back(each);
   return found;

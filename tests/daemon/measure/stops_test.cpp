@@ -12,14 +12,14 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr double kStop_s = 20, kMove_s = 2;
+constexpr double kStop_s = 20, kTravel_s = 2;
 constexpr int kStops = 4;
 
 // The axis stops at 0, 1, 2 and 3 mm; negative times are the first stop.
 double travel_mm(double t_s) {
-  const double step = std::floor(std::max(t_s, 0.0) / (kStop_s + kMove_s));
-  const double since_s = std::max(t_s, 0.0) - step * (kStop_s + kMove_s);
-  return std::min(step + std::max(0.0, since_s - kStop_s) / kMove_s, kStops - 1.0);
+  const double step = std::floor(std::max(t_s, 0.0) / (kStop_s + kTravel_s));
+  const double since_s = std::max(t_s, 0.0) - step * (kStop_s + kTravel_s);
+  return std::min(step + std::max(0.0, since_s - kStop_s) / kTravel_s, kStops - 1.0);
 }
 
 // Each probe reads 1 µm per mm of travel, `late_s` after the axis was there.
@@ -29,7 +29,7 @@ std::string write_log(double rate_hz, double late_s) {
   std::ofstream csv(path);
   csv << "time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n";
   csv.precision(9);
-  for (int i = 0; i < kStops * (kStop_s + kMove_s) * rate_hz; ++i) {
+  for (int i = 0; i < kStops * (kStop_s + kTravel_s) * rate_hz; ++i) {
     const double t_s = i / rate_hz, read_um = travel_mm(t_s - late_s);
     csv << t_s << ',' << travel_mm(t_s);
     for (int probe = 0; probe < 5; ++probe) csv << ',' << read_um;

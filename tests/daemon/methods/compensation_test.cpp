@@ -1,4 +1,5 @@
 // The methods compensation.build, activate, deactivate, status, grid, at, list and table.
+#include "daemon/paths.h"
 #include "tests/daemon/methods/methods_fixture.h"
 
 namespace mdof::daemon {
@@ -22,23 +23,36 @@ class CompensationMethods : public MethodsTest {
   }
 };
 
-TEST_F(CompensationMethods, ARunMeasuredUnderAnotherTableNeedsConfirmation) {
-  const char* const says = "was measured while table 2 was active";
+// The controller applied table 1 from its activation until its deactivation.
+TEST_F(CompensationMethods, ARunMeasuredWhileATableWasActiveNeedsConfirmation) {
+  const char* const code = R"("code":"measured_with_table")";
   activate();
-  for (const auto& [utc, asks] :
-       {std::pair{"2020-01-01T00:00:00.000Z", false}, {"2099-01-01T00:00:00.000Z", true}}) {
-    recorded_utc_ = utc;
+  const auto refused = [&](const char* started_utc) {
+    recorded_utc_ = started_utc;
     const std::string run = std::to_string(add_run());
     const Answer built = call("compensation.build", R"({"runs":[)" + run + "]}");
-    ASSERT_EQ(built.code(), 0) << built.text();
+    EXPECT_EQ(built.code(), 0) << built.text();
     const std::string table = R"({"table":)" + built.at("/result/table");
-    const Answer refused = call("compensation.activate", table + "}");
-    EXPECT_EQ(refused.code() != 0, asks);
-    EXPECT_EQ(refused.message().find(says) != std::string::npos, asks) << refused.text();
-    if (asks) {
+    const Answer answer = call("compensation.activate", table + "}");
+    const bool is_refused = answer.code() == rpc::kConflict;
+    EXPECT_EQ(built.at("/result/notices").find(code) != std::string::npos, is_refused);
+    EXPECT_EQ(built.at("/result/doubtful"), is_refused ? "true" : "false");
+    EXPECT_EQ(answer.message().find("while table 1 was active") != std::string::npos, is_refused)
+        << answer.text();
+    if (is_refused) {
       EXPECT_EQ(call("compensation.activate", table + R"(,"despite_warnings":true})").code(), 0);
+      EXPECT_EQ(call("compensation.activate", R"({"table":1,"despite_warnings":true})").code(), 0);
     }
-  }
+    return is_refused;
+  };
+  EXPECT_FALSE(refused("2020-01-01T00:00:00.000Z"));
+  EXPECT_EQ(call("compensation.activate", R"({"table":1,"despite_warnings":true})").code(), 0);
+  const std::string during = utc_now();
+  EXPECT_TRUE(refused(during.c_str()));
+  EXPECT_EQ(call("compensation.deactivate", R"({"axis":"X"})").code(), 0);
+  EXPECT_FALSE(refused("2099-01-01T00:00:00.000Z"));
+  EXPECT_EQ(call("compensation.deactivate", R"({"axis":"X"})").code(), 0);
+  EXPECT_TRUE(refused(during.c_str())) << "the table is not active any more, but it was";
 }
 
 TEST_F(CompensationMethods, ABuiltTableIsNotYetActive) {

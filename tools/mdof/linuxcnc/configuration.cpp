@@ -155,6 +155,26 @@ Result<bool> is_inch_machine(const LinuxCncIni& ini) {
   return bad_input("[TRAJ]LINEAR_UNITS = \"" + unit + "\" is neither mm nor inch");
 }
 
+Result<std::vector<AxisJoint>> trivkins_joints(const LinuxCncIni& ini) {
+  const std::string text = ini.value("KINS", "KINEMATICS");
+  const auto words = words_of(text);
+  if (words.empty() || words[0] != "trivkins")
+    return bad_input("[KINS]KINEMATICS = \"" + text +
+                     "\" must be trivkins; with other kinematics a joint is not an axis, so joints "
+                     "cannot be compensated one by one");
+  std::string letters = "XYZABCUVW";
+  for (const std::string_view word : words)
+    if (word.starts_with("coordinates=")) letters = word.substr(word.find('=') + 1);
+  for (char& letter : letters)
+    if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+  std::vector<AxisJoint> joints;
+  for (const char axis : std::string_view("XYZ"))
+    for (std::size_t joint = letters.find(axis); joint != std::string::npos;
+         joint = letters.find(axis, joint + 1))
+      joints.push_back({axis, static_cast<int>(joint)});
+  return joints;
+}
+
 Result<LinuxCncIni> read_linuxcnc_ini(const fs::path& file) {
   LinuxCncIni ini{file, {}};
   MDOF_TRY(const std::string text, read_text_file(file));

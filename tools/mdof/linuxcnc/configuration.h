@@ -36,6 +36,15 @@ Result<LinuxCncIni> read_linuxcnc_ini(const std::filesystem::path& file);
 // the file.
 Result<bool> is_inch_machine(const LinuxCncIni& ini);
 
+struct AxisJoint {
+  char axis = 'X';
+  int number = 0;
+};
+// The joints of axes X, Y and Z, by axis; a gantry axis has several joints. trivkins assigns the
+// letters of its parameter coordinates= to joints 0, 1, 2, ... Error: another kinematics, in which
+// a joint is not an axis; the message does not name the file.
+Result<std::vector<AxisJoint>> trivkins_joints(const LinuxCncIni& ini);
+
 struct HalFunction {
   std::string name, thread;
 };

@@ -68,27 +68,16 @@ class LiveLimits {
     unit_ = live_.inch ? 1 / to_mm(kInch_m) : 1;
   }
 
-  // Reads the joint of each axis. The kinematics must be trivkins, because other kinematics do not
-  // assign each joint to one axis.
+  // Reads the joints of each axis.
   void read_joints() {
-    const std::string text = ini_.value("KINS", "KINEMATICS");
-    const auto words = words_of(text);
-    if (words.empty() || words[0] != "trivkins")
-      return refuse("[KINS]KINEMATICS = \"" + text +
-                    "\" must be trivkins; with other kinematics a joint is not an axis, so joints "
-                    "cannot be compensated one by one");
-    std::string letters = "XYZABCUVW";
-    for (const std::string_view word : words)
-      if (word.starts_with("coordinates=")) letters = word.substr(word.find('=') + 1);
-    for (char& letter : letters)
-      if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+    const auto all = trivkins_joints(ini_);
+    if (!all) return refuse(all.error().message);
     const double count = needed("KINS", "JOINTS");
     for (const char axis : std::string_view("XYZ")) {
       std::vector<LiveJoint> joints;
-      for (std::size_t joint = letters.find(axis);
-           joint != std::string::npos && static_cast<double>(joint) < count;
-           joint = letters.find(axis, joint + 1))
-        joints.push_back({axis, static_cast<int>(joint), !joints.empty()});
+      for (const AxisJoint& joint : *all)
+        if (joint.axis == axis && joint.number < count)
+          joints.push_back({axis, joint.number, !joints.empty()});
       if (joints.size() > 2)
         refuse(
             std::string("[KINS]KINEMATICS: axis ") + axis + " has " +

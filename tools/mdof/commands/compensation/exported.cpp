@@ -15,7 +15,8 @@
 #include "schema/units.h"
 #include "tools/mdof/commands/compensation/active_table.h"
 #include "tools/mdof/commands/compensation/home_positions.h"
-#include "tools/mdof/linuxcnc/joint_ramps.h"
+#include "tools/mdof/commands/compensation/export_gate.h"
+#include "tools/mdof/linuxcnc/joint_settings.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/stored/database.h"
 
@@ -74,55 +75,6 @@ void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
   if (!changed.empty()) marks.push_back("LIMITS CHANGED: " + changed);
 }
 
-// Error: the data are simulated or have warnings, and the request does not accept such data. If the
-// request accepts the data, adds a warning to the files.
-Status judge(const daemon::Judged& judged, const ExportRequest& request, ExportedTables& out) {
-  MDOF_CHECK(daemon::check_gate(judged, request.consent, "it is not exported"));
-  auto& marks = out.options.marks;
-  for (auto& mark : daemon::warning_marks(judged)) marks.push_back(std::move(mark));
-  out.simulated = out.simulated || judged.simulated;
-  out.doubtful = out.doubtful || !judged.doubtful.empty();
-  return {};
-}
-
-Status judge_active(std::int64_t table, std::int64_t generation, const ExportRequest& request,
-                    std::vector<std::string>& marks) {
-  if (generation > 0) return {};
-  const std::string name = "table " + std::to_string(table);
-  if (!request.not_active)
-    return bad_input(name + " is not active; activate the table (mdof compensation activate " +
-                     std::to_string(table) + "), or export the table with --not-active");
-  marks.push_back("NOT ACTIVE: " + name + " was not active when it was exported");
-  return {};
-}
-
-Status judge_table(store::Store& store, const CompensationTable& table,
-                   const ExportRequest& request, ExportedTables& out) {
-  if (table.lacks_reference_point)
-    return bad_input("table " + std::to_string(table.id) +
-                     " does not name the point to which the errors refer; build the table again "
-                     "from the same runs");
-  MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
-  MDOF_CHECK(judge(judged, request, out));
-  // A table with positioning errors is never active, because mdofd does not apply such tables.
-  if (table.has_positioning()) return {};
-  MDOF_TRY(const std::int64_t generation, generation_of(store, table));
-  return judge_active(table.id, generation, request, out.options.marks);
-}
-
-Status judge_sign(const controllers::Format& format, const ExportRequest& request,
-                  std::vector<std::string>& marks) {
-  if (format.sign_confirmed) return {};
-  const std::string why = std::string(format.sense) + " (" + format.source + ")";
-  if (!request.unverified_sign)
-    return fail(ErrorCode::usage, std::string("the sign of ") + format.name +
-                                      " is not confirmed: " + why +
-                                      ". A wrong sign doubles the error; verify the sign on the "
-                                      "machine, then give --unverified-sign");
-  marks.push_back("SIGN NOT CONFIRMED: verify on the machine that the error becomes smaller");
-  return {};
-}
-
 // Reads the joints of the axes: "X=0,Y=1,Y=3".
 Status read_joint_options(const ExportRequest& request, ExportedTables& out) {
   if ((!request.joints.empty() || request.units != "mm") && !out.format->takes_joints)
@@ -153,8 +105,9 @@ Status read_joint_options(const ExportRequest& request, ExportedTables& out) {
 }
 
 // Reads MAX_ACCELERATION from the option or from the ini file. If the user stated neither,
-// MAX_ACCELERATION remains unknown.
-Status read_ramp_options(const ExportRequest& request, ExportedTables& out) {
+// MAX_ACCELERATION remains unknown. `backlash`: as JointSettings::backlash.
+Status read_ramp_options(const ExportRequest& request, ExportedTables& out,
+                         std::vector<JointSettings::Backlash>& backlash) {
   const bool given = request.max_acceleration_mm_s2.has_value();
   if (!given && request.ini.empty()) return {};
   if (!out.format->takes_joints)
@@ -166,7 +119,11 @@ Status read_ramp_options(const ExportRequest& request, ExportedTables& out) {
       out.options.ramps.push_back({axis, from_mm(*request.max_acceleration_mm_s2)});
     return {};
   }
-  MDOF_TRY(out.options.ramps, read_joint_ramps(request.ini, out.options.joints, out.options.inch));
+  MDOF_TRY(JointSettings settings,
+           read_joint_settings(request.ini, out.options.joints, out.options.inch));
+  out.options.joints = std::move(settings.joints);
+  out.options.ramps = std::move(settings.ramps);
+  backlash = std::move(settings.backlash);
   return {};
 }
 
@@ -242,7 +199,8 @@ std::string volume_formats() {
 }
 
 Status export_axes(store::Store& store, const ExportRequest& request,
-                   const algo::TableLimits& limits, ExportedTables& out) {
+                   const algo::TableLimits& limits,
+                   const std::vector<JointSettings::Backlash>& backlash, ExportedTables& out) {
   std::vector<CompensationTable> tables;
   for (const std::int64_t id : request.tables) {
     MDOF_TRY(const bool volume, store.is_volumetric(id));
@@ -262,6 +220,7 @@ Status export_axes(store::Store& store, const ExportRequest& request,
   for (const CompensationTable& table : tables) axes += letter(table.axis);
   if (out.format->takes_home) MDOF_CHECK(assign_home_axes(axes, out.options.homes));
   MDOF_TRY(out.files, out.format->axes.write(tables, out.options));
+  MDOF_CHECK(judge_backlash(backlash, tables, request, out.options.marks));
   MDOF_TRY(out.check, controllers::check_export(*out.format, tables, out.files, out.options));
   return {};
 }
@@ -383,7 +342,8 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   mark_limits(request, limits, out.options.marks);
   MDOF_TRY(out.options.homes, home_positions(request.home_mm));
   MDOF_CHECK(read_joint_options(request, out));
-  MDOF_CHECK(read_ramp_options(request, out));
+  std::vector<JointSettings::Backlash> backlash;
+  MDOF_CHECK(read_ramp_options(request, out, backlash));
   MDOF_CHECK(take_siemens_limits(request, out));
   MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
   MDOF_TRY(store::Store store, open_to_read(request.database));
@@ -392,7 +352,7 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   } else {
     MDOF_TRY(const bool volume, exports_volume(store, *out.format, request));
     MDOF_CHECK(volume ? export_volume(store, request, limits, out)
-                      : export_axes(store, request, limits, out));
+                      : export_axes(store, request, limits, backlash, out));
   }
   return out;
 }

@@ -39,7 +39,10 @@ Notices residual_notices(const VolumetricTable& table, std::size_t k) {
     return part > limit || (part + other > limit && part >= other);
   };
   Notices left;
-  if (too_large(reversal, between))
+  if (too_large(reversal, between) && table.approach != "mean")
+    left.push_back(notice(NoticeCode::volume_one_approach, command,
+                          {{"left_um", to_um(reversal)}, {"approach", table.approach}}));
+  else if (too_large(reversal, between))
     left.push_back(notice(NoticeCode::volume_reversal, command,
                           {{"left_um", to_um(reversal)},
                            {"limit_um", to_um(limit)},
@@ -154,11 +157,11 @@ Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
   MDOF_TRY(const std::vector<Run> runs, runs_of(store, built.table));
   built.notices = own_notices(built.table);
   append(built.notices, one_sided(built.table, runs));
+  MDOF_TRY(Notices of_runs, source_run_notices(store, built.table.runs));
+  append(built.notices, std::move(of_runs));
   built.doubtful = without_information(built.notices);
   append(built.notices, std::move(stored.notices));
   append(built.doubtful, std::move(stored.doubtful));
-  MDOF_TRY(Notices of_runs, source_run_notices(store, built.table.runs));
-  append(built.notices, std::move(of_runs));
   return built;
 }
 

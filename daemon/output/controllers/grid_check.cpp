@@ -21,6 +21,7 @@ struct Residuals {
 // Errors that remain because of the table itself; no file can correct them.
 struct LeftByTable {
   double by_reversal = 0, between_nodes = 0;
+  std::string approach;  // as CheckedError::approach
 };
 
 // `left_m`: the largest part of a correction that the file format cannot represent.
@@ -32,8 +33,11 @@ CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
   e.angle = angle;
   e.by_reversal = table.by_reversal;
   e.between_nodes = table.between_nodes;
-  e.before = r.before + e.by_reversal;  // an upper limit of the error in the worse approach
-  e.residual = r.with + e.between_nodes + e.by_reversal;
+  e.approach = table.approach;
+  e.one_way = options.one_approach && !e.approach.empty() && e.by_reversal > 0;
+  const double by_reversal = e.one_way ? 0 : e.by_reversal;
+  e.before = r.before + by_reversal;  // an upper limit of the error in the worse approach
+  e.residual = r.with + e.between_nodes + by_reversal;
   const double step = format.quantum_m + kRoundingOfGrid_m;
   e.bound = algo::ResidualLimits{options.residual_m, options.residual_share}.of(e.before, step);
   e.nothing = e.before <= step;
@@ -102,9 +106,11 @@ Result<Check> check_export(const Format& format, const VolumetricTable& table,
   check.share = options.residual_share;
   for (std::size_t k = 0; k < 3; ++k)
     if (table.machine.find(kCommands[k]))
-      check.errors.push_back(
-          judged_by(std::string(1, kCommands[k]), false, residuals_of(table, applied, k), format,
-                    options, exported.left_m, {table.reversal_m[k], table.interpolation_m[k]}));
+      check.errors.push_back(judged_by(std::string(1, kCommands[k]), false,
+                                       residuals_of(table, applied, k), format, options,
+                                       exported.left_m,
+                                       {table.reversal_m[k], table.interpolation_m[k],
+                                        table.approach == "mean" ? "" : table.approach}));
   return check;
 }
 

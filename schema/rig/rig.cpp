@@ -183,7 +183,8 @@ void check_machine(TomlTable& table, const Rig& rig) {
   if (in_chain->against_command != rig.sides.against_encoder)
     table.reject("travel", "is \"" + std::string(rig.sides.travel()) + "\", but travel." + axis +
                                " of [machine] has the opposite sign (\"+\" if the key is missing); "
-                               "correct one of the two values");
+                               "correct one of the two values. If the encoder counts against the "
+                               "command of the axis, reverse the encoder (sign of um_per_count)");
 }
 
 constexpr std::size_t kMostProbes = 1000;  // limits the time for the comparison of all pairs

@@ -100,8 +100,8 @@ class RunBudgets {
   std::vector<Drawn> drawn(const std::vector<Figure>& figures, const TrialsRequest& request,
                            std::uint32_t stream) const;
   double half_difference(const Figure& figure, const MeanShifts& shifts) const;
-  // The same for a shift of the mean errors at target i only. `means`: a copy of means_; the function
-  // changes and restores it, because a new copy of all means for each target takes longer.
+  // The same for a shift of the mean errors at target i only. `means`: a copy of means_; the
+  // function changes and restores it, because a new copy of all means for each target takes longer.
   static double half_difference_at(const Figure& figure, MeanErrors& means, std::size_t i,
                                    const Errors5& shift);
   Random random_of_targets(const Figure& figure) const;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "daemon/output/controllers/linuxcnc/ramp.h"
 #include "daemon/output/controllers/series.h"
@@ -165,6 +167,20 @@ Series without_missing(const Series& s) {
   return whole;
 }
 
+// The error of one approach at measured positions beyond the ends of the file. Adds to `largest`.
+void add_outside(const Series& measured, const std::vector<double>& error,
+                 const AppliedCorrection& applied, const std::vector<double>& added,
+                 const Machine& machine, double zero, double& largest) {
+  for (std::size_t i = 0; i < measured.position_m.size(); ++i) {
+    const double x = measured.position_m[i];
+    const bool inside = x >= applied.position_m.front() - kRounding_m &&
+                        x <= applied.position_m.back() + kRounding_m;
+    if (inside || !std::isfinite(error[i])) continue;
+    const double c = interpolated(applied.position_m, added, x) + zero;
+    largest = std::fmax(largest, std::abs(machine.error * error[i] + machine.command * c));
+  }
+}
+
 // The correction at home, which was subtracted from all values in the file. This constant only
 // shifts the zero of the machine and is no error. If home is outside the range of the file, the
 // controller uses the value at the end of the file, and this function uses the same value.
@@ -183,9 +199,12 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
                     const AppliedCorrection& applied, const Export& exported,
                     const ExportOptions& options) {
   const Series series = without_missing(measured);
-  const Trial trial(series, applied, machine_of(table, applied),
-                    format.takes_home ? zero_of(series, applied, options) : 0);
+  const Machine machine = machine_of(table, applied);
+  const double zero = format.takes_home ? zero_of(series, applied, options) : 0;
+  const Trial trial(series, applied, machine, zero);
   CheckedError e;
+  add_outside(measured, measured.forward, applied, applied.forward, machine, zero, e.outside);
+  add_outside(measured, measured.reverse, applied, applied.reverse, machine, zero, e.outside);
   e.error = applied.error;
   e.angle = series.angle;
   // True: the file has one value for both approaches, but the errors of the approaches differ.
@@ -220,10 +239,14 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
   return e;
 }
 
-const CompensationTable* table_of(const std::vector<CompensationTable>& tables, char axis) {
-  for (const CompensationTable& table : tables)
-    if (letter(table.axis) == axis) return &table;
-  return nullptr;
+// The table that contains this error, with its series. {nullptr, empty}: no table.
+std::pair<const CompensationTable*, std::optional<Series>> table_of(
+    const std::vector<CompensationTable>& tables, const std::string& error) {
+  for (const CompensationTable& table : tables) {
+    const std::vector<Series> series = series_of(table);
+    if (const Series* found = find_series(series, error)) return {&table, *found};
+  }
+  return {};
 }
 
 }  // namespace
@@ -249,10 +272,8 @@ Result<Check> check_export(const Format& format, const std::vector<CompensationT
   check.most_residual_m = residual_limit(options);
   check.share = options.residual_share;
   for (const AppliedCorrection& one : applied) {
-    const CompensationTable* table = table_of(tables, one.along);
-    const auto series = table ? series_of(*table) : std::vector<Series>();
-    const Series* measured = find_series(series, one.error);
-    if (!measured)
+    const auto [table, measured] = table_of(tables, one.error);
+    if (!table)
       return fail(ErrorCode::check, "the files correct " + one.error +
                                         ", but no exported table contains " + one.error);
     check.errors.push_back(judged(format, *table, *measured, one, exported, options));
@@ -260,11 +281,9 @@ Result<Check> check_export(const Format& format, const std::vector<CompensationT
   for (const Written& written : exported.written) {
     const bool there = std::any_of(check.errors.begin(), check.errors.end(),
                                    [&](const auto& e) { return e.error == written.error; });
-    const CompensationTable* table = table_of(tables, written.error[2]);
-    const auto series = table ? series_of(*table) : std::vector<Series>();
-    const Series* of = find_series(series, written.error);
     if (there) continue;
-    if (of && of->factor != 0)
+    const auto [table, series] = table_of(tables, written.error);
+    if (table && series->factor != 0)
       return fail(ErrorCode::check,
                   written.error + " was exported, but the files do not contain " + written.error);
     check.not_judged.push_back(written.error);

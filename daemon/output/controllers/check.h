@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/output/controllers/export.h"
+#include "schema/sample.h"
 
 namespace mdof::controllers {
 
@@ -22,8 +23,12 @@ struct Control {
 struct CheckedError {
   std::string error;  // "EXX"; for a volumetric table the corrected command, "X"
   bool angle = false;
-  // The test uses the mean error of both approaches, because of ExportOptions::one_approach.
+  // The test uses the mean error of both approaches, or the error in `approach`, because of
+  // ExportOptions::one_approach.
   bool one_way = false;
+  // "forward" or "reverse": a volumetric table with the values of this approach only, so that
+  // by_reversal remains in the other approach. Empty: other tables.
+  std::string approach;
   double before = 0;  // largest error without the correction, m or rad
   // Largest error with the correction, over both approaches, at the points and between them.
   double residual = 0;
@@ -32,6 +37,10 @@ struct CheckedError {
   //   approaches. It is part of `residual`, unless one_way is true.
   // - between_nodes: the error between the nodes of a volumetric table. It is part of `residual`.
   double by_reversal = 0, between_nodes = 0;
+  // Largest error at the measured positions beyond the ends of the file, where the controller uses
+  // the values at the ends; m or rad. It is not part of `residual`. NaN: there are no such
+  // positions.
+  double outside = kNaN;
   // The error after a reversal whose correction LinuxCNC does not apply, because the ramp of
   // LinuxCNC does not start (ExportOptions::ramps), m or rad. This error is also part of
   // `residual`.

@@ -12,7 +12,7 @@
 namespace mdof::controllers {
 namespace {
 
-constexpr std::size_t kWeihongPointLimit = 10'000, kSsfkPointLimit = 1500;
+constexpr std::size_t kWeihongPointLimit = 10'000, kSsfkPointLimit = 1499;
 constexpr double kTenthOfMicrometre = 1e-7;
 constexpr double kSsfkPositionLimit_m = 200;  // limit: the format stores 32-bit integers in 0.1 µm
 constexpr const char* kWeihongFile = "axeserr.dat";

@@ -16,7 +16,8 @@ Result<Export> write_weihong(const std::vector<CompensationTable>& tables,
 Result<std::vector<AppliedCorrection>> read_weihong(const std::vector<ControllerFile>& files);
 
 // kw.ssfk: actual position - set position in 0.1 µm, one value for travel in the positive direction
-// and one for the negative direction. At most 1500 rows.
+// and one for the negative direction. At most 1499 rows: kw_nr_max must be less than the 1500 rows
+// that the controller reserves by default (P-COMP-00059).
 Result<Export> write_ssfk(const std::vector<CompensationTable>& tables,
                           const ExportOptions& options);
 Result<std::vector<AppliedCorrection>> read_ssfk(const std::vector<ControllerFile>& files);

@@ -77,7 +77,7 @@ const std::vector<Format>& formats() {
       {.name = "beckhoff-ssfk",
        .of = "Beckhoff TwinCAT CNC, lead screw compensation (kw.ssfk)",
        .holds = "positioning, positive and negative travel; one file per axis",
-       .limits = "1500 rows, each with its own position (key kw.ssfk.interval = 0); all values are "
+       .limits = "1499 rows, each with its own position (key kw.ssfk.interval = 0); all values are "
                  "integers in units of 0.1 um (key kw.ssfk.unit = 1)",
        .sense = "value = actual - set = +E in 0.1 um",
        .source = "worked example in the manual; not tested on a control",

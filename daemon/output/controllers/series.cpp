@@ -66,25 +66,29 @@ std::string of_table(const Series& s, std::int64_t table) {
   return "table " + std::to_string(table) + ", " + s.error;
 }
 
-Result<Series> without_holes(const Series& s, std::int64_t table, bool cut, Export& out) {
-  const auto [first, end] = longest_range(s);
-  if (end - first == s.position_m.size()) return s;
+// The first position without a value: "table 3, EXX: no reverse value at 0.9 mm". Needs such a
+// position.
+std::string hole_text(const Series& s, std::int64_t table) {
   std::size_t hole = 0;
   while (has_value(s, hole)) ++hole;
-  const std::string missing = of_table(s, table) + ": no " +
-                              (std::isfinite(s.forward[hole]) ? "reverse" : "forward") +
-                              " value at " + place_text(s.position_m[hole]);
-  if (end - first < 2)
-    return bad_input(missing +
+  return of_table(s, table) + ": no " + (std::isfinite(s.forward[hole]) ? "reverse" : "forward") +
+         " value at " + place_text(s.position_m[hole]);
+}
+
+std::string range_text(const Series& s, std::pair<std::size_t, std::size_t> range) {
+  return place_text(s.position_m[range.first]) + " to " +
+         place_text(s.position_m[range.second - 1]);
+}
+
+Result<Series> without_holes(const Series& s, std::int64_t table, bool cut) {
+  const auto range = longest_range(s);
+  if (range.second - range.first == s.position_m.size()) return s;
+  if (range.second - range.first < 2)
+    return bad_input(hole_text(s, table) +
                      ", and no two neighbouring positions have both values (forward and reverse), "
                      "so nothing can be exported");
-  const std::string range =
-      place_text(s.position_m[first]) + " to " + place_text(s.position_m[end - 1]);
-  if (!cut) return bad_input(missing, Remedy::cut_range, range);
-  out.notes.push_back(
-      missing + "; only the range " + range +
-      " is exported; beyond this range, the controller uses the values at the ends of the range");
-  return range_of(s, {first, end});
+  if (!cut) return bad_input(hole_text(s, table), Remedy::cut_range, range_text(s, range));
+  return range_of(s, range);
 }
 
 Result<Series> short_enough(const Series& s, std::int64_t table, std::size_t most,
@@ -131,8 +135,33 @@ Result<Series> fitted(const Series& series, std::int64_t table, std::size_t most
                       const ExportOptions& options, Export& out) {
   if (series.position_m.empty())
     return bad_input(of_table(series, table) + ": the table has no points");
-  MDOF_TRY(const Series whole, without_holes(series, table, options.cut_range, out));
+  MDOF_TRY(const Series whole, without_holes(series, table, options.cut_range));
   return short_enough(whole, table, most, options, out);
+}
+
+std::vector<std::string> cut_range_texts(const CompensationTable& table) {
+  std::vector<std::string> texts;
+  for (const Series& s : series_of(table)) {
+    const auto range = longest_range(s);
+    const std::size_t kept = range.second - range.first;
+    if (kept < 2 || kept == s.position_m.size()) continue;
+    texts.push_back(
+        hole_text(s, table.id) + "; only the range " + range_text(s, range) +
+        " is exported; beyond this range, the controller uses the values at the ends of "
+        "the range");
+  }
+  return texts;
+}
+
+Status check_no_error_twice(const std::vector<CompensationTable>& tables) {
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    for (const Series& s : series_of(tables[i]))
+      for (std::size_t j = 0; j < i; ++j)
+        if (find_series(series_of(tables[j]), s.error))
+          return fail(ErrorCode::usage, "tables " + std::to_string(tables[j].id) + " and " +
+                                            std::to_string(tables[i].id) + " both contain " +
+                                            s.error + "; give one of these tables");
+  return {};
 }
 
 Status check_one_table_an_axis(const std::vector<CompensationTable>& tables) {
@@ -172,7 +201,9 @@ std::vector<std::string> head_lines(const CompensationTable& table, const Export
                                     const std::string& sense) {
   std::vector<std::string> lines{"mdof compensation table " + std::to_string(table.id) + ", axis " +
                                      letter(table.axis) + ", made " + table.created_utc,
-                                 "sha256 of the table " + table.sha256, "sense: " + sense};
+                                 "sha256 of the table " + table.sha256, "sense: " + sense,
+                                 "positions: those of the measurement; they must be the machine "
+                                 "coordinates after homing"};
   if (!table.has_positioning())
     lines.push_back("valid at the " + reference_point_text(table.stated));
   for (const std::string& mark : options.marks) lines.push_back(plain_ascii_line(mark));
@@ -200,8 +231,8 @@ double mean_error_at(const Series& s, double position_m) {
 std::string zeroed_at_home_note(const Series& s, const std::string& each, double taken_m,
                                 double home_m) {
   return s.error + ": " + plain_number(to_um(taken_m)) + " um was subtracted from every " + each +
-         ", so the " + each + " is 0 at home (" + plain_number(to_mm(home_m)) +
-         " mm) and the zero of the axis moves by this amount";
+         ", so the mean " + each + " of both approaches is 0 at home (" +
+         plain_number(to_mm(home_m)) + " mm) and the zero of the axis moves by this amount";
 }
 
 std::string fixed(double x, int decimals) {

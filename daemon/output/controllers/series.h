@@ -28,6 +28,12 @@ Result<Series> fitted(const Series& series, std::int64_t table, std::size_t most
 
 // Error (usage): two tables are for the same axis.
 Status check_one_table_an_axis(const std::vector<CompensationTable>& tables);
+// Error (usage): two tables contain the same error.
+Status check_no_error_twice(const std::vector<CompensationTable>& tables);
+
+// With options.cut_range: for each error with missing values, a text that states the missing value
+// and the exported range. The files contain these texts.
+std::vector<std::string> cut_range_texts(const CompensationTable& table);
 
 // The lines of the comment at the beginning of a file: number and hash of the table, meaning of the
 // values, warnings. The lines contain no comment signs.

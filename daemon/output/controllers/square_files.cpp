@@ -42,7 +42,8 @@ Result<Export> exported(const SquareAxes& axes, const ExportOptions& options, co
   return out;
 }
 
-// The text after `begin` in the only line of a file that is not a comment.
+// The text after `begin`, with which the commands of the file must begin, up to the end of its
+// line.
 Result<std::string_view> value_of(const std::vector<ControllerFile>& files, const char* name,
                                   char sign, std::string_view begin) {
   const ControllerFile* file = find_file(files, name);
@@ -51,7 +52,13 @@ Result<std::string_view> value_of(const std::vector<ControllerFile>& files, cons
   for (const std::string_view line : lines_of(file->text)) {
     ++n;
     if (line.starts_with(sign)) continue;
-    if (line.starts_with(begin)) return line.substr(begin.size());
+    const std::string_view rest =
+        std::string_view(file->text)
+            .substr(static_cast<std::size_t>(line.data() - file->text.data()));
+    if (rest.starts_with(begin)) {
+      const std::string_view value = rest.substr(begin.size());
+      return value.substr(0, value.find('\n'));
+    }
     return wrong_at(name, n, "a line that begins with \"" + std::string(begin) + "\" is expected");
   }
   return bad_input(std::string(name) + ": no line begins with \"" + std::string(begin) + "\"");
@@ -116,12 +123,15 @@ Result<Export> write_marlin(const SquareAxes& axes, const ExportOptions& options
   MDOF_TRY(const double k, shear_of(axes));
   return exported(
       axes, options, kGcode, ";",
-      {"this command needs SKEW_CORRECTION and SKEW_CORRECTION_GCODE; save the value with M500"},
-      "M852 I" + fixed(-k, 10));
+      {"this command needs SKEW_CORRECTION and SKEW_CORRECTION_GCODE; save the value with M500",
+       "G21, because M852 reads its value as a length: with inches (G20) it would be 25.4 times "
+       "too "
+       "large"},
+      "G21\nM852 I" + fixed(-k, 10));
 }
 
 Result<double> read_marlin(const std::vector<ControllerFile>& files) {
-  MDOF_TRY(const double I, number_of(files, kGcode, ';', "M852 I"));
+  MDOF_TRY(const double I, number_of(files, kGcode, ';', "G21\nM852 I"));
   return -I;
 }
 

@@ -146,8 +146,9 @@ void Check::check_gap(std::size_t k) {
   if (!c.reads_gap || standoff_um == 0) return;
   const double low_um = readings_of_range(probe)[0] + c.offset_um;
   const double closed_um = c.offset_um - standoff_um;  // reading when the gap is closed
-  if (low_um < 0 ? closed_um <= low_um : std::abs(closed_um) <= kStandoffShare * standoff_um)
-    return;
+  // Without the key, standoff_um is offset_um.
+  if (std::abs(closed_um) <= kStandoffShare * standoff_um) return;
+  if (low_um < 0 && closed_um <= low_um) return;
   add(closed_um > low_um, "probe", k, "standoff_um",
       text_of(standoff_um) + " um does not fit offset_um = " + text_of(c.offset_um) +
           " um of the probe \"" + probe.id +

@@ -141,6 +141,7 @@ TEST(Commands, OptionsInNoticesExist) {
       {NoticeCode::not_shown, {"show", "replay", "iso230-2", "budget", "squareness"}},
       {NoticeCode::map_units_assumed, {"form clamp", "form cut", "form compare", "form path"}},
       {NoticeCode::map_movement_gains_little, {"form compare"}},
+      {NoticeCode::path_centre_assumed, {"form path"}},
       {NoticeCode::path_mostly_bridged, {"form path"}},
       {NoticeCode::path_stroke_bridged, {"form path"}},
       {NoticeCode::made_of_several_probes, {"separate reversal", "separate shift"}}};

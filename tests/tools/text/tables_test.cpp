@@ -207,7 +207,8 @@ TEST(RunCsv, HasUnitsAndEmptyCellsForUnknownValues) {
                       "u_ECX_urad,u_random_EYX_um,u_random_EZX_um,u_random_EAX_urad,"
                       "u_random_EBX_urad,u_random_ECX_urad,U_EYX_um,U_EZX_um,U_EAX_urad,"
                       "U_EBX_urad,U_ECX_urad,samples,flags,reason,u_covers,"
-                      "not_declared\n1,0,1,0,-123.45678"));
+                      "not_declared,reference,reference_mm\n1,0,1,0,-123.45678"));
+  EXPECT_NE(csv.find(",fixture,0 0 0\n"), std::string::npos) << csv;
   EXPECT_NE(csv.find(",0.099999999999999992,,0.099999999999999992,"), std::string::npos) << csv;
   EXPECT_NE(points_csv(unsolved, noise_of(unsolved)).find(",,,,,,,,,,,,,,,,,,,,0,saturated:A"),
             std::string::npos);

@@ -219,7 +219,7 @@ std::string left_out_lines(const Export& out) {
 
 Result<Export> write_cec(const std::vector<CompensationTable>& tables,
                          const ExportOptions& options) {
-  MDOF_CHECK(check_one_table_an_axis(tables));
+  MDOF_CHECK(check_no_error_twice(tables));
   Export out;
   const ExportOptions as_measured = without_tolerance(options, out);
   if (!options.homes.empty())
@@ -360,20 +360,22 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
                          : std::string("correction of ") + tables[i].output +
                                " by the position of " + tables[i].input,
                      kDecimalsOfVolume);
-  const auto head =
+  auto head =
       head_of(t, options,
               "values in mm; value = correction that is added to the command of the output axis");
-  out.files.push_back({kFile, file_text(commented(head, ";"), text)});
   out.notes.push_back(
       "the correction is written as sums and products of one-axis tables; largest residual: " +
       plain_number(to_um(out.left_m), 2) + " um");
   if (std::any_of(tables.begin(), tables.end(),
-                  [](const CecTable& one) { return one.multiply_by > 0; }))
+                  [](const CecTable& one) { return one.multiply_by > 0; })) {
     out.notes.emplace_back(
         "products (MULT_BY_TABLE): according to the example of the manual, the control adds only "
         "the product of two tables; check on the machine that it does not also add the two tables "
         "themselves: each table would then add up to " +
         plain_number(to_um(largest_factor(tables)), 2) + " um");
+    head.push_back(out.notes.back());
+  }
+  out.files.push_back({kFile, file_text(commented(head, ";"), text)});
   MDOF_CHECK(check_count(tables.size(), options, out));
   count_nodes(t, out);
   return out;

@@ -33,10 +33,19 @@ std::string causes_text(const CheckedError& e) {
         e.error +
         ": nothing to correct, because all errors are smaller than the last digit of the format\n";
   if (e.by_reversal > kShown)
-    text += e.error + ": " + fixed(e.by_reversal * 1e6, 4) + unit +
-            " remain in each approach, because the errors differ between the approaches and the "
-            "file has one value for both" +
-            (e.one_way ? " (not included in \"after\")\n" : "\n");
+    text +=
+        e.error + ": " + fixed(e.by_reversal * 1e6, 4) + unit +
+        (e.approach.empty() ? " remain in each approach"
+                            : " remain if a position is not approached " + e.approach) +
+        ", because the errors differ between the approaches and the file has one value for both" +
+        (e.one_way ? " (not included in \"after\")\n"
+         : e.approach.empty()
+             ? "\n"
+             : "; if every position is approached " + e.approach + ", give --one-approach\n");
+  if (e.outside > kShown)
+    text += e.error + ": " + fixed(e.outside * 1e6, 4) + unit +
+            " remain at measured positions beyond the ends of the file, where the controller uses "
+            "the values at the ends (not included in \"before\" and \"after\")\n";
   if (e.error_by_ramp > kShown)
     text +=
         e.error + ": " + fixed(e.error_by_ramp * 1e6, 4) + unit +
@@ -62,10 +71,13 @@ std::string check_json(const ExportedTables& exported) {
     json.begin_object().field("error", e.error).field("cancels", e.cancels);
     json.field("before" + unit, e.before * 1e6).field("residual" + unit, e.residual * 1e6);
     json.field("bound" + unit, e.bound * 1e6);
-    json.field("judged", e.one_way ? "mean of both approaches" : "each approach");
+    json.field("judged", !e.one_way           ? "each approach"
+                         : e.approach.empty() ? "mean of both approaches"
+                                              : "approach " + e.approach);
     json.field("left_by_reversal" + unit, e.by_reversal * 1e6)
         .field("left_between_nodes" + unit, e.between_nodes * 1e6)
         .field("left_by_ramp" + unit, e.error_by_ramp * 1e6)
+        .field("outside" + unit, e.outside * 1e6)
         .field("nothing_to_correct", e.nothing);
     json.key("controls").begin_array();
     for (const Control& control : e.controls) write_control(json, e, control);

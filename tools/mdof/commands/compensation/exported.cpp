@@ -9,13 +9,14 @@
 #include "daemon/measure/imported/positioning_figures.h"
 #include "daemon/measure/machine/stored_errors.h"
 #include "daemon/measure/machine/volumetric.h"
+#include "daemon/output/controllers/series.h"
 #include "schema/base/number/number_text.h"
 #include "schema/imported/series.h"
 #include "schema/rig/correction.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/compensation/active_table.h"
-#include "tools/mdof/commands/compensation/home_positions.h"
 #include "tools/mdof/commands/compensation/export_gate.h"
+#include "tools/mdof/commands/compensation/home_positions.h"
 #include "tools/mdof/linuxcnc/joint_settings.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/stored/database.h"
@@ -214,13 +215,16 @@ Status export_axes(store::Store& store, const ExportRequest& request,
     MDOF_CHECK(algo::check_limits(table, limits));
     MDOF_CHECK(apply_one_approach(table, request, out));
     MDOF_CHECK(mark_unknown_approach(store, table, out));
+    if (request.cut_range)
+      for (const std::string& text : controllers::cut_range_texts(table))
+        out.options.marks.push_back("CUT RANGE: " + text);
     tables.push_back(std::move(table));
   }
+  MDOF_CHECK(judge_backlash(backlash, tables, request, out.options.marks));
   std::string axes;
   for (const CompensationTable& table : tables) axes += letter(table.axis);
   if (out.format->takes_home) MDOF_CHECK(assign_home_axes(axes, out.options.homes));
   MDOF_TRY(out.files, out.format->axes.write(tables, out.options));
-  MDOF_CHECK(judge_backlash(backlash, tables, request, out.options.marks));
   MDOF_TRY(out.check, controllers::check_export(*out.format, tables, out.files, out.options));
   return {};
 }

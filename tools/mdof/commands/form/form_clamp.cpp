@@ -175,7 +175,7 @@ Status form_clamp(const FormClampCommand& o) {
     return fail(ErrorCode::usage,
                 "mdof calculates K from the map RELEASED; leave out RELEASED or --K");
   MDOF_TRY(const Clamped found, clamped(o));
-  show_notices(found.notices);
+  show_notices(found.notices, true);
   if (o.released.empty() && !o.K)
     warn(
         "neither RELEASED nor --K is given: the whole clamping deformation is taken as elastic (K "

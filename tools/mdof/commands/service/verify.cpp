@@ -112,10 +112,9 @@ Status verify(const VerifyCommand& command) {
                                       " finding(s); restore the items named above from a backup");
   if (command.json) return {};
   if (head.link > 0) say("the newest link of the chain of hashes is " + head_text(head));
-  return write_line("no fault found: every checksum and reference is correct" +
-                    std::string(head.link > 0
-                                    ? "; the values of u and k in the SQL views have no checksum"
-                                    : ""));
+  return write_line(
+      "no fault found: every checksum and reference is correct" +
+      std::string(head.link > 0 ? "; the uncertainties in the SQL views have no checksum" : ""));
 }
 
 Action declare_verify(CLI::App& command) {

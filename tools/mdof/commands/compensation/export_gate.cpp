@@ -34,7 +34,7 @@ namespace {
 // file too, it would correct them twice.
 Status judge_beside_volume(store::Store& store, const CompensationTable& table,
                            const ExportRequest& request, std::vector<std::string>& marks) {
-  const Status alone = daemon::check_no_volumetric(store);
+  Status alone = daemon::check_no_volumetric(store);
   if (alone || alone.error().code != ErrorCode::conflict) return alone;
   const std::string name = "table " + std::to_string(table.id);
   if (!request.not_active)

@@ -66,8 +66,8 @@ void add_export_options(CLI::App& command, ExportRequest& request, const std::st
           ->check(positive_number());
   command
       .add_option("--ini", request.ini,
-                  "linuxcnc: INI file of LinuxCNC, from which mdof reads MAX_ACCELERATION, "
-                  "SERVO_PERIOD and LINEAR_UNITS")
+                  "linuxcnc: INI file of LinuxCNC, from which mdof reads the joints (KINEMATICS), "
+                  "MAX_ACCELERATION, BACKLASH, SERVO_PERIOD and LINEAR_UNITS")
       ->type_name("FILE")
       ->excludes(acceleration);
   command

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "schema/base/number/number_text.h"
 #include "schema/base/toml/toml_reader.h"
 #include "schema/machine/machine.h"
 #include "schema/machine/machine_sources.h"
+#include "schema/rig/uncertainty.h"
 #include "schema/units.h"
 
 namespace mdof {
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kLetters = "XYZABC";
 constexpr double kLargestRatio = 1000;
-constexpr double kMostU_um = 1e4, kMostU_urad = 1e5;
+constexpr double kMostU_urad = 1e5;
 
 double value_from_written(std::size_t k, double written) {
   return k < 3 ? from_um(written) : from_urad(written);
@@ -48,10 +48,8 @@ void read_rows(TomlTable& table, const std::string& key, const MachineFrame& fra
 std::optional<double> read_u(TomlTable& table, const std::string& key, std::size_t k) {
   const std::string of = "u_" + key;
   if (!table.has(of)) return std::nullopt;
-  const double u = table.number(of), most = k < 3 ? kMostU_um : kMostU_urad;
-  if (!(u >= 0 && u <= most))
-    table.reject(of, "must be a standard uncertainty from 0 to " + plain_number(most, 6) +
-                         ", not " + plain_number(u) + "; check the unit");
+  const double u = table.number(of);
+  check_uncertainty(table, of, u, k < 3 ? kMostU_um : kMostU_urad);
   return value_from_written(k, u);
 }
 

@@ -16,7 +16,6 @@
 namespace mdof {
 namespace {
 
-constexpr double kMostDelay_us = 10e6;  // 10 s
 constexpr double kLeastWave_m = 1e-4, kMostWave_m = 1;
 
 Vec3 unit_vector(Vec3 v) {

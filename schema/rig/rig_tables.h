@@ -7,6 +7,9 @@
 
 namespace mdof {
 
+// Largest delay of a probe, of a run or of a scan: 10 s.
+inline constexpr double kMostDelay_us = 10e6;
+
 // A point in mm, at most 2 m from the origin along each axis; returned in m.
 Vec3 read_point(TomlTable& table, const char* key);
 void read_encoder(TomlTable& table, Rig& rig);

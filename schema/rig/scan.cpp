@@ -9,7 +9,6 @@
 namespace mdof {
 namespace {
 
-constexpr double kMostScanDelay_us = 10e6;
 constexpr double kMostCentre_mm = 10e3;
 
 }  // namespace
@@ -42,7 +41,7 @@ std::optional<RigScan> read_scan(TomlTable& rig, Axis axis) {
     table->reject("sense", "\"" + sense + "\" must be \"+\" or \"-\"");
   scan.sense = sense == "-" ? -1 : 1;
   const double delay_us = table->number("delay_us", 0);
-  if (!(delay_us >= 0 && delay_us <= kMostScanDelay_us))
+  if (!(delay_us >= 0 && delay_us <= kMostDelay_us))
     table->reject("delay_us",
                   "must be from 0 to 10000000 us: the delay of the readings of the probe relative "
                   "to the angle and the encoder, for example because of a filter");

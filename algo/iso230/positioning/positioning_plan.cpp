@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
+#include "algo/iso230/line_fit.h"
 #include "algo/iso230/positioning/positioning.h"
 #include "schema/base/number/number_text.h"
 #include "schema/targets.h"
@@ -68,19 +70,14 @@ double mean_deviation(const PositioningTarget& t) {
   return t.forward.n == 0 ? t.reverse.mean : t.reverse.n == 0 ? t.forward.mean : t.mean;
 }
 
-// Slope of the deviations over the targets, by least squares.
+// Slope of the least-squares line of the deviations over the targets; 0: only one target.
 double slope_over_targets(const Positioning& p) {
-  double mean_x = 0, mean_y = 0, product = 0, square = 0;
-  const auto count = static_cast<double>(p.targets.size());
+  std::vector<double> target_m, deviation_m;
   for (const PositioningTarget& t : p.targets) {
-    mean_x += t.target_m / count;
-    mean_y += mean_deviation(t) / count;
+    target_m.push_back(t.target_m);
+    deviation_m.push_back(mean_deviation(t));
   }
-  for (const PositioningTarget& t : p.targets) {
-    product += (t.target_m - mean_x) * (mean_deviation(t) - mean_y);
-    square += (t.target_m - mean_x) * (t.target_m - mean_x);
-  }
-  return product / square;
+  return can_fit(target_m) ? least_squares_line(target_m, deviation_m).slope : 0;
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDela
 }
 
 PipelineOptions with_delays(PipelineOptions options, const Rig& rig, const ChannelDelays& delays) {
-  const double encoder_s = of(delays, kEncoderChannel);
+  const double encoder_s = rig.encoder_delay_s + of(delays, kEncoderChannel);
   bool differ = false;
   for (const Probe& probe : rig.probes) {
     const double delay_s = probe.delay_s + of(delays, probe.id);
@@ -77,11 +77,13 @@ PipelineOptions with_delays(PipelineOptions options, const Rig& rig, const Chann
 
 PipelineOptions with_delays_of(const Rig& rig, const Rig& recorded, PipelineOptions options) {
   auto& relative_s = options.align.delay_s;
-  const double encoder_s = options.dwell.leave_s - longest_s(recorded, relative_s);
+  const double encoder_more_s = rig.encoder_delay_s - recorded.encoder_delay_s;
+  const double encoder_s = options.dwell.leave_s - longest_s(recorded, relative_s) + encoder_more_s;
   bool differ = false, changed = false;
   for (const Probe& probe : rig.probes) {
     const auto before = recorded.probe_index(probe.id);
-    const double more_s = probe.delay_s - (before ? recorded.probes[*before].delay_s : 0);
+    const double more_s =
+        probe.delay_s - (before ? recorded.probes[*before].delay_s : 0) - encoder_more_s;
     changed = changed || more_s != 0;
     relative_s[probe.id] += more_s;
     differ = differ || relative_s[probe.id] != 0;

@@ -1,7 +1,8 @@
 // Delays `delay_us` of readings. A delay is the time by which a reading is older than its time
-// stamp. The rig states the delay of a probe (filter of the amplifier). The configuration of a
-// device states the delay of a channel (filter, position in the scan). The total delay is the sum
-// of both delays. The aligner removes the delay of a probe relative to the encoder.
+// stamp. The rig states the delay of a probe (filter of the amplifier) and of the encoder. The
+// configuration of a device states the delay of a channel (filter, position in the scan). The total
+// delay is the sum of both delays. The aligner removes the delay of a probe relative to the
+// encoder.
 #pragma once
 
 #include <map>

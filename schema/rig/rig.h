@@ -57,8 +57,7 @@ struct Probe {
   // Full range; the ends are at ±range/2, or at 0 and range for a probe that reads the gap.
   double range_m = 0;
   Calibration calibration;
-  // Delay of the readings of the probe relative to the readings of the encoder. The filter of the
-  // probe's amplifier causes it.
+  // Delay of the readings relative to their times. The filter of the probe's amplifier causes it.
   double delay_s = 0;
   ProbeUncertainty uncertainty = {};
   // The direction in the rig, if a calibration has found another direction. If there is no
@@ -102,8 +101,9 @@ struct Rig {
   // [encoder]: travel of the axis, in µm, per volt of an encoder with a voltage output; negative if
   // the voltage decreases when the position increases. nullopt: such an encoder is rejected.
   std::optional<double> encoder_um_per_V;
-  Sides sides;    // keys `moves` and `travel`
-  Chain machine;  // [machine]; may be unknown
+  double encoder_delay_s = 0;  // [encoder]: delay of the encoder's readings relative to their times
+  Sides sides;                 // keys `moves` and `travel`
+  Chain machine;               // [machine]; may be unknown
   // Empty: the planes are perpendicular to the nominal directions of the probes.
   std::vector<TargetPlane> planes;
   std::optional<Vec3> tool_point_m;  // tool point in M; default reference point of tables

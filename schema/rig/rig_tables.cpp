@@ -25,11 +25,23 @@ Vec3 read_point(TomlTable& table, const char* key) {
   return {from_mm(mm[0]), from_mm(mm[1]), from_mm(mm[2])};
 }
 
+double read_delay_s(TomlTable& table, const char* meaning) {
+  constexpr double kMost_us = 10e6;
+  const double delay_us = table.number("delay_us", 0);
+  if (!(delay_us >= 0 && delay_us <= kMost_us))
+    table.reject("delay_us",
+                 std::string("must be from 0 to 10000000 us: the delay of the ") + meaning);
+  return delay_us / 1e6;
+}
+
 void read_encoder(TomlTable& table, Rig& rig) {
   auto encoder = table.table("encoder");
   if (!encoder) return;
   rig.uncertainty.encoder = read_uncertainty(*encoder, "u_um", from_um(1), kMostU_um);
-  if (!encoder->has("um_per_V") && rig.uncertainty.encoder.known()) return;
+  rig.encoder_delay_s =
+      read_delay_s(*encoder, "readings of the encoder, for example because of a filter");
+  const bool others = rig.uncertainty.encoder.known() || encoder->has("delay_us");
+  if (!encoder->has("um_per_V") && others) return;
   const double um_per_V = encoder->number("um_per_V");
   if (!(std::abs(um_per_V) >= kLeastScale_um_per_V && std::abs(um_per_V) <= kMostScale_um_per_V))
     encoder->reject("um_per_V",

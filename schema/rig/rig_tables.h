@@ -7,8 +7,9 @@
 
 namespace mdof {
 
-// Largest delay of a probe, of a run or of a scan: 10 s.
-inline constexpr double kMostDelay_us = 10e6;
+// Reads the key delay_us; returns s, 0 if the key is missing. Rejects a delay that is negative or
+// longer than 10 s; `meaning` completes the message.
+double read_delay_s(TomlTable& table, const char* meaning);
 
 // A point in mm, at most 2 m from the origin along each axis; returned in m.
 Vec3 read_point(TomlTable& table, const char* key);

@@ -40,12 +40,9 @@ std::optional<RigScan> read_scan(TomlTable& rig, Axis axis) {
   if (sense != "+" && sense != "-")
     table->reject("sense", "\"" + sense + "\" must be \"+\" or \"-\"");
   scan.sense = sense == "-" ? -1 : 1;
-  const double delay_us = table->number("delay_us", 0);
-  if (!(delay_us >= 0 && delay_us <= kMostDelay_us))
-    table->reject("delay_us",
-                  "must be from 0 to 10000000 us: the delay of the readings of the probe relative "
-                  "to the angle and the encoder, for example because of a filter");
-  scan.delay_s = delay_us / 1e6;
+  scan.delay_s = read_delay_s(*table,
+                              "readings of the probe relative to the angle and the encoder, for "
+                              "example because of a filter");
   return scan;
 }
 

@@ -93,6 +93,23 @@ TEST(Delays, AReplayUsesTheDelaysOfItsRig) {
   EXPECT_EQ(with_delays_of(rig, Rig(), {}).align.delay_s.at("A"), 0.006);
 }
 
+TEST(Delays, TheDelayOfTheEncoderInTheRigIsSubtracted) {
+  Rig rig = two_probes(), recorded = two_probes();
+  rig.encoder_delay_s = 0.003;
+  rig.probes[0].delay_s = 0.004;
+  const auto live = with_delays({}, rig, {{"B", 0.002}, {"encoder", 0.001}});
+  EXPECT_DOUBLE_EQ(live.align.delay_s.at("A"), 0.004 - 0.003 - 0.001);
+  EXPECT_DOUBLE_EQ(live.align.delay_s.at("B"), 0.002 - 0.003 - 0.001);
+  EXPECT_DOUBLE_EQ(live.dwell.leave_s, 0.004);
+  const auto of_csv = with_delays_of(rig, Rig(), {});
+  EXPECT_DOUBLE_EQ(of_csv.align.delay_s.at("A"), 0.001);
+  EXPECT_DOUBLE_EQ(of_csv.align.delay_s.at("B"), -0.003);
+  EXPECT_DOUBLE_EQ(of_csv.dwell.leave_s, 0.004);
+  recorded.encoder_delay_s = 0.005;
+  const auto replayed = with_delays_of(rig, recorded, with_delays({}, recorded, {}));
+  EXPECT_DOUBLE_EQ(replayed.align.delay_s.at("B"), -0.003);
+}
+
 // Recorded: probe A 8 ms in the rig, encoder and probe B 2 ms in the device. The end of a stop that
 // is left out is the longest delay of a probe.
 TEST(Delays, AReplayWithSmallerDelaysLeavesOutLessOfEachStop) {

@@ -42,6 +42,7 @@ TEST(RigUncertainty, ReadsEachKeyInItsUnit) {
   EXPECT_FALSE(parsed->probes[1].uncertainty.calibration.declared());
   EXPECT_DOUBLE_EQ(parsed->uncertainty.encoder.u, 0.4e-6);
   EXPECT_FALSE(parsed->encoder_um_per_V);
+  EXPECT_EQ(parsed->encoder_delay_s, 0);
   EXPECT_DOUBLE_EQ(parsed->uncertainty.installation_angle.u[2], 3e-3);
   EXPECT_DOUBLE_EQ(parsed->uncertainty.installation_offset.u[2], 0.05e-3);
   EXPECT_DOUBLE_EQ(parsed->uncertainty.drift.u, 1e-10);
@@ -102,6 +103,9 @@ TEST(RigUncertainty, ErrorsStateThePlaceOfInvalidValues) {
   for (const auto& c : cases)
     EXPECT_NE(refusal(c.keys).find(c.says), std::string::npos) << c.keys << ": " << refusal(c.keys);
   EXPECT_NE(refusal("", "[encoder]\n").find("um_per_V"), std::string::npos);
+  EXPECT_NE(
+      refusal("", "[encoder]\ndelay_us = -8000\n").find("delay of the readings of the encoder"),
+      std::string::npos);
   const auto thermal = [](const std::string& keys) {
     return refusal("", "[temperature]\n" + keys);
   };

@@ -14,6 +14,36 @@ namespace {
 using Role = ChunkRing::Role;
 constexpr std::chrono::hours kForever{24 * 365};
 
+// Translates text with another separator, and with decimal commas, into the form that CsvRowParser
+// reads. Each byte keeps its place.
+class Translator {
+ public:
+  explicit Translator(char separator = ',') : separator_(separator) {}
+
+  // The result is valid until the next call and has kCsvMargin bytes before and after it.
+  std::string_view translated(std::string_view text) {
+    if (separator_ == ',') return text;
+    text_.assign(kCsvMargin, '\n');
+    text_ += text;
+    for (std::size_t i = kCsvMargin; i < text_.size(); ++i) {
+      char& c = text_[i];
+      commas_ = commas_ || c == ',';
+      points_ = points_ || c == '.';
+      c = c == separator_ ? ',' : c == ',' ? '.' : c;
+    }
+    text_.append(kCsvMargin, '\n');
+    return std::string_view(text_).substr(kCsvMargin, text.size());
+  }
+  bool has_decimal_commas() const { return commas_; }
+  // True: a comma may separate thousands, so the numbers are ambiguous.
+  bool is_ambiguous() const { return commas_ && points_; }
+
+ private:
+  char separator_;
+  std::string text_;
+  bool commas_ = false, points_ = false;
+};
+
 }  // namespace
 
 class CsvRows::Reading {
@@ -36,8 +66,10 @@ class CsvRows::Reading {
   const CsvRowParser& rows() const { return *rows_; }
   bool ended() const { return ended_; }  // true: all data were read, or an error occurred
   std::string sha256() const;
+  bool has_decimal_commas() const { return translator_.has_decimal_commas(); }
 
  private:
+  Status give(std::string_view text);
   void read_ahead();
   Result<bool> fill(SampleBlock& block, std::chrono::milliseconds timeout);
   Result<bool> finish(SampleBlock& block);
@@ -47,6 +79,7 @@ class CsvRows::Reading {
   bool companion_;
   ChunkRing chunks_;
   std::optional<CsvRowParser> rows_;
+  Translator translator_;
   bool chunk_in_use_ = false;  // true: the parser is reading the text of the chunk
   bool ended_ = false;
   Status status_;
@@ -62,10 +95,20 @@ Status CsvRows::Reading::start(const CsvRowsOptions& options) {
   const std::string_view text = first ? first->text() : std::string_view();
   MDOF_TRY(CsvHeader header, parse_csv_header(text, options.kind, source_->name()));
   const std::size_t header_bytes = header.bytes;
+  translator_ = Translator(header.separator);
   rows_.emplace(std::move(header), options.limits);
-  rows_->give(text.substr(header_bytes));
   chunk_in_use_ = first != nullptr;
-  return {};
+  return give(text.substr(header_bytes));
+}
+
+Status CsvRows::Reading::give(std::string_view text) {
+  rows_->give(translator_.translated(text));
+  if (!translator_.is_ambiguous()) return {};
+  return bad_input(
+      source_->name() +
+      ": numbers contain both commas and points, so it is unknown which of them is the "
+      "decimal sign; save the file with one decimal sign and without a separator of "
+      "thousands");
 }
 
 // Thread "csv read": reads the chunks before the parser needs them, and hashes plain text.
@@ -87,7 +130,7 @@ Result<bool> CsvRows::Reading::fill(SampleBlock& block, std::chrono::millisecond
     const LineChunk* const chunk = chunks_.next(Role::parser, timeout);
     chunk_in_use_ = chunk != nullptr;
     if (!chunk) break;
-    rows_->give(chunk->text());
+    MDOF_CHECK(give(chunk->text()));
   }
   return chunks_.ended() ? finish(block) : Result<bool>(false);
 }
@@ -160,6 +203,8 @@ Notices CsvRows::notices() const {
   for (const std::string& line : reading_->rows().bad_lines())
     all.push_back(notice(NoticeCode::log_line_skipped, "", {{"reason", line}}));
   append(all, reading_->rows().missing_values());
+  if (reading_->has_decimal_commas())
+    all.push_back(notice(NoticeCode::log_decimal_commas, reading_->rows().header().source));
   return all;
 }
 

@@ -47,16 +47,18 @@ std::optional<Channel> channel_of(const std::string& name) {
   return std::nullopt;
 }
 
-// Rejects text whose separator is not a comma. The message states which setting to change.
-Status check_separator(const CsvHeader& header, std::string_view line) {
-  if (line.find(',') != line.npos) return {};
-  if (line.find(';') != line.npos)
-    return bad_input(where(header) +
-                     "columns are separated by semicolons, probably with decimal commas; save "
-                     "the file with commas between columns and '.' in numbers");
-  if (line.find('\t') != line.npos)
-    return bad_input(where(header) + "columns are separated by tabs; save the file with commas");
-  return {};
+char separator_of(std::string_view header_line) {
+  for (const char separator : {',', ';', '\t'})
+    if (header_line.find(separator) != header_line.npos) return separator;
+  return ',';
+}
+
+// The message states which setting to change.
+Status check_separator(const CsvHeader& header) {
+  if (header.separator == ',' || header.kind != CsvKind::stream) return {};
+  return bad_input(where(header) + "columns are separated by " +
+                   (header.separator == ';' ? "semicolons, probably with decimal commas" : "tabs") +
+                   "; send commas between columns and '.' in numbers");
 }
 
 std::string example_of(CsvKind kind) {
@@ -161,8 +163,9 @@ Status check_required(const CsvHeader& header) {
 }
 
 Status parse_names(CsvHeader& header, std::string_view line) {
-  MDOF_CHECK(check_separator(header, line));
-  header.columns = split(line, ',');
+  header.separator = separator_of(line);
+  MDOF_CHECK(check_separator(header));
+  header.columns = split(line, header.separator);
   MDOF_CHECK(check_first_name(header));
   for (std::size_t column = 0; column < header.columns.size(); ++column)
     MDOF_CHECK(add_column(header, column));

@@ -6,12 +6,13 @@
 //   A_um,B_um                                       stream: live rows, any channels, time_s or not
 //   position_mm,deviation_um                        table: measured series, any columns
 //
-// Columns may have any order. Fields are separated by commas, the decimal sign is '.', lines end in
-// LF or CRLF, and a UTF-8 byte order mark is skipped. A column "A_um" is channel "A" in
-// micrometres. Suffixes: _um _mm _V _C. A column with another unit of the project (_s _hz _urad
-// _deg _percent _hPa _kPa) or without a unit is kept as Unit::other under its whole name; any other
-// suffix is an error. The axis position may also be encoder_um, encoder_m or, if the rig declares
-// the scale, encoder_V. Time must be in seconds.
+// Columns may have any order. Fields are separated by commas, and the decimal sign is '.'. If the
+// header has no comma, the fields may be separated by semicolons or tabs, and the decimal sign may
+// be a comma (not in a stream). Lines end in LF or CRLF, and a UTF-8 byte order mark is skipped. A
+// column "A_um" is channel "A" in micrometres. Suffixes: _um _mm _V _C. A column with another unit
+// of the project (_s _hz _urad _deg _percent _hPa _kPa) or without a unit is kept as Unit::other
+// under its whole name; any other suffix is an error. The axis position may also be encoder_um,
+// encoder_m or, if the rig declares the scale, encoder_V. Time must be in seconds.
 //
 // A table may contain the text columns of mdof's own documents (u_covers, not_declared, flags,
 // reason, travel); they are not read and may be quoted. It may also contain positioning_sense with
@@ -47,6 +48,7 @@ struct CsvHeader {
   int time_column = -1;           // index of the time column; -1: no time column (frames, stream)
   std::vector<Channel> channels;  // all other columns, in the order of the file
   std::vector<std::size_t> channel_columns;  // [channel] -> column
+  char separator = ',';                      // of the fields: ',', ';' or tab
   std::uint64_t lines = 0;                   // number of lines up to and including the header
   std::size_t bytes = 0;                     // number of bytes up to and including the header
 

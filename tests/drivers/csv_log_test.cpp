@@ -93,6 +93,41 @@ Replay replay(const std::string& path, CsvRowsOptions options = {}) {
   return replay(log);
 }
 
+// The same rows with a separator and a decimal sign of a spreadsheet in Germany.
+std::string localised(std::string text, char separator) {
+  for (char& c : text) c = c == ',' ? separator : c == '.' ? ',' : c;
+  return text;
+}
+
+TEST_F(CsvLogTest, ReadsSemicolonsTabsAndDecimalCommas) {
+  const std::string text = log_text(3000);
+  CsvLog log(file(text));
+  const Replay expected = replay(log);
+  ASSERT_EQ(expected.error, "");
+  for (const char separator : {';', '\t'})
+    for (const std::size_t chunk_bytes : {std::size_t{1000}, std::size_t{1} << 18}) {
+      const std::string other = localised(text, separator);
+      CsvLog localised_log(file(other), {.chunk_bytes = chunk_bytes});
+      const Replay found = replay(localised_log);
+      ASSERT_EQ(found.error, "");
+      ASSERT_EQ(found.blocks.size(), expected.blocks.size());
+      for (std::size_t i = 0; i < found.blocks.size(); ++i) {
+        EXPECT_EQ(found.blocks[i].time_ns, expected.blocks[i].time_ns);
+        EXPECT_EQ(found.blocks[i].value, expected.blocks[i].value);
+      }
+      EXPECT_EQ(found.sha256, sha256_hex(other));  // of the file, not of the translated text
+      ASSERT_EQ(found.notices.size(), 1U);
+      EXPECT_EQ(found.notices[0].code, NoticeCode::log_decimal_commas);
+    }
+}
+
+TEST_F(CsvLogTest, RefusesCommasBesidePoints) {
+  std::string text = localised(log_text(3000), ';');
+  text.replace(text.rfind(','), 1, ".");  // in the last row
+  CsvLog log(file(text), {.chunk_bytes = 1000});
+  EXPECT_NE(replay(log).error.find("both commas and points"), std::string::npos);
+}
+
 TEST_F(CsvLogTest, ReplaysAFile) {
   const std::string text = log_text(20'000);
   CsvLog log(file(text));

@@ -120,8 +120,18 @@ TEST(ProbeLogHeader, RejectsTimeAndPositionInOtherUnits) {
 }
 
 TEST(ProbeLogHeader, RecognisesOtherSpreadsheetFormats) {
-  expect_error("time_s;encoder_mm;A_um\n0,1;2,0;3,0\n", {":1:", "semicolon", "decimal comma"});
-  expect_error("time_s\tencoder_mm\tA_um\n", {"tab"});
+  for (const char separator : {',', ';', '\t'}) {
+    const std::string names =
+        std::string("time_s") + separator + "encoder_mm" + separator + "A_um\n";
+    const auto log = parse_csv_header(names, CsvKind::probe_log, "x.csv");
+    ASSERT_TRUE(log) << log.error().message;
+    EXPECT_EQ(log->separator, separator);
+    EXPECT_EQ(log->channels.size(), 2U);
+    const auto stream = parse_csv_header(names, CsvKind::stream, "x.csv");
+    EXPECT_EQ(stream.has_value(), separator == ',');
+  }
+  const auto stream = parse_csv_header("time_s;encoder_mm;A_um\n", CsvKind::stream, "x.csv");
+  EXPECT_NE(stream.error().message.find("semicolons"), std::string::npos);
   expect_error("\xff\xfet\0i\0", {"UTF-16"});
 }
 

@@ -12,6 +12,7 @@
 #include "drivers/calibration.h"
 #include "schema/rig/calibrated.h"
 #include "schema/rig/check/rig_check.h"
+#include "schema/rig/report_facts.h"
 
 namespace mdof::daemon {
 namespace {
@@ -75,16 +76,22 @@ Status check_air(const std::string& source, const std::vector<Channel>& channels
   return {};
 }
 
-// Returns "X" if a comment is "axis: X". Returns "" if no comment states the axis.
-std::string stated_axis(const std::vector<std::string>& comments) {
-  constexpr std::string_view kKey = "axis:";
+// Returns "X" for the key "axis:" if a comment is "axis: X". Returns "" if no comment has the key.
+std::string stated(std::string_view key, const std::vector<std::string>& comments) {
   for (const std::string& comment : comments) {
-    if (!comment.starts_with(kKey)) continue;
-    const auto begin = comment.find_first_not_of(" \t", kKey.size());
+    if (!comment.starts_with(key)) continue;
+    const auto begin = comment.find_first_not_of(" \t", key.size());
     if (begin == std::string::npos) continue;
     return comment.substr(begin, comment.find_first_of(" \t", begin) - begin);
   }
   return "";
+}
+
+// A CSV log may state its start as mdof export does: "started: 2026-11-20T10:11:12.345Z".
+std::string stated_start(const std::vector<std::string>& comments) {
+  const std::string start = stated("started:", comments);
+  const bool utc = start.size() > 11 && start[10] == 'T' && start.back() == 'Z';
+  return utc && is_date(std::string_view(start).substr(0, 10)) ? start : "";
 }
 
 template <class Measuring>
@@ -175,7 +182,7 @@ std::string ReplayLog::rig_text() const {
 }
 
 std::string ReplayLog::started_utc() const {
-  return recording_ ? recording_->header().started_utc : "";
+  return recording_ ? recording_->header().started_utc : stated_start(comments());
 }
 
 Result<RecordedRequest> ReplayLog::asked_for() const {
@@ -209,10 +216,10 @@ Notices ReplayLog::notices() const {
 
 Status check_axis(const std::string& source, const std::vector<std::string>& comments,
                   const Rig& rig) {
-  const std::string stated = stated_axis(comments), of_rig(1, letter(rig.axis));
-  if (stated.empty() || stated == of_rig) return {};
-  return bad_input(source + ": the log is for axis " + stated + ", but the rig " + rig.source +
-                   " is for axis " + of_rig + "; give the rig of axis " + stated);
+  const std::string axis = stated("axis:", comments), of_rig(1, letter(rig.axis));
+  if (axis.empty() || axis == of_rig) return {};
+  return bad_input(source + ": the log is for axis " + axis + ", but the rig " + rig.source +
+                   " is for axis " + of_rig + "; give the rig of axis " + axis);
 }
 
 Status check_channels(const std::string& source, const std::vector<Channel>& channels,

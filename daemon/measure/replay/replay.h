@@ -32,8 +32,9 @@ class ReplayLog {
   drivers::Driver& driver() { return *driver_; }
   const std::string& path() const { return path_; }
   const char* kind() const { return recording_ ? "recording" : "csv"; }
-  std::string rig_text() const;       // rig in the recording; empty for a CSV log
-  std::string started_utc() const;    // start time of the recording; empty for a CSV log
+  std::string rig_text() const;  // rig in the recording; empty for a CSV log
+  // Start time of a recording, or of a CSV log with the comment "started: "; otherwise empty.
+  std::string started_utc() const;
   std::string configuration() const;  // mdofd.toml in the recording; empty for a CSV log
   // The request and the options of the recorded run. The options are read from mdofd.toml of the
   // recording; the request of the run overrides these options. A CSV log has the default options.

@@ -244,17 +244,26 @@ Result<ActiveVolumetric> Store::active_volumetric() {
   return active;
 }
 
-Result<std::vector<std::int64_t>> Store::active_at(const std::string& utc, Axis axis) {
+// The tables at the start, and the tables that were activated between the start and the last stop.
+Result<std::vector<std::int64_t>> Store::active_during(std::int64_t run) {
   MDOF_TRY(
       Statement row,
       connection_.prepare(
-          "SELECT * FROM (SELECT compensation_table FROM activation WHERE axis = ?1 AND "
-          "activated_utc <= ?2 AND generation > (SELECT coalesce(max(generation), 0) FROM "
-          "deactivation WHERE axis = ?1 AND deactivated_utc <= ?2) ORDER BY generation DESC "
-          "LIMIT 1) UNION ALL SELECT * FROM (SELECT volumetric_table FROM "
-          "volumetric_activation WHERE activated_utc <= ?2 ORDER BY generation DESC LIMIT 1)"));
-  const char letter_of_axis = letter(axis);
-  row.bind(std::string_view(&letter_of_axis, 1)).bind(std::string_view(utc));
+          "WITH measured AS (SELECT axis, started_utc AS start, strftime('%Y-%m-%dT%H:%M:%fZ', "
+          "started_utc, ((SELECT max(end_ns) - min(begin_ns) FROM point WHERE id BETWEEN (?1 << "
+          "32) "
+          "AND (?1 << 32) + 4294967295) / 1e9) || ' seconds') AS stop FROM run WHERE id = ?1) "
+          "SELECT * FROM (SELECT compensation_table FROM activation, measured WHERE "
+          "activation.axis = measured.axis AND activated_utc <= start AND generation > (SELECT "
+          "coalesce(max(generation), 0) FROM deactivation WHERE deactivation.axis = measured.axis "
+          "AND deactivated_utc <= start) ORDER BY generation DESC LIMIT 1) "
+          "UNION SELECT * FROM (SELECT volumetric_table FROM volumetric_activation, measured WHERE "
+          "activated_utc <= start ORDER BY generation DESC LIMIT 1) "
+          "UNION SELECT compensation_table FROM activation, measured WHERE activation.axis = "
+          "measured.axis AND activated_utc > start AND activated_utc <= stop "
+          "UNION SELECT volumetric_table FROM volumetric_activation, measured WHERE "
+          "activated_utc > start AND activated_utc <= stop ORDER BY 1"));
+  row.bind(run);
   std::vector<std::int64_t> tables;
   for (;;) {
     MDOF_TRY(const bool found, row.step());

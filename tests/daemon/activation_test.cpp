@@ -77,8 +77,15 @@ TEST_F(ActivationTest, RunsMeasuredWithAVolumetricTableAreNamed) {
   const auto volume = store_->add_volumetric(store::make_volume()).value();
   ASSERT_TRUE(store_->change_volumetric(volume, "me", "2026-11-22T10:00:00.000Z"));
   ASSERT_TRUE(store_->change_volumetric(std::nullopt, "me", "2026-11-22T12:00:00.000Z"));
-  const auto named = [&](Axis axis, const char* hour, const char* kind = "recording") {
+  const auto named = [&](Axis axis, const char* hour, const char* kind = "recording",
+                         std::int64_t minutes = 0) {
     mdof::Run run;
+    run.points.resize(2);
+    for (MeasuredPoint& point : run.points) {
+      point.point.probe_m = {0};
+      point.point.begin_ns = point.point.end_ns = 7;
+    }
+    run.points[1].point.end_ns += minutes * 60'000'000'000;
     run.header.axis = axis;
     run.header.state = RunState::complete;
     run.header.started_utc = std::string("2026-11-22T") + hour + ":00:00.000Z";
@@ -90,6 +97,9 @@ TEST_F(ActivationTest, RunsMeasuredWithAVolumetricTableAreNamed) {
         notice(NoticeCode::measured_with_table, "", {{"run", id}, {"table", volume}}));
   };
   EXPECT_EQ(named(Axis::x, "09"), 0);
+  EXPECT_EQ(named(Axis::x, "09", "recording", 59), 0);
+  EXPECT_EQ(named(Axis::x, "09", "recording", 61), 1) << "activated during the run";
+  EXPECT_EQ(named(Axis::x, "12", "recording", 600), 0) << "deactivated before the run";
   EXPECT_EQ(named(Axis::x, "10"), 1);
   EXPECT_EQ(named(Axis::y, "11"), 1);
   EXPECT_EQ(named(Axis::z, "11"), 0) << "the correction is the same at all positions of Z";

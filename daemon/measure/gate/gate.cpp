@@ -45,7 +45,7 @@ const Notice* invalid_notice(const Notices& notices) {
 Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64_t id) {
   MDOF_TRY(const RunHeader run, store.run_header(id));
   if (run.provenance.recording_kind != "recording") return std::vector<std::int64_t>();
-  MDOF_TRY(const std::vector<std::int64_t> active, store.active_at(run.started_utc, run.axis));
+  MDOF_TRY(const std::vector<std::int64_t> active, store.active_during(id));
   std::vector<std::int64_t> applied;
   for (const std::int64_t table : active) {
     MDOF_TRY(const bool volumetric, store.is_volumetric(table));

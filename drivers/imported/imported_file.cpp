@@ -1,5 +1,6 @@
 #include "drivers/imported/imported_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -9,6 +10,7 @@
 #include "schema/base/files.h"
 #include "schema/base/number/number_text.h"
 #include "schema/base/sha256.h"
+#include "schema/recording/probe_log.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {
@@ -16,9 +18,15 @@ namespace {
 
 constexpr double kMostRuns = 1e6;
 
+bool has_column(const std::string& text, const char* name) {
+  const auto header = parse_csv_header(text, CsvKind::table, "");
+  return header && std::find(header->columns.begin(), header->columns.end(), name) !=
+                       header->columns.end();
+}
+
 std::string format_of(const std::string& text) {
   if (text.find("DEVIATIONS::") != text.npos) return "rtl";
-  return text.find("target_mm") != text.npos ? "iso230-2" : "csv";
+  return has_column(text, "target_mm") ? "iso230-2" : "csv";
 }
 
 Result<ImportedSeries> read_positioning_series(const std::string& path, int descriptor) {
@@ -64,7 +72,8 @@ Result<ImportedSeries> read(const std::string& path, const std::string& text,
     return fail(ErrorCode::usage,
                 "angles can be imported only from a CSV file with the columns position_mm and "
                 "deviation_urad");
-  if (format == "csv" && !error.angle && text.find("deviation_urad") != text.npos)
+  if (format == "csv" && !error.angle && has_column(text, "deviation_urad") &&
+      !has_column(text, "deviation_um"))
     return bad_input(source +
                          ": the column deviation_urad contains an angular error, but this error is "
                          "a length",

@@ -302,11 +302,12 @@ Result<Machine> parse_machine(std::string_view text, const std::string& source_n
   machine.name = root.string("name");
   machine.simulated = root.boolean("simulated", false);
   machine.chain = read_machine(root);
-  if (!machine.chain.known())
+  if (!machine.chain.known()) {
     root.reject("machine",
                 "[machine] chain is missing; add a chain such as chain = \"w-Y-X-b-Z-t\"");
-  else
-    read_axes(root, machine);
+    return tl::unexpected(root.finish().error());  // all other tables name axes of the chain
+  }
+  read_axes(root, machine);
   read_fixed_frames(root, machine);
   read_sources(root, machine);
   machine.squareness = read_stored_rows(root, "squareness");

@@ -181,6 +181,21 @@ TEST(MachineToml, ErrorsNameTheInvalidKey) {
   }
 }
 
+// Without a chain, the machine has no errors that a source could act on.
+TEST(MachineToml, WithoutAValidChainOnlyTheChainIsReported) {
+  const std::string source =
+      "[[source]]\nname = \"s\"\nu = 1\nunit = \"um\"\nacts_on = [{error = \"EBX\", factor = 1}]\n";
+  const auto malformed =
+      parse_machine("name = \"d\"\n[machine]\nchain = \"w-X-b\"\n" + source, "m.toml");
+  ASSERT_FALSE(malformed);
+  EXPECT_NE(malformed.error().message.find("\"w-X-b\" is not a kinematic chain"), std::string::npos)
+      << malformed.error().message;
+  const auto missing = parse_machine("name = \"d\"\n" + source, "m.toml");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("chain is missing"), std::string::npos)
+      << missing.error().message;
+}
+
 // A file may lack u, so u can be declared. Runs and tables have their own u.
 TEST(MachineToml, UncertaintyCompletesAFileButNotRuns) {
   const auto with = [](const std::string& keys) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "algo/iso230/line_fit.h"
+#include "algo/iso230/square_tilt.h"
 #include "algo/iso230/target_means.h"
 #include "algo/model/fixture.h"
 #include "algo/model/restate.h"
@@ -222,7 +223,8 @@ Result<Squareness> squareness(const Run& run_a, const Run& run_b, const SquareAr
   s.slope_b_rad = b.line.slope;
   s.u_slope_b_rad = b.u_slope_rad;
   s.artefact = artefact;
-  s.error_rad = squareness_of(s.axes, s.slope_a_rad, s.slope_b_rad, artefact);
+  s.error_rad = squareness_of(s.axes, s.slope_a_rad, s.slope_b_rad, artefact) +
+                square_tilt_rad(run_a, run_b, s.axes);
   const double u_rad = artefact.u_rad.value_or(0);
   s.u_error_rad = std::sqrt(s.u_slope_a_rad * s.u_slope_a_rad + s.u_slope_b_rad * s.u_slope_b_rad +
                             u_rad * u_rad);

@@ -39,12 +39,12 @@ Result<AxisPair> pair_of(const Run& run_a, const Run& run_b);
 
 // Calculates the squareness from the straightness of each axis in the direction of the other axis:
 // EYX and EXY for X and Y, EZX and EXZ for X and Z, EZY and EYZ for Y and Z. Fits a least-squares
-// line to the mean of both approaches of each straightness error. `at` gives the reference points
-// of the straightness. With the fixture (not with the carriage) the slope is comparable with the
-// face of the square, and the encoder zeros of the two runs may differ. u of a slope is the larger
-// of two values: the propagated u of the targets (GUM 5.1.2), and s/√n of the slopes of n repeats.
-// Errors: runs of the same axis, or not in the order X, Y, Z; fewer than three targets; the errors
-// of check_usable().
+// line to the mean of both approaches of each straightness error. Adds square_tilt_rad(). `at`
+// gives the reference points of the straightness. With the fixture (not with the carriage) the
+// slope is comparable with the face of the square, and the encoder zeros of the two runs may
+// differ. u of a slope is the larger of two values: the propagated u of the targets (GUM 5.1.2),
+// and s/√n of the slopes of n repeats. Errors: runs of the same axis, or not in the order X, Y, Z;
+// fewer than three targets; the errors of check_usable().
 Result<Squareness> squareness(const Run& run_a, const Run& run_b, const SquareArtefact& artefact,
                               bool take_partial = false, const StatedPair& at = {});
 

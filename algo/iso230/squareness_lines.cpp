@@ -18,8 +18,9 @@ Result<ReferenceLines> lines_along(const Run& measured, Axis other) {
 
 SquarenessLine lines_squareness(const ReferenceLine& a, const ReferenceLine& b,
                                 const Squareness& fitted) {
-  return {a.slope_rad, b.slope_rad,
-          squareness_of(fitted.axes, a.slope_rad, b.slope_rad, fitted.artefact)};
+  return {
+      a.slope_rad, b.slope_rad,
+      squareness_of(fitted.axes, a.slope_rad, b.slope_rad, fitted.artefact) + fitted.tilt_rad()};
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ struct SquareArtefact {
 //   EC0Y = -slope(EXY over y) - slope(EYX over x) + corner * artefact angle error
 //   EA0Z = -slope(EYZ over z) - slope(EZY over y) + corner * artefact angle error
 //   EB0Z =  slope(EXZ over z) + slope(EZX over x) - corner * artefact angle error
+// This is the squareness if the square is parallel to the axes; otherwise see
+// Squareness::tilt_rad().
 double squareness_of(AxisPair axes, double slope_a_rad, double slope_b_rad,
                      const SquareArtefact& artefact);
 
@@ -69,6 +71,11 @@ struct Squareness {
   std::string created_utc;
   bool operator==(const Squareness&) const = default;
 
+  // Part of error_rad that squareness_of() does not contain: the effect of second order of a tilted
+  // square (algo/iso230/square_tilt.h).
+  double tilt_rad() const {
+    return error_rad - squareness_of(axes, slope_a_rad, slope_b_rad, artefact);
+  }
   // Names of the two straightness errors, for example "EYX" and "EXY".
   const char* straightness_a() const {
     return error_names(axes.a)[straightness_along(axes.a, axes.b)].name;

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "algo/iso230/square_tilt.h"
 #include "algo/model/restate.h"
 #include "algo/uncertainty/budget/budget_draws.h"
 #include "algo/uncertainty/statistics/common_quantities.h"
@@ -113,18 +114,23 @@ BudgetLine artefact_line(const SquareArtefact& artefact, int sign) {
   return line;
 }
 
+struct TwoRuns {
+  RunBudgets a, b;
+  double tilt_rad = 0;  // square_tilt_rad()
+};
+
 Figure slope_along(Axis of, Axis along) {
   return slope_figure(of, straightness_along(of, along));
 }
 
-Budget squareness_budget(AxisPair axes, const RunBudgets& along_a, const RunBudgets& along_b,
-                         const SquareArtefact& artefact, const TrialsRequest& request) {
+Budget squareness_budget(AxisPair axes, const TwoRuns& runs, const SquareArtefact& artefact,
+                         const TrialsRequest& request) {
   const int sign = squareness_sign(axes);
   const double factor = -sign;
-  TwoSlopes both({std::string(1, letter(axes.a)), along_a, slope_along(axes.a, axes.b), factor},
-                 {std::string(1, letter(axes.b)), along_b, slope_along(axes.b, axes.a), factor});
+  TwoSlopes both({std::string(1, letter(axes.a)), runs.a, slope_along(axes.a, axes.b), factor},
+                 {std::string(1, letter(axes.b)), runs.b, slope_along(axes.b, axes.a), factor});
   both.budget().figure = std::string(squareness_name(axes)) + "_urad";
-  both.budget().value += sign * artefact.corner * artefact.angle_error_rad;
+  both.budget().value += sign * artefact.corner * artefact.angle_error_rad + runs.tilt_rad;
   if (artefact.u_rad.value_or(0) > 0)
     both.add(artefact_line(artefact, sign), {1});
   else if (!artefact.u_rad)
@@ -136,17 +142,13 @@ Budget squareness_budget(AxisPair axes, const RunBudgets& along_a, const RunBudg
   return budget;
 }
 
-struct TwoRuns {
-  RunBudgets a, b;
-};
-
 Result<TwoRuns> two_runs(const Rig& rig_a, const Run& run_a, const Rig& rig_b, const Run& run_b,
                          const StatedPair& at = {}) {
   const Run at_a = restate(run_a, at.a), at_b = restate(run_b, at.b);
   MDOF_TRY(auto of_a, contributors(rig_a, at_a));
   MDOF_TRY(auto of_b, contributors(rig_b, at_b));
   const TwoRunParts parts = parts_of_both_runs(of_a, rig_a.axis, of_b, rig_b.axis);
-  TwoRuns both{{rig_a, at_a}, {rig_b, at_b}};
+  TwoRuns both{{rig_a, at_a}, {rig_b, at_b}, 0};
   for (std::size_t i = 0; i < of_a.size(); ++i) both.a.add(of_a[i], parts.a[i]);
   for (std::size_t i = 0; i < of_b.size(); ++i) both.b.add(of_b[i], parts.b[i]);
   return both;
@@ -157,17 +159,19 @@ Result<TwoRuns> two_runs(const Rig& rig_a, const Run& run_a, const Rig& rig_b, c
 Result<Budget> squareness_budget(const Rig& rig_a, const Run& run_a, const Rig& rig_b,
                                  const Run& run_b, const SquareArtefact& artefact,
                                  const TrialsRequest& request) {
-  MDOF_TRY(const TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b));
-  return squareness_budget({rig_a.axis, rig_b.axis}, runs.a, runs.b, artefact, request);
+  MDOF_TRY(TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b));
+  runs.tilt_rad = square_tilt_rad(run_a, run_b, {rig_a.axis, rig_b.axis});
+  return squareness_budget({rig_a.axis, rig_b.axis}, runs, artefact, request);
 }
 
 Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_a, const Run& run_a,
                                                            const Rig& rig_b, const Run& run_b,
                                                            const SquareArtefact& artefact,
                                                            const StatedPair& at) {
-  MDOF_TRY(const TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b, at));
+  MDOF_TRY(TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b, at));
   const AxisPair axes{rig_a.axis, rig_b.axis};
-  return std::array{squareness_budget(axes, runs.a, runs.b, artefact, {}),
+  runs.tilt_rad = square_tilt_rad(run_a, run_b, axes);
+  return std::array{squareness_budget(axes, runs, artefact, {}),
                     runs.a.of(slope_along(axes.a, axes.b)), runs.b.of(slope_along(axes.b, axes.a))};
 }
 

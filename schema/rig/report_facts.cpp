@@ -35,6 +35,10 @@ std::string fault(std::string_view key, const std::string& value) {
 
 }  // namespace
 
+std::string result_content(const std::string& rig_text) {
+  return TomlTable::content(rig_text, {"report"});
+}
+
 bool is_date(std::string_view text) {
   int year = 0;
   unsigned month = 0, day = 0;

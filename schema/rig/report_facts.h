@@ -33,6 +33,9 @@ const std::vector<ReportKey>& report_keys();
 // Reads [report] of a rig. The error for an invalid value names its key.
 ReportFacts read_report_facts(TomlTable& root);
 
+// The content of a rig (TomlTable::content) without the facts, which do not change any result.
+std::string result_content(const std::string& rig_text);
+
 bool is_date(std::string_view text);  // YYYY-MM-DD
 
 // Sets one fact from --set. Errors (usage): an unknown key, an invalid value.

@@ -97,6 +97,7 @@ Result<Run> replay(const ReplayRequest& request, const ProgressCallback& progres
   MDOF_TRY(auto asked, options_of(request, log));
   MDOF_TRY(const auto options, delayed(std::move(asked), request, log, rig));
   MDOF_TRY(Run run, replay(log, rig, options, progress));
+  if (run.header.started_utc.empty()) run.header.started_utc = rig.report.date;
   if (run.header.started_utc.empty()) run.header.started_utc = utc_now();
   if (!request.note.empty()) run.header.note = request.note;
   return run;

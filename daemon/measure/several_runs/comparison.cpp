@@ -11,10 +11,10 @@
 #include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/base/json_writer.h"
-#include "schema/base/toml/toml_reader.h"
 #include "schema/imported/series.h"
 #include "schema/notice/notice_json.h"
 #include "schema/recording/run_options.h"
+#include "schema/rig/report_facts.h"
 #include "schema/run_json.h"
 #include "schema/sample.h"
 #include "schema/uncertainty/budget_json.h"
@@ -115,7 +115,7 @@ Notices differences(const Run& before, const Run& after) {
                             {"after_from_mm", to_mm(b.first)},
                             {"after_to_mm", to_mm(b.second)}}));
   const Provenance &of_a = before.header.provenance, &of_b = after.header.provenance;
-  if (TomlTable::content(of_a.rig_text) != TomlTable::content(of_b.rig_text))
+  if (result_content(of_a.rig_text) != result_content(of_b.rig_text))
     found.push_back(notice(NoticeCode::rigs_differ));
   if (of_a.model != of_b.model)
     found.push_back(

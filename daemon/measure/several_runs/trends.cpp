@@ -13,9 +13,9 @@
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/words/error_text.h"
-#include "schema/base/toml/toml_reader.h"
 #include "schema/imported/series.h"
 #include "schema/recording/run_options.h"
+#include "schema/rig/report_facts.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -51,7 +51,7 @@ bool earlier(const RunHeader& a, const RunHeader& b) {
 }
 
 struct Chosen {
-  // In the order of time. rig_text is the content of the rig, without comments.
+  // In the order of time. rig_text is result_content() of the rig.
   std::vector<RunHeader> runs;
   std::vector<std::string> left_out;
   Notices notices;
@@ -101,7 +101,7 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
     MDOF_TRY(const auto page, store.list_runs(offset, kRunsPage, axis));  // newest first
     for (RunHeader run : page) {
       std::string& rig = run.provenance.rig_text;
-      if (!contents.contains(rig)) contents[rig] = TomlTable::content(rig);
+      if (!contents.contains(rig)) contents[rig] = result_content(rig);
       rig = contents[rig];
       MDOF_TRY(const auto by, store.superseded_by(run.id));
       std::string recording = run.provenance.recording_sha256;
@@ -133,6 +133,13 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
   leave_out(chosen.left_out, again, "a newer run of the same recording exists");
   std::sort(chosen.runs.begin(), chosen.runs.end(), earlier);
   choose_kind(chosen, mixed);
+  constexpr std::size_t kDay = 10;  // of the rig; a longer text may be the time of the evaluation
+  const auto undated =
+      std::count_if(chosen.runs.begin(), chosen.runs.end(), [](const RunHeader& run) {
+        return run.provenance.recording_kind == "csv" && run.started_utc.size() > kDay;
+      });
+  if (undated > 1)
+    chosen.notices.push_back(notice(NoticeCode::order_of_evaluation, "", {{"runs", undated}}));
   return chosen;
 }
 

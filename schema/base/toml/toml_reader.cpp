@@ -103,9 +103,11 @@ Result<TomlTable> TomlTable::parse(std::string_view text, const std::string& sou
   return TomlTable(std::move(document), std::move(node));
 }
 
-std::string TomlTable::content(const std::string& text) {
+std::string TomlTable::content(const std::string& text,
+                               const std::vector<std::string_view>& without) {
   const auto table = parse(text, "");
   if (!table) return text;
+  for (const std::string_view name : without) table->document_->root.erase(name);
   std::ostringstream content;
   content << table->document_->root;
   return content.str();

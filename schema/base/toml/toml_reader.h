@@ -51,8 +51,10 @@ class TomlTable {
   std::string where(std::string_view key) const;  // "rig.toml:12: probe.range_um"
 
   // The keys and values of the document in a canonical form, without comments. Two documents with
-  // the same content give the same text. If `text` is no TOML document, returns `text`.
-  static std::string content(const std::string& text);
+  // the same content give the same text. The tables `without` of the document are left out. If
+  // `text` is no TOML document, returns `text`.
+  static std::string content(const std::string& text,
+                             const std::vector<std::string_view>& without = {});
 
  private:
   struct Document;

@@ -38,6 +38,9 @@ TEST(TomlTables, ContentHasNoCommentsAndNoOrder) {
   EXPECT_EQ(TomlTable::content("# of 2026\nb = 2.50  # um\n\na=1\n[c]\nx = [ 1,\n 2 ]\n"), content);
   EXPECT_NE(TomlTable::content("a = 1\nb = 2.5000000000000004\n[c]\nx = [1, 2]\n"), content);
   EXPECT_NE(TomlTable::content("a = 1\nb = 2.5\n[c]\nx = [2, 1]\n"), content);
+  EXPECT_EQ(TomlTable::content("a = 1\n[report]\ndate = \"2026-01-01\"\n[c]\nx = [1, 2]\n[d]\n",
+                               {"report", "d"}),
+            TomlTable::content("a = 1\n[c]\nx = [1, 2]\n"));
   EXPECT_EQ(TomlTable::content("no document"), "no document");
 }
 

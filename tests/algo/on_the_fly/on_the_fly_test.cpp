@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 
 #include "algo/points/flags.h"
 #include "algo/points/frame_rows.h"
@@ -201,6 +202,33 @@ TEST(OnTheFlyRun, SuggestsReplayWithStopsForALogWithStops) {
   const Status why = run.check_has_points();
   ASSERT_FALSE(why);
   EXPECT_EQ(why.error().remedy, Remedy::replay_with_stops) << why.error().message;
+}
+
+// 100 mm/s and 500 Hz, with a pause of 1 s at both ends. The remedy must not depend on the pauses.
+TEST(OnTheFlyRun, TheSuggestedBinIsLargeEnough) {
+  FrameBlock frames = empty_frames(1);
+  for (std::int64_t i = 0; i < 1600; ++i) {
+    const double s = 0.002 * static_cast<double>(i % 800) - 1;  // each pass takes 0.6 s
+    const double way_m = 0.1 * std::clamp(s, 0.0, 0.6);
+    frames.time_ns.push_back(kFirst_ns + i * 2'000'000);
+    frames.encoder_m.push_back(i < 800 ? way_m : 0.06 - way_m);
+    frames.probe_m[0].push_back(i % 2 == 0 ? 1e-9 : -1e-9);
+  }
+  const auto measured_with = [&](double bin_mm) {
+    OnTheFlyOptions options;
+    options.interval_mm = options.bin_mm = bin_mm;
+    auto run = std::make_unique<OnTheFly>(TargetGrid(options, {}), std::vector<std::string>{"A"},
+                                          std::vector<double>{200e-6});
+    EXPECT_TRUE(run->push(frames));
+    run->flush();
+    return run;
+  };
+  const Status small = measured_with(1)->check_has_points();
+  ASSERT_FALSE(small);
+  EXPECT_EQ(small.error().remedy, Remedy::larger_bins);
+  const auto run = measured_with(std::stod(small.error().remedy_for));
+  EXPECT_TRUE(run->check_has_points()) << small.error().remedy_for;
+  EXPECT_GT(run->sequence().points.size(), 50U);
 }
 
 // The readings are rounded to steps of 0.5 µm and repeat over several rows. u is the standard

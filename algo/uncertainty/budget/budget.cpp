@@ -12,7 +12,6 @@
 #include "algo/drift/removed_drift.h"
 #include "algo/uncertainty/budget/budget_draws.h"
 #include "algo/uncertainty/coverage.h"
-#include "algo/uncertainty/statistics/range_interval.h"
 #include "algo/uncertainty/statistics/target_noise.h"
 #include "schema/sample.h"
 
@@ -198,16 +197,7 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
   auto trials = drawn(ranges, {kIntervalTrials, 1}, 0);
   for (std::size_t r = 0; r < ranges.size(); ++r) {
     Budget& budget = budgets[place[r]];
-    const RangeTrials range(ranges[r].deviations(means_), std::move(trials[r].changes));
-    const double U = range.U();
-    if (!(U > 0)) continue;
-    budget.U = U;
-    // If a shift is larger than the deviations, +shift and -shift cause nearly the same range, and
-    // u of first order is nearly 0.
-    budget.u_by_trials = !(kMostFirstOrderFactor * budget.u >= U);
-    if (budget.u_by_trials) budget.u = range.root_mean_square(std::max(0.0, budget.value - U));
-    budget.coverage_factor = budget.U / budget.u;
-    budget.U_by_trials = true;
+    state_interval(budget, {ranges[r].deviations(means_), std::move(trials[r].changes)});
   }
   return budgets;
 }
@@ -303,6 +293,18 @@ BudgetTrials RunBudgets::trials(const Figure& figure, const TrialsRequest& reque
   const double value = figure.of(means_), U = range.U();
   return {request.trials, request.seed, range.standard_deviation(), std::max(0.0, value - U),
           value + U};
+}
+
+void state_interval(Budget& budget, const RangeTrials& range) {
+  const double U = range.U();
+  if (!(U > 0)) return;
+  budget.U = U;
+  // If a shift is larger than the deviations, +shift and -shift cause nearly the same range, and u
+  // of first order is nearly 0.
+  budget.u_by_trials = !(kMostFirstOrderFactor * budget.u >= U);
+  if (budget.u_by_trials) budget.u = range.root_mean_square(std::max(0.0, budget.value - U));
+  budget.coverage_factor = budget.U / budget.u;
+  budget.U_by_trials = true;
 }
 
 void complete(Budget& budget) {

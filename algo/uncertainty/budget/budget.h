@@ -14,6 +14,7 @@
 #include "algo/uncertainty/budget/figures.h"
 #include "algo/uncertainty/contributors.h"
 #include "algo/uncertainty/coverage.h"
+#include "algo/uncertainty/statistics/range_interval.h"
 #include "algo/uncertainty/statistics/repeatability.h"
 #include "schema/base/result.h"
 #include "schema/rig/rig.h"
@@ -125,5 +126,7 @@ BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed);
 // share, largest first. If all contributions are 0, u is 0 if all uncertainties are declared;
 // otherwise u is NaN (unknown).
 void complete(Budget& budget);
+// Replaces U, and if necessary u, of a completed budget of a range; see RunBudgets::of().
+void state_interval(Budget& budget, const RangeTrials& range);
 
 }  // namespace mdof::algo

@@ -1,5 +1,6 @@
 #include "algo/uncertainty/budget/budget_draws.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "schema/base/random.h"
@@ -50,6 +51,14 @@ UnitQuantity::UnitQuantity(double freedom)
 void UnitQuantity::quantiles(std::span<double> p) const {
   if (normal_) return gaussians(p);
   for (double& each : p) each = quantile_.at(each);
+}
+
+double student_factor(double normal, double freedom) {
+  constexpr double kLeastRoot = 0.1;
+  if (!std::isfinite(freedom)) return 1;
+  const double variance = 2 / (9 * freedom);
+  const double root = 1 - variance + normal * std::sqrt(variance);
+  return std::pow(std::max(root, kLeastRoot), -1.5);
 }
 
 BlockOfDraws::BlockOfDraws(const Stream& from, std::uint64_t first, std::uint64_t trials)

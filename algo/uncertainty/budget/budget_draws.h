@@ -28,6 +28,10 @@ class UnitQuantity {
   QuantileFunction quantile_;
 };
 
+// Factor √(ν/χ²) that converts normal numbers to numbers of Student's t distribution, with χ² from
+// a standard normal number by the approximation of Wilson and Hilferty.
+double student_factor(double normal, double freedom);
+
 // Draws one quantity after the other. The numbers are those of draw().
 class BlockOfDraws {
  public:

@@ -1,15 +1,8 @@
 #include "algo/uncertainty/statistics/target_noise.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace mdof::algo {
-namespace {
-
-constexpr double kLeastRoot = 0.1;
-
-}  // namespace
 
 TargetNoise::TargetNoise(BlockOfDraws& draws, const Repeatability& random) : random_(random) {
   const UnitQuantity normal(std::numeric_limits<double>::infinity());
@@ -33,10 +26,7 @@ void TargetNoise::add_to(MeanErrors& means, std::size_t trial, double factor) co
 }
 
 double TargetNoise::student(std::size_t trial, double freedom) const {
-  if (!std::isfinite(freedom)) return 1;
-  const double variance = 2 / (9 * freedom);
-  const double root = 1 - variance + for_freedom_[trial] * std::sqrt(variance);
-  return std::pow(std::max(root, kLeastRoot), -1.5);
+  return student_factor(for_freedom_[trial], freedom);
 }
 
 }  // namespace mdof::algo

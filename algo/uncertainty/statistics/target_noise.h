@@ -16,8 +16,7 @@ class TargetNoise {
   // Keeps a reference to `random`.
   TargetNoise(BlockOfDraws& draws, const Repeatability& random);
   void add_to(MeanErrors& means, std::size_t trial, double factor) const;
-  // Factor √(ν/χ²) that converts the normal numbers of one trial to numbers of Student's t
-  // distribution, with χ² by the approximation of Wilson and Hilferty.
+  // student_factor() of one trial.
   double student(std::size_t trial, double freedom) const;
 
  private:

@@ -57,6 +57,7 @@ ComparedFigure compared(const Budget& before, const Budget& after) {
   for (const Budget* of : {&before, &after}) {
     BudgetLine line;
     line.name = {of == &before ? ContributorKind::run_before : ContributorKind::run_after};
+    if (declares(*of)) line.key = "declared";
     line.distribution = "t";
     line.contribution = of->u;
     line.freedom = of->freedom;

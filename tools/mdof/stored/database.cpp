@@ -1,9 +1,27 @@
 #include "tools/mdof/stored/database.h"
 
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
 #include "daemon/paths.h"
 #include "daemon/store/file/writer_lock.h"
 
 namespace mdof::tools {
+namespace {
+
+// The word as a shell reads it.
+std::string shell_word(const std::string& word) {
+  const bool plain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || std::strchr("/._-+:@%,=", c) != nullptr || c >= 128;
+  });
+  if (plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
 
 Result<std::filesystem::path> database_path(const std::string& option) {
   return option.empty() ? daemon::default_database() : std::filesystem::path(option);
@@ -35,6 +53,20 @@ Result<store::Store> open_to_write(const std::string& option) {
   auto store = store::Store::open(file, store::Access::read_write);
   if (!store && store.error().code == ErrorCode::conflict) store.error().code = ErrorCode::io;
   return store;
+}
+
+Result<store::Store> open_existing_to_write(const std::string& option) {
+  MDOF_TRY(const auto file, database_file(option));
+  std::error_code ec;
+  return std::filesystem::exists(file, ec) ? open_to_write(option) : open_to_read(option);
+}
+
+std::string place_options(const std::string& database, const std::string& socket) {
+  std::string options;
+  if (!database.empty()) options = " --db " + shell_word(database);
+  if (!socket.empty() && socket != daemon::default_socket())
+    options += " --socket " + shell_word(socket);
+  return options;
 }
 
 Result<bool> is_locked_by_writer(const std::string& option) {

@@ -35,7 +35,7 @@ Result<std::string> activated(const ActivateCommand& command) {
     params.end_object();
     return mdofd->call("compensation.activate", params.text());
   }
-  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(store::Store store, open_existing_to_write(command.database));
   HistoryEntry action = daemon::action_now("compensation.activate", daemon::this_process());
   action.detail = command.reason;
   MDOF_TRY(const auto done, daemon::activate_table(store, {command.table, command.consent, action,

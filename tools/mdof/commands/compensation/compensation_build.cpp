@@ -33,7 +33,7 @@ struct BuildCommand {
 };
 
 Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
-  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(store::Store store, open_existing_to_write(command.database));
   daemon::TableRequest request{command.runs,
                                command.keep_slope,
                                command.partial,
@@ -112,8 +112,10 @@ Status build(const BuildCommand& asked) {
   const std::string named = std::to_string(table.id) + (table.simulated ? " --simulated" : "") +
                             (doubtful.empty() ? "" : " --despite-warnings");
   say(table.has_positioning()
-          ? "stored; write the files for a controller with: mdof compensation export " + named
-          : "stored; activate the table with: mdof compensation activate " + named);
+          ? "stored; write the files for a controller with: mdof compensation export " + named +
+                place_options(command.database)
+          : "stored; activate the table with: mdof compensation activate " + named +
+                place_options(command.database, command.socket));
   return {};
 }
 

@@ -31,7 +31,7 @@ Result<std::string> deactivated(const DeactivateCommand& command) {
     params.end_object();
     return mdofd->call("compensation.deactivate", params.text());
   }
-  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(store::Store store, open_existing_to_write(command.database));
   HistoryEntry action = daemon::action_now("compensation.deactivate", daemon::this_process());
   action.detail = command.reason;
   const std::string actor = daemon::actor_text(action.by);

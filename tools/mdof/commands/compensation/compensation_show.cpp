@@ -52,7 +52,8 @@ Result<std::int64_t> choose_table(store::Store& store, const ShowTableCommand& c
   return fail(ErrorCode::not_found, store.file().string() +
                                         ": the database has no compensation table" +
                                         (command.axis.empty() ? "" : " of axis " + command.axis) +
-                                        "; build a table with: mdof compensation build RUN");
+                                        "; build a table with: mdof compensation build RUN" +
+                                        place_options(command.database));
 }
 
 Status show_volume(store::Store& store, const ShowTableCommand& command, std::int64_t id) {

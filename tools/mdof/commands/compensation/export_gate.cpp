@@ -5,6 +5,7 @@
 
 #include "daemon/measure/machine/volumetric.h"
 #include "tools/mdof/commands/compensation/active_table.h"
+#include "tools/mdof/stored/database.h"
 
 namespace mdof::tools {
 
@@ -23,7 +24,8 @@ Status judge_active(std::int64_t table, std::int64_t generation, const ExportReq
   const std::string name = "table " + std::to_string(table);
   if (!request.not_active)
     return bad_input(name + " is not active; activate the table (mdof compensation activate " +
-                     std::to_string(table) + "), or export the table with --not-active");
+                     std::to_string(table) + place_options(request.database) +
+                     "), or export the table with --not-active");
   marks.push_back("NOT ACTIVE: " + name + " was not active when it was exported");
   return {};
 }

@@ -69,7 +69,7 @@ Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
   request.grid.approach = approach_from(o.approach);
   request.grid.incomplete = o.incomplete;
   MDOF_TRY(request.grid.limits, command.limits.limits());
-  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(store::Store store, open_existing_to_write(command.database));
   auto built = daemon::calculate_volumetric(store, request);
   if (!built) return in_context(o.machine, std::move(built.error()));
   MDOF_CHECK(daemon::store_volumetric(
@@ -163,7 +163,8 @@ Status build_volume(const VolumeBuild& command) {
                           : write_out(volumetric_text(table, 0)));
   say("stored; activate the table with: mdof compensation activate " + std::to_string(table.id) +
       (table.simulated ? " --simulated" : "") +
-      (built.doubtful.empty() ? "" : " --despite-warnings"));
+      (built.doubtful.empty() ? "" : " --despite-warnings") +
+      place_options(command.database, command.socket));
   return {};
 }
 

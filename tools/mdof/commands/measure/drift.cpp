@@ -101,7 +101,7 @@ Command drift_command() {
           .summary = "Find when the system has warmed up, from a log of a parked axis",
           .footer =
               "Exit code 1: the system has not warmed up yet. To see the drift of a run, use: mdof "
-              "analyse RUN\n"
+              "show RUN --figures\n"
               "Example:\n"
               "  mdof drift parked.csv --rig rig_X.toml --limit-nm-per-h 100",
           .declare = declare_drift};

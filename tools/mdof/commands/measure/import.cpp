@@ -68,7 +68,7 @@ Status import(ImportCommand command) {
   say(std::string("stored; ") +
       (positioning ? "build a compensation table with: mdof compensation build "
                    : "show the run with: mdof show ") +
-      std::to_string(run.header.id));
+      std::to_string(run.header.id) + place_options(command.database));
   if (command.json) return write_line(daemon::import_document(run.header, run.points.size()));
   run.header.notices.clear();  // they were shown already
   return write_out(imported_text(run, {}, "", terminal_columns(), false));

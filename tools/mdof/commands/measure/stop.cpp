@@ -9,6 +9,7 @@
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/text/notice_lines.h"
 
@@ -114,7 +115,7 @@ std::string database_option(const std::string& info) {
   const auto by_default = daemon::default_database();
   const bool is_default =
       by_default && std::filesystem::equivalent(database, *by_default, ec) && !ec;
-  return is_default ? "" : " --db " + database;
+  return is_default ? "" : place_options(database);
 }
 
 Status write_ends(const std::vector<Stopped>& runs, const std::string& database) {

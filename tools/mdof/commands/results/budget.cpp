@@ -139,7 +139,7 @@ Status budget(const BudgetCommand& command) {
     if (const std::string approach = daemon::only_approach(run); !approach.empty())
       warn("run " + std::to_string(id) + " has only the " + approach +
            " approach: the figures are valid for this approach, and the reversal error is unknown");
-    MDOF_CHECK(warn_if_superseded(store, id));
+    MDOF_CHECK(warn_if_superseded(store, id, command.database));
     if (against.empty()) against = daemon::undecidable_reason(store, run);
   }
   const auto decided = command.tolerance

@@ -8,6 +8,7 @@
 #include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
@@ -30,11 +31,11 @@ Result<Run> load_run(store::Store& store, const ChosenRun& choice) {
   return daemon::restated_run(store, id, reference);
 }
 
-Status warn_if_superseded(store::Store& store, std::int64_t run) {
+Status warn_if_superseded(store::Store& store, std::int64_t run, const std::string& database) {
   MDOF_TRY(const auto by, store.superseded_by(run));
   if (by)
     warn("run " + std::to_string(*by) + " supersedes run " + std::to_string(run) +
-         "; see mdof show " + std::to_string(*by));
+         "; see mdof show " + std::to_string(*by) + place_options(database));
   return {};
 }
 

@@ -23,8 +23,8 @@ void add_chosen_run(CLI::App& command, ChosenRun& choice);
 // Loads the run with its errors at the reference point `choice.reference`.
 Result<Run> load_run(store::Store& store, const ChosenRun& choice);
 
-// Warns if another run supersedes this run.
-Status warn_if_superseded(store::Store& store, std::int64_t run);
+// Warns if another run supersedes this run. `database`: the argument of --db.
+Status warn_if_superseded(store::Store& store, std::int64_t run, const std::string& database);
 
 // Writes the CSV table, and prints the notices of the run. Writes the warnings that apply ("#
 // SIMULATED", "# DOUBTFUL", noise only) as lines before the table, because a user may pass on the

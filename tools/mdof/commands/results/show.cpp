@@ -53,7 +53,7 @@ Status figures_csv_or_json(store::Store& store, const Run& run, const ChosenRun&
 Status show_run(const ChosenRun& choice) {
   MDOF_TRY(store::Store store, open_to_read(choice.database));
   MDOF_TRY(const Run run, load_run(store, choice));
-  MDOF_CHECK(warn_if_superseded(store, run.header.id));
+  MDOF_CHECK(warn_if_superseded(store, run.header.id, choice.database));
   if (choice.extent == Extent::figures) {
     MDOF_CHECK(check_measured(run.header, "an analysis"));
     if (choice.csv || choice.json) return figures_csv_or_json(store, run, choice);

@@ -50,7 +50,7 @@ Result<daemon::FittedSquareness> fit(store::Store& store, const SquarenessComman
 }
 
 Result<std::string> fit_locally(const SquarenessCommand& command) {
-  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(store::Store store, open_existing_to_write(command.database));
   MDOF_TRY(const auto fitted, fit(store, command, true));
   MDOF_TRY(const SquarenessByLine lines,
            daemon::squareness_by_reference_line(store, fitted.squareness));

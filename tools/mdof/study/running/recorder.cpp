@@ -101,8 +101,7 @@ Status StudyRecorder::end(const StudyResult& result, const std::string& figures_
 }
 
 std::string StudyRecorder::continue_command() const {
-  return "mdof sensitivity --continue " + std::to_string(*id_) +
-         (database_.empty() ? "" : " --db " + database_);
+  return "mdof sensitivity --continue " + std::to_string(*id_) + place_options(database_);
 }
 
 }  // namespace mdof::tools

@@ -107,7 +107,9 @@ TEST_F(CsvLogTest, ReadsSemicolonsTabsAndDecimalCommas) {
   for (const char separator : {';', '\t'})
     for (const std::size_t chunk_bytes : {std::size_t{1000}, std::size_t{1} << 18}) {
       const std::string other = localised(text, separator);
-      CsvLog localised_log(file(other), {.chunk_bytes = chunk_bytes});
+      CsvRowsOptions options;
+      options.chunk_bytes = chunk_bytes;
+      CsvLog localised_log(file(other), options);
       const Replay found = replay(localised_log);
       ASSERT_EQ(found.error, "");
       ASSERT_EQ(found.blocks.size(), expected.blocks.size());
@@ -124,7 +126,9 @@ TEST_F(CsvLogTest, ReadsSemicolonsTabsAndDecimalCommas) {
 TEST_F(CsvLogTest, RefusesCommasBesidePoints) {
   std::string text = localised(log_text(3000), ';');
   text.replace(text.rfind(','), 1, ".");  // in the last row
-  CsvLog log(file(text), {.chunk_bytes = 1000});
+  CsvRowsOptions options;
+  options.chunk_bytes = 1000;
+  CsvLog log(file(text), options);
   EXPECT_NE(replay(log).error.find("both commas and points"), std::string::npos);
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "algo/uncertainty/conformity/decision.h"
 #include "daemon/measure/evaluation.h"
@@ -132,12 +133,24 @@ bool decide_squareness(report::Report& all, const std::string& figure, double to
   return false;
 }
 
+// "EYX_slope_urad, EYX_straightness_um, ...": the figures of the report that have an uncertainty.
+std::string figure_names(const report::Report& all) {
+  std::set<std::string> names;
+  for (const report::ReportRun& run : all.runs)
+    for (const Budget& budget : run.results.figures.budgets) names.insert(budget.figure);
+  for (const charts::SquarenessOfPair& pair : all.squareness)
+    if (pair.results) names.insert(std::string(squareness_name(pair.axes)) + "_urad");
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 // Decides on all tolerances. Error: a tolerance is for no figure of a run and for no squareness.
 Status decide(report::Report& all, const std::vector<std::pair<std::string, double>>& tolerances) {
   for (const auto& [figure, tolerance] : tolerances) {
-    std::string why =
-        "no run of the report has this figure with an uncertainty; to see the names of the "
-        "figures, make a report without --tolerance";
+    const std::string names = figure_names(all);
+    std::string why = "no run of the report has this figure with an uncertainty" +
+                      (names.empty() ? "" : "; give one of: " + names);
     bool found = decide_squareness(all, figure, tolerance, why);
     for (report::ReportRun& run : all.runs)
       if (const Budget* budget = find_budget(run.results.figures.budgets, figure)) {

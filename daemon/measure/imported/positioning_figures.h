@@ -15,8 +15,9 @@ namespace mdof::daemon {
 // "EXX_range_um", the range of the means of all readings. The member `why` names the missing
 // figures. No figure depends on the sense of the deviations, because no figure has a sign.
 //
-// U of a range is U of the difference between the largest and the smallest mean. U is NaN if one of
-// these two means is from a single reading or from equal readings only. An uncertainty that the run
+// u is the uncertainty of the difference between the largest and the smallest mean; U is that of a
+// range (algo/uncertainty/statistics/range_interval.h), from trials of all means. Both are NaN if
+// one of these two means is from a single reading or from equal readings only. An uncertainty that the run
 // declares is the same for both approaches of a target. This uncertainty cancels in the difference
 // between the two means of a target.
 StatedFigures positioning_figures(const Run& run);

@@ -1,5 +1,5 @@
 // mdof iso230-2 FILE.csv, mdof iso230-2 --run RUN: calculates the parameters of ISO 230-2 from
-// positioning readings in a file or from the errors of a stored run.
+// positioning readings in a file or in an imported run, or from the errors of a stored run.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
@@ -11,6 +11,7 @@
 #include "algo/iso230/positioning/run_readings.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
+#include "daemon/measure/imported/positioning_figures.h"
 #include "daemon/output/charts/analysis/analysis_charts.h"
 #include "daemon/output/charts/plot_files.h"
 #include "daemon/output/charts/run/points.h"
@@ -75,8 +76,7 @@ Status draw_file(const drivers::PositioningCsv& csv, const Positioning& figures,
   return write_plots({{"iso230-2.svg", charts::positioning_svg(picture, language)}}, folder);
 }
 
-Status iso230_of_file(const Iso230Command& command) {
-  MDOF_TRY(const auto csv, drivers::read_positioning_csv(command.file));
+Status iso230_of_readings(const Iso230Command& command, const drivers::PositioningCsv& csv) {
   auto figures = algo::positioning(csv.readings);
   if (!figures) return in_context(csv.source, std::move(figures.error()));
   Notices notices = algo::plan_notices(*figures, from_mm(command.scale_period_mm));
@@ -97,6 +97,24 @@ Status iso230_of_file(const Iso230Command& command) {
   U ? write_positioning_uncertainty(json, *U) : static_cast<void>(json.null());
   json.end_object();
   return write_line(with_notices(json.take(), notices, words::text));
+}
+
+// The readings of an imported run of positioning errors.
+Result<drivers::PositioningCsv> readings_of_imported(const Run& run) {
+  const std::string name = "run " + std::to_string(run.header.id);
+  if (run.header.provenance.model != positioning_name(run.header.axis))
+    return bad_input(name + " was imported as " + run.header.provenance.model +
+                     ", but of the imported runs, only positioning errors (" +
+                     positioning_name(run.header.axis) + ") have parameters of ISO 230-2");
+  if (daemon::has_unknown_approach(run))
+    return bad_input(name +
+                     ": the file does not state the approach of each reading, which ISO 230-2 "
+                     "needs; import a file with a column direction (1 or -1)");
+  drivers::PositioningCsv csv{
+      name + " (" + run.header.provenance.recording_path + ")", run.header.simulated, {}};
+  for (const MeasuredPoint& p : run.points)
+    csv.readings.push_back({p.target_m, p.point.direction, p.run, deviation(p)});
+  return csv;
 }
 
 Status draw_run(const Run& run, const RunPositioning& found, const std::string& folder) {
@@ -122,11 +140,15 @@ Status iso230_of_run(const Iso230Command& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
   MDOF_TRY(const Run run, daemon::restated_run(store, id, reference));
-  if (is_imported(run.header))
-    return bad_input(
-        "run " + std::to_string(id) + " was imported from " + run.header.provenance.recording_path +
-        ", but --run takes only measured or replayed runs; if this file is a CSV with the columns "
-        "target_mm,direction,run,deviation_um, give the file instead of --run");
+  if (is_imported(run.header)) {
+    MDOF_TRY(const auto readings, readings_of_imported(run));
+    return iso230_of_readings(command, readings);
+  }
+  if (uncertainty_of(command))
+    return fail(ErrorCode::usage,
+                "--device-limit-um and --drift-um apply to files and imported runs; the "
+                "uncertainties of run " +
+                    std::to_string(id) + " are those of its rig");
   MDOF_TRY(const RunPositioning found,
            run_positioning(run, command.of_run, from_mm(command.scale_period_mm)));
   show_notices(found.notices, command.all_warnings);
@@ -136,7 +158,10 @@ Status iso230_of_run(const Iso230Command& command) {
 }
 
 Status iso230(const Iso230Command& command) {
-  if (!command.file.empty()) return iso230_of_file(command);
+  if (!command.file.empty()) {
+    MDOF_TRY(const auto csv, drivers::read_positioning_csv(command.file));
+    return iso230_of_readings(command, csv);
+  }
   if (!command.run.empty()) return iso230_of_run(command);
   return fail(ErrorCode::usage, "missing input; give FILE.csv, or --run RUN for a stored run");
 }
@@ -150,7 +175,8 @@ Action declare_iso230_2(CLI::App& command) {
                    ->type_name("");
   auto* run = command
                   .add_option("--run", o->run,
-                              "Evaluate the errors of this stored run (number, or \"latest\")")
+                              "Evaluate the errors of this stored run (number, or \"latest\"), or "
+                              "the readings of an imported run, such as a laser file")
                   ->type_name("RUN")
                   ->check(run_argument_error)
                   ->excludes(file);
@@ -177,14 +203,12 @@ Action declare_iso230_2(CLI::App& command) {
       .add_option(
           "--device-limit-um", o->device_limit_um,
           "Error limit (±) of the measuring device over the travel, needed for U (ISO/TR 230-9)")
-      ->check(not_negative_number())
-      ->excludes(run);
+      ->check(not_negative_number());
   command
       .add_option(
           "--drift-um", o->drift_um,
           "E_VE: range of the readings with the axis at rest, over the duration of the test")
-      ->check(not_negative_number())
-      ->excludes(run);
+      ->check(not_negative_number());
   add_database_option(command, o->database);
   add_plot_option(command, o->plots);
   add_json_flag(command, o->json);

@@ -32,31 +32,33 @@ Run in_square(const Run& measured) {
   return run;
 }
 
-double slope(const Run& run, std::size_t named) {
+double named_slope(const Run& run, std::size_t named) {
   const auto series = target_means(run.header.moving(), run.points, Approach::both);
   return least_squares_line(own_travels(run.header.sides, series), column(series, named)).slope;
 }
 
-struct Direction {
+struct MeasuredDirection {
   double across = 0;  // component along the other axis, minus the slope of the straightness
   double third = 0;   // component along the third axis
 };
 
-Direction direction(const Run& run, Axis other, Axis third) {
+MeasuredDirection measured_direction(const Run& run, Axis other, Axis third) {
   const Axis axis = run.header.axis;
   const Run fixed = restate(run, kAtFixture);
-  if (model_of(run) != Model::rigid) return {0, slope(fixed, straightness_along(axis, third))};
+  if (model_of(run) != Model::rigid)
+    return {0, named_slope(fixed, straightness_along(axis, third))};
   const Run square = in_square(run);
   const std::size_t across = straightness_along(axis, other);
-  return {slope(square, across) - slope(fixed, across),
-          slope(square, straightness_along(axis, third))};
+  return {named_slope(square, across) - named_slope(fixed, across),
+          named_slope(square, straightness_along(axis, third))};
 }
 
 }  // namespace
 
 double square_tilt_rad(const Run& run_a, const Run& run_b, AxisPair axes) {
   const auto third = static_cast<Axis>(3 - static_cast<int>(axes.a) - static_cast<int>(axes.b));
-  const Direction a = direction(run_a, axes.b, third), b = direction(run_b, axes.a, third);
+  const MeasuredDirection a = measured_direction(run_a, axes.b, third),
+                          b = measured_direction(run_b, axes.a, third);
   return -squareness_sign(axes) * (a.across + b.across + a.third * b.third);
 }
 

@@ -119,13 +119,13 @@ std::size_t count_left_out(const std::vector<PassBins>& passes, BinFault fault) 
   return n;
 }
 
-struct Way {
+struct Stretch {
   double way_m = 0, passed_s = 0;
 };
 
-// The way from the first to the last bin that was left out, so without the pauses and ramps at both
+// The stretch from the first to the last bin that was left out, so without the pauses and ramps at both
 // ends of the pass. Without such bins, the whole pass.
-Way way_of(const PassBins& pass) {
+Stretch stretch_of(const PassBins& pass) {
   if (pass.left_out.size() < 2)
     return {std::abs(pass.to_m - pass.from_m), ns_to_s(pass.end_ns - pass.begin_ns)};
   const BinLeftOut &first = pass.left_out.front(), &last = pass.left_out.back();
@@ -152,9 +152,9 @@ Status OnTheFly::check_has_points() const {
   bool dense = false;
   for (const PassBins& pass : passes_) {
     dense = dense || pass.too_dense;
-    const Way way = way_of(pass);
-    way_m += way.way_m;
-    passed_s += way.passed_s;
+    const Stretch stretch = stretch_of(pass);
+    way_m += stretch.way_m;
+    passed_s += stretch.passed_s;
     bins += pass.left_out.size();
   }
   const double speed_m_s = way_m / passed_s, rate_hz = 1 / summary_.period_s;

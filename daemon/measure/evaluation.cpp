@@ -67,8 +67,8 @@ namespace {
 Result<Notices> table_notices(const std::vector<Run>& runs) {
   Notices notices = algo::inherited_notices(algo::all_of(runs));
   if (runs.size() < 2) return notices;
-  MDOF_TRY(Notices uneven, algo::uneven_visit_notices(runs));
-  append(notices, std::move(uneven));
+  MDOF_TRY(Notices differences, differences_of_runs(runs));
+  append(notices, std::move(differences));
   return notices;
 }
 

@@ -8,6 +8,7 @@
 
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/gate/gate.h"
 #include "daemon/measure/machine/volumetric.h"
 #include "schema/base/sqlite/sqlite.h"
 #include "tests/daemon/store/fixtures.h"
@@ -105,6 +106,48 @@ TEST_F(ActivationTest, RunsMeasuredWithAVolumetricTableAreNamed) {
   EXPECT_EQ(named(Axis::z, "11"), 0) << "the correction is the same at all positions of Z";
   EXPECT_EQ(named(Axis::x, "11", "csv"), 0) << "a log does not state when it was measured";
   EXPECT_EQ(named(Axis::x, "12"), 0);
+}
+
+// Run 2 contains the points of run 1, during which the table of axis X was active.
+TEST_F(ActivationTest, ARunThatGoesOnHasTheTablesOfItsFirstPart) {
+  const auto table = store_->add_table(table_).value();
+  ASSERT_TRUE(store_->activate(table, "me", "2026-11-22T10:00:00.000Z"));
+  ASSERT_TRUE(store_->deactivate(Axis::x, "me", "2026-11-22T11:00:00.000Z"));
+  mdof::Run run;
+  run.header.state = RunState::partial;
+  run.header.started_utc = "2026-11-22T10:30:00.000Z";
+  run.header.provenance.recording_kind = "recording";
+  const auto first = store_->add_run(run).value();
+  run.header.state = RunState::complete;
+  run.header.started_utc = "2026-11-22T12:00:00.000Z";
+  run.header.supersedes = first;
+  run.header.notices = {notice(NoticeCode::run_goes_on, "", {{"run", first}, {"datum", ""}})};
+  const auto whole = store_->add_run(run).value();
+  run.header.supersedes = whole;
+  run.header.notices = {};
+  const auto measured_again = store_->add_run(run).value();
+  const auto with_table = [&](std::int64_t id) {
+    const Notices found = source_run_notices(*store_, {id}).value();
+    return std::count(found.begin(), found.end(),
+                      notice(NoticeCode::measured_with_table, "", {{"run", id}, {"table", table}}));
+  };
+  EXPECT_EQ(with_table(first), 1);
+  EXPECT_EQ(with_table(whole), 1);
+  EXPECT_EQ(with_table(measured_again), 0);
+}
+
+TEST_F(ActivationTest, RunsOfDifferentRigsNeedConfirmation) {
+  std::vector<mdof::Run> runs(2);
+  for (mdof::Run& run : runs)
+    run.header.provenance.rig_text = "axis = \"X\"\n[report]\ndate = \"2026-11-20\"\n";
+  runs[1].header.provenance.rig_text = "axis = \"X\"  # the same\n";
+  const auto differ = [&] {
+    const Notices found = differences_of_runs(runs).value();
+    return std::count(found.begin(), found.end(), notice(NoticeCode::rigs_differ));
+  };
+  EXPECT_EQ(differ(), 0);
+  runs[1].header.provenance.rig_text = "axis = \"X\"\n[[probe]]\nid = \"A\"\n";
+  EXPECT_EQ(differ(), 1);
 }
 
 }  // namespace

@@ -1,13 +1,16 @@
 #include "daemon/measure/gate/gate.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "algo/compensation/compensation.h"
 #include "algo/sequence/uneven_visits.h"
 #include "algo/sequence/usable_runs.h"
 #include "daemon/words/words.h"
+#include "schema/base/append_new.h"
 #include "schema/imported/series.h"
+#include "schema/rig/report_facts.h"
 
 namespace mdof::daemon {
 namespace {
@@ -40,21 +43,32 @@ const Notice* invalid_notice(const Notices& notices) {
   return found == notices.end() ? nullptr : &*found;
 }
 
+// The run that this run continues, whose points it contains; nullopt: it continues no run.
+std::optional<std::int64_t> continued_run(const RunHeader& run) {
+  const bool goes_on = std::any_of(run.notices.begin(), run.notices.end(), [](const Notice& n) {
+    return n.code == NoticeCode::run_goes_on;
+  });
+  return goes_on ? run.supersedes : std::nullopt;
+}
+
 // The tables that a controller may have applied while this run was recorded. Only a recording
 // states when it was measured.
 Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64_t id) {
-  MDOF_TRY(const RunHeader run, store.run_header(id));
-  if (run.provenance.recording_kind != "recording") return std::vector<std::int64_t>();
-  MDOF_TRY(const std::vector<std::int64_t> active, store.active_during(id));
   std::vector<std::int64_t> applied;
-  for (const std::int64_t table : active) {
-    MDOF_TRY(const bool volumetric, store.is_volumetric(table));
-    if (volumetric) {
-      MDOF_TRY(const VolumetricTable grid, store.volumetric(table));
-      const auto axis = static_cast<std::size_t>(run.axis);
-      if (grid.command_m[axis].size() < 2) continue;  // the same correction at all targets
+  for (std::optional<std::int64_t> part = id; part;) {
+    MDOF_TRY(const RunHeader run, store.run_header(*part));
+    if (run.provenance.recording_kind != "recording") break;
+    MDOF_TRY(const std::vector<std::int64_t> active, store.active_during(*part));
+    for (const std::int64_t table : active) {
+      MDOF_TRY(const bool volumetric, store.is_volumetric(table));
+      if (volumetric) {
+        MDOF_TRY(const VolumetricTable grid, store.volumetric(table));
+        const auto axis = static_cast<std::size_t>(run.axis);
+        if (grid.command_m[axis].size() < 2) continue;  // the same correction at all targets
+      }
+      append_new(applied, {table});
     }
-    applied.push_back(table);
+    part = continued_run(run);
   }
   return applied;
 }
@@ -91,6 +105,18 @@ Result<Notices> source_run_notices(store::Store& store, const std::vector<std::i
   return found;
 }
 
+Result<Notices> differences_of_runs(const std::vector<Run>& runs) {
+  MDOF_TRY(Notices found, algo::uneven_visit_notices(runs));
+  const auto content = [](const Run& run) {
+    return result_content(run.header.provenance.rig_text);
+  };
+  const bool differ = std::any_of(runs.begin() + 1, runs.end(), [&](const Run& run) {
+    return content(run) != content(runs.front());
+  });
+  if (differ) found.push_back(notice(NoticeCode::rigs_differ));
+  return found;
+}
+
 Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& table) {
   std::vector<Run> runs(table.runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -100,8 +126,8 @@ Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& t
   MDOF_TRY(Notices of_runs, source_run_notices(store, table.runs));
   append(found, std::move(of_runs));
   if (runs.size() < 2 || is_imported(runs.front().header)) return found;
-  MDOF_TRY(Notices uneven, algo::uneven_visit_notices(runs));
-  append(found, std::move(uneven));
+  MDOF_TRY(Notices differences, differences_of_runs(runs));
+  append(found, std::move(differences));
   return without_information(std::move(found));
 }
 

@@ -13,32 +13,32 @@
 namespace mdof::algo {
 namespace {
 
-struct Axis {
+struct ReadAxis {
   int targets = 11, runs = 5;
   double form = 0, reversal = 0;  // in units of the scatter of a reading
   double u_target = 0;
 };
 
-double error_at(const Axis& axis, int target, int direction) {
+double true_error(const ReadAxis& axis, int target, int direction) {
   return axis.form * std::sin(0.6 * target) + direction * axis.reversal / 2;
 }
 
 // Share of the logs whose E and B, with U, contain the true values.
-struct Coverage {
+struct HeldShare {
   double E = 0, B = 0;
 };
 
-Coverage coverage(const Axis& axis) {
+HeldShare share_held(const ReadAxis& axis) {
   std::mt19937_64 random(test::coverage_seed(11));
   std::normal_distribution<double> normal;
   double true_high = -1e9, true_low = 1e9;
   for (int target = 0; target < axis.targets; ++target)
     for (const int direction : {1, -1}) {
-      true_high = std::max(true_high, error_at(axis, target, direction));
-      true_low = std::min(true_low, error_at(axis, target, direction));
+      true_high = std::max(true_high, true_error(axis, target, direction));
+      true_low = std::min(true_low, true_error(axis, target, direction));
     }
   const int logs = test::coverage_runs(100);
-  Coverage found;
+  HeldShare found;
   for (int log = 0; log < logs; ++log) {
     std::vector<MeanOfReadings> ways[2];
     for (int target = 0; target < axis.targets; ++target) {
@@ -46,7 +46,7 @@ Coverage coverage(const Axis& axis) {
       for (const int way : {0, 1}) {
         std::vector<double> readings;
         for (int run = 0; run < axis.runs; ++run)
-          readings.push_back(error_at(axis, target, way == 0 ? 1 : -1) + of_target +
+          readings.push_back(true_error(axis, target, way == 0 ? 1 : -1) + of_target +
                              normal(random));
         MeanOfReadings mean{target, 0, readings.size(), 0};
         for (const double r : readings) mean.value += r / axis.runs;
@@ -70,9 +70,10 @@ Coverage coverage(const Axis& axis) {
 
 // u of the two extreme means alone gives 31 % for E of a flat axis.
 TEST(RangeOfMeans, IntervalsContainTheTrueValues) {
-  for (const Axis& axis : {Axis{}, Axis{11, 2}, Axis{21, 5}, Axis{11, 5, 0.5}, Axis{11, 5, 2, 1},
-                           Axis{11, 5, 10, 3}, Axis{11, 3, 0, 0, 1}, Axis{11, 5, 10, 3, 1}}) {
-    const Coverage found = coverage(axis);
+  for (const ReadAxis& axis :
+       {ReadAxis{}, ReadAxis{11, 2}, ReadAxis{21, 5}, ReadAxis{11, 5, 0.5}, ReadAxis{11, 5, 2, 1},
+        ReadAxis{11, 5, 10, 3}, ReadAxis{11, 3, 0, 0, 1}, ReadAxis{11, 5, 10, 3, 1}}) {
+    const HeldShare found = share_held(axis);
     const auto name = testing::Message() << axis.targets << " targets, " << axis.runs << " runs, "
                                          << axis.form << ", " << axis.reversal;
     EXPECT_GE(found.E, 0.9) << name;

@@ -54,11 +54,10 @@ void attach_certificate(report::Report& report) {
 
 Status write_report(const ReportCommand& command) {
   const std::filesystem::path out = command.out;
-  if (command.pdf && out.extension() == ".pdf")
-    return fail(ErrorCode::usage,
-                "--out " + command.out +
-                    ": the HTML file and the PDF file would have this name; give --out FILE.html, "
-                    "and mdof writes FILE.pdf beside the HTML file");
+  if (out.extension() == ".pdf")
+    return fail(ErrorCode::usage, "--out " + command.out +
+                                      ": the report is an HTML file; give --out FILE.html, and "
+                                      "--pdf to write FILE.pdf beside the HTML file");
   MDOF_TRY(report::Report report, report_of_runs(command.request));
   output::language_from(command.language, report.language);  // the option accepts only valid names
   MDOF_TRY(report.head, company_head(command.head));

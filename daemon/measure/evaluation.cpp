@@ -246,6 +246,7 @@ Result<std::vector<Budget>> state_uncertainty(Squareness& s, const Run& a, const
                                               const Run& b, const Rig& rig_b,
                                               const algo::StatedPair& at = {}) {
   MDOF_TRY(auto budgets, algo::squareness_and_slope_budgets(rig_a, a, rig_b, b, s.artefact, at));
+  budgets[0].value = s.error_rad;  // a stored value may be from an older version
   s.u_error_rad = budgets[0].u;
   s.u_slope_a_rad = budgets[1].u;
   s.u_slope_b_rad = budgets[2].u;

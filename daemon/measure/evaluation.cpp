@@ -125,10 +125,26 @@ Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& re
   return BuiltTable{std::move(table), std::move(notices), doubtful_notices(runs)};
 }
 
+// The newest table of positioning errors of the axis that was built before, from other runs.
+Result<std::optional<std::int64_t>> earlier_positioning(store::Store& store,
+                                                        const CompensationTable& table) {
+  constexpr std::int64_t kNewest = 50;
+  MDOF_TRY(const auto tables, store.list_tables(0, kNewest, table.axis));
+  for (const CompensationTable& earlier : tables)
+    if (earlier.has_positioning() && earlier.runs != table.runs) return std::optional(earlier.id);
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request) {
   MDOF_TRY(BuiltTable built, calculate_table(store, request));
+  if (built.table.has_positioning()) {
+    MDOF_TRY(const auto earlier, earlier_positioning(store, built.table));
+    if (earlier)
+      built.notices.push_back(
+          notice(NoticeCode::perhaps_measured_with_table, "", {{"table", *earlier}}));
+  }
   MDOF_CHECK(store_table(store, built.table, request.action));
   return built;
 }

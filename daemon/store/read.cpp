@@ -211,6 +211,20 @@ Result<std::vector<RunHeader>> Store::list_runs(std::int64_t offset, std::int64_
                  offset, count, axis);
 }
 
+Result<std::vector<std::int64_t>> Store::runs_of_recording(const std::string& sha256) {
+  MDOF_TRY(Statement row,
+           connection_.prepare("SELECT run.id FROM run LEFT JOIN run_end ON run_end.run = run.id "
+                               "JOIN recording ON recording.id = coalesce(run_end.recording, "
+                               "run.recording) WHERE recording.sha256 = ? ORDER BY run.id"));
+  row.bind(std::string_view(sha256));
+  std::vector<std::int64_t> runs;
+  for (;;) {
+    MDOF_TRY(const bool found, row.step());
+    if (!found) return runs;
+    runs.push_back(row.integer(0));
+  }
+}
+
 Result<std::int64_t> Store::count_runs(std::optional<Axis> axis, Listed listed) {
   MDOF_TRY(Statement row,
            connection_.prepare("SELECT count(*) FROM run WHERE " +

@@ -125,6 +125,8 @@ class Store {
   Result<std::vector<RunHeader>> list_runs(std::int64_t offset, std::int64_t count,
                                            std::optional<Axis> axis = std::nullopt,
                                            Listed listed = Listed::all);
+  // The runs from the recording with this hash, in ascending order.
+  Result<std::vector<std::int64_t>> runs_of_recording(const std::string& sha256);
   Result<std::int64_t> count_runs(std::optional<Axis> axis = std::nullopt,
                                   Listed listed = Listed::all);
   // The newest run that supersedes the run.

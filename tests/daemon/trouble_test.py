@@ -237,8 +237,18 @@ class Trouble(unittest.TestCase):
             self.assertLessEqual(int(points), int(of))
         for p in self.client.points(header["run"]):
             self.assertLess(min(abs(p["position_mm"] - t) for t in TARGETS), 0.01, p)
+        self.check_replay(header)
         self.check_live(live)
         self.check_afterwards()
+
+    # The recording contains no problems of devices, but a replay must not look better than the run.
+    def check_replay(self, header):
+        replayed = self.client.call("run.replay", path=header["recording"]["path"])
+        text = " ".join(notice_lines(replayed))
+        for kind in ("lost", "suspect"):
+            self.assertEqual(len(re.findall(rf'run {header["run"]}: device "t7": the problem "{kind}" occurred', text)), 1, text)
+        again = self.client.call("run.replay", path=header["recording"]["path"])
+        self.assertEqual(len(notice_lines(again)), len(notice_lines(replayed)))
 
     def check_live(self, live):
         kinds = []

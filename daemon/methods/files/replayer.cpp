@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "daemon/measure/replay/known_trouble.h"
 #include "schema/base/thread_start.h"
 
 namespace mdof::daemon {
@@ -51,6 +52,8 @@ void Replayer::Shared::work(const Make& make, const HistoryEntry& action, const 
 void Replayer::Shared::store(Result<Made> made, const HistoryEntry& action, const Done& done) {
   if (!made) return done(tl::unexpected(made.error()));
   const bool posted = keeper.post([made = std::move(*made), action, done](store::Store& store) {
+    if (const Status added = add_known_trouble(store, *made.run); !added)
+      return done(tl::unexpected(added.error()));
     const auto id = store.add_run(*made.run, action, made.uncertainty);
     if (!id) return done(tl::unexpected(id.error()));
     made.run->header.id = *id;

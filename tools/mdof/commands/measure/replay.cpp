@@ -5,6 +5,7 @@
 #include "daemon/history.h"
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/replay/known_trouble.h"
 #include "daemon/measure/replay/replay_document.h"
 #include "daemon/measure/replay/replay_options.h"
 #include "schema/base/json_writer.h"
@@ -82,6 +83,7 @@ Result<Run> replay_and_store(const ReplayCommand& command) {
   // Before storing: a run that cannot be shown is not stored.
   MDOF_CHECK(requested_reference(command, run));
   MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_CHECK(daemon::add_known_trouble(store, run));
   MDOF_TRY(run.header.id,
            store.add_run(run, daemon::action_now("run.replay", daemon::this_process()),
                          daemon::uncertainty_of(run)));

@@ -293,7 +293,7 @@ void write_squareness_members(JsonWriter& json, const Squareness& s,
       .field("u_" + slope_a, to_urad(s.u_slope_a_rad))
       .field(slope_b, to_urad(s.slope_b_rad))
       .field("u_" + slope_b, to_urad(s.u_slope_b_rad))
-      .field("tilt_urad", to_urad(s.tilt_rad()))
+      .field("square_tilt_urad", to_urad(s.tilt_rad()))
       .field("artefact_angle_error_urad", to_urad(s.artefact.angle_error_rad))
       .field("u_artefact_angle_urad", to_urad(s.artefact.u_rad.value_or(std::nan(""))));
   json.key("artefact_corner");

@@ -110,7 +110,7 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
            "u_random_E{angular}0{axis}_urad, U_E{angular}0{axis}_urad, k, nu_eff, ...covers, "
            "noise_only, "
            "form_urad, reference, slope_E{linear}{axis}_urad, u_slope_E{linear}{axis}_urad, "
-           "tilt_urad, artefact_angle_error_urad, u_artefact_angle_urad, artefact_corner, "
+           "square_tilt_urad, artefact_angle_error_urad, u_artefact_angle_urad, artefact_corner, "
            "...stated_figures, "
            "slopes_over, sense, simulated, created_utc, ...notices, lines: {end_point: "
            "squareness_line, least_squares: squareness_line, minimum_zone: squareness_line}}",

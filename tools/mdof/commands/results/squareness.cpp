@@ -95,7 +95,7 @@ struct SquarenessDocument {
     const double rest = rad(name) -
                         squareness_of(axes, rad(slope_of(s.straightness_a())),
                                       rad(slope_of(s.straightness_b())), {}) -
-                        rad("tilt");
+                        rad("square_tilt");
     return angle == 0 || text(document, "artefact_corner").empty() ? 0 : std::copysign(angle, rest);
   }
   static std::string slope_of(const std::string& error) { return "slope_" + error; }
@@ -133,7 +133,7 @@ std::string squareness_text(const SquarenessDocument& said) {
   add_slope(table, said, pair.straightness_a(), pair.axes.a);
   add_slope(table, said, pair.straightness_b(), pair.axes.b);
   add_artefact(table, said);
-  if (const double tilt = said.rad("tilt"); std::abs(tilt) > u / 20)
+  if (const double tilt = said.rad("square_tilt"); std::abs(tilt) > u / 20)
     table.add({"tilt of the square", urad_to_place(tilt, u), urad_to_place(tilt, u),
                urad_to_place(tilt, u)});
   table.add(line_row(said, said.name, said.name, urad_to_place(error, u)));

@@ -274,7 +274,7 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
                   bool declare_calibration, Declares declares) {
   std::map<Axis, Rig> rigs, faulty;
   std::map<Axis, Run> runs;
-  double slopes = 0, square = 0;
+  double slopes = 0, square = 0, inclinations = 1;
   std::vector<double> gains;  // X and Y use the same probes and the same top surface of the target
   std::optional<algo::test_faults::DrawnSurface> top;
   for (const Axis axis : {Axis::x, Axis::y}) {
@@ -290,6 +290,8 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
     Run& run = runs[axis] = machine.measure();
     ASSERT_EQ(run.points.size(), 2u * kRepeats * kTargets_mm.size());
     const Run truth = true_run(rigs[axis]);
+    inclinations *=
+        algo::slope_figure(axis, 1).of(algo::RunBudgets::create(rigs[axis], truth).value().means());
     if (axis == Axis::x) {
       count_points(coverage, rigs[axis], run, truth, seed);
       count_table(coverage, rigs[axis], run, truth);
@@ -309,8 +311,9 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
       algo::squareness_budget(rigs[Axis::x], runs[Axis::x], rigs[Axis::y], runs[Axis::y], artefact)
           .value();
   // The true EC0Y includes the error of the square. This error is unknown and the slopes of the
-  // runs do not include it.
-  count(coverage, "EC0Y", budget.value, -slopes - square, budget.U);
+  // runs do not include it. Both axes are inclined to the top of the target: the cosine of the
+  // angle between them is the scalar product of their directions.
+  count(coverage, "EC0Y", budget.value, -slopes - inclinations - square, budget.U);
 }
 
 Coverage coverage_of(Noise kind, int pairs, Declares declares = Declares::all,

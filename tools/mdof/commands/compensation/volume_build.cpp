@@ -69,7 +69,7 @@ Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
   request.grid.approach = approach_from(o.approach);
   request.grid.incomplete = o.incomplete;
   MDOF_TRY(request.grid.limits, command.limits.limits());
-  MDOF_TRY(store::Store store, open_existing_to_write(command.database));
+  MDOF_TRY(store::Store store, open_to_write(command.database));
   auto built = daemon::calculate_volumetric(store, request);
   if (!built) return in_context(o.machine, std::move(built.error()));
   MDOF_CHECK(daemon::store_volumetric(

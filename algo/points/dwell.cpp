@@ -25,8 +25,7 @@ constexpr std::size_t kRowsForPeriod = 33;
 constexpr std::size_t kMinScansPerSlot = 4;
 constexpr std::int64_t kHolePeriods = 5;  // > kMinScansPerSlot: a hole is longer than a slot
 constexpr std::int64_t kShortestUnobserved_ns = 500'000'000;  // the axis may reverse in this time
-constexpr double kMostCreep_m = 50e-6;  // largest creep of a stop that becomes a point
-constexpr std::size_t kPathLength = 64;
+constexpr double kMostCreep_m = 50e-6;   // largest creep of a stop that becomes a point
 constexpr std::size_t kDropRows = 4096;  // rows that are dropped together
 
 double median3(double a, double b, double c) {
@@ -164,12 +163,14 @@ void DwellDetector::add_rows(std::size_t to) {
   double low = open_.rows ? open_.min_m : std::numeric_limits<double>::infinity();
   double high = open_.rows ? open_.max_m : -low;
   double bend = open_.bend_m, sharp = open_.sharp_m;
+  const double turn = turn_m();
   auto [before2, before1] = encoder_before_;
   for (std::size_t i = row_; i < to; ++i) {
     const double encoder = buffer_.encoder_m[i];
     const double voted = median3(before2, before1, encoder);
     low = std::min(low, voted);
     high = std::max(high, voted);
+    motion_.follow(voted, turn);
     const double bent = std::abs(encoder - 2 * before1 + before2);
     bend += bent;
     sharp = std::max(sharp, bent);
@@ -200,24 +201,12 @@ double DwellDetector::window_range() const {
   return high - low;
 }
 
-void DwellDetector::remember_path(double position_m) {
-  if (!path_.empty() && std::abs(path_.back() - position_m) < options_.approach_m) return;
-  path_.push_back(position_m);
-  if (path_.size() > kPathLength) path_.pop_front();
-}
-
 void DwellDetector::extend_travelled_range(const Slot& slot) {
   travelled_range_.min_m = std::min(travelled_range_.min_m, slot.min_m);
   travelled_range_.max_m = std::max(travelled_range_.max_m, slot.max_m);
   range_since_stop_.min_m = std::min(range_since_stop_.min_m, slot.min_m);
   range_since_stop_.max_m = std::max(range_since_stop_.max_m, slot.max_m);
-}
-
-int DwellDetector::direction_to(double position_m) const {
-  for (auto it = path_.rbegin(); it != path_.rend(); ++it) {
-    if (std::abs(*it - position_m) > options_.approach_m) return *it < position_m ? 1 : -1;
-  }
-  return 0;
+  sharp_since_stop_m_ = std::max(sharp_since_stop_m_, slot.sharp_m);
 }
 
 void DwellDetector::close_slot(std::vector<Point>& out) {
@@ -231,7 +220,7 @@ void DwellDetector::close_slot(std::vector<Point>& out) {
   summary_.tolerance_m = options_.tolerance_m > 0
                              ? options_.tolerance_m
                              : std::max(kAutoTolerance_m, kAutoNoiseFactor * encoder_noise_.sd());
-  remember_path(open_.middle());
+  motion_.remember(open_.middle(), options_.approach_m);
   const bool still = window_still();
   examine_window(still);
   if (still && !dwelling_) begin_dwell();
@@ -249,18 +238,15 @@ void DwellDetector::begin_dwell() {
   truncated_ = false;
   still_since_ns_ = slots_.front().begin_ns;
   unplaced_before_ = slots_.front().unplaced;
-  // A short disturbance of the position within a stop is no new approach. In a slow log the slots
-  // are so long that the axis can move past an end target and return within one slot.
-  const bool is_slow = slot_ns_ > static_cast<std::int64_t>(options_.window_s * 1e9) /
-                                      static_cast<std::int64_t>(kSlotsPerWindow);
-  const bool has_left_target =
-      is_slow && (left_m_ - range_since_stop_.min_m > options_.approach_m ||
-                  range_since_stop_.max_m - left_m_ > options_.approach_m);
-  const bool same_stop = left_ns_ != 0 && slots_.front().begin_ns - left_ns_ <= 2 * slot_ns_ &&
-                         std::abs(slots_.back().middle() - left_m_) < options_.approach_m &&
-                         !has_left_target;
-  if (!same_stop) direction_ = direction_to(slots_.back().middle());
-  if (same_stop) travelled_range_ = last_stop_is_point_ ? Way{left_m_, left_m_} : range_to_stop_;
+  const double position_m = slots_.back().middle();
+  const bool same_stop = continues_stop(position_m);
+  if (!same_stop) direction_ = direction_to(position_m);
+  // A larger range would be that of a wrong count.
+  const bool is_short = slots_.front().begin_ns - left_ns_ <= 2 * slot_ns_;
+  if (same_stop && is_short && !last_stop_is_point_) travelled_range_ = range_to_stop_;
+  if (same_stop && is_short && last_stop_is_point_ &&
+      range_since_stop_.max_m - range_since_stop_.min_m > turn_m())
+    travelled_range_ = {left_m_, left_m_};
   range_to_stop_ = travelled_range_;
   drop_rows_before(slots_.front().first_row);
   cut_row_ = slots_.front().first_row + options_.max_scans;
@@ -274,6 +260,7 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
   left_ns_ = slots_.back().begin_ns;
   left_m_ = slots_[slots_.size() - 3].middle();
   range_since_stop_ = {left_m_, left_m_};
+  sharp_since_stop_m_ = 0;
   const std::size_t end_row = std::min(find_rest_end(slots_[slots_.size() - 2]), cut_row_);
   const double still_s = ns_to_s(slots_[slots_.size() - 2].begin_ns - still_since_ns_);
   const auto settled_ns = still_since_ns_ + static_cast<std::int64_t>(options_.settle_s * 1e9);
@@ -371,7 +358,7 @@ void DwellDetector::pass_break(std::vector<Point>& out) {
   breaks_.pop_front();
   end_visible_rows(out);
   slots_.clear();
-  path_.clear();
+  motion_.clear();
   left_ns_ = 0;
   travel_observed_ = false;
   encoder_before_.fill(buffer_.encoder_m[row_]);

@@ -16,6 +16,7 @@
 #include "algo/plausibility/resolution.h"
 #include "algo/plausibility/slow_stretch.h"
 #include "algo/points/dwell_event.h"
+#include "algo/points/motion_trace.h"
 #include "algo/points/over_range.h"
 #include "schema/notice/notice.h"
 #include "schema/point.h"
@@ -35,7 +36,9 @@ struct DwellOptions {
   double leave_s = 0;
   // Shortest averaged time; a shorter stop (a reversal) is no dwell.
   double min_length_s = 0.1;
-  double approach_m = 50e-6;  // travel that determines the direction of approach
+  // Travel that determines the direction of approach. A smaller overrun of an end target also does,
+  // from the larger value of 10 µm and five tolerances.
+  double approach_m = 50e-6;
   // Largest speed of the axis; positions that it cannot reach are left out.
   double max_speed_m_s = 100;
   // Largest number of scans that are averaged for a dwell; limits the memory.
@@ -136,7 +139,8 @@ class DwellDetector {
   // Returns whether the stop has become a point.
   bool keep_or_report(Point point, std::size_t first_row, std::size_t end_row,
                       std::vector<Point>& out);
-  void remember_path(double position_m);
+  double turn_m() const;
+  bool continues_stop(double position_m) const;
   void extend_travelled_range(const Slot& slot);
   int direction_to(double position_m) const;
   void begin_dwell();
@@ -168,7 +172,7 @@ class DwellDetector {
   Slot open_;
   bool slot_open_ = false;
   NoiseFloor encoder_noise_;
-  std::deque<double> path_;          // positions at least approach_m apart, newest last
+  MotionTrace motion_;
   std::deque<std::int64_t> breaks_;  // times of break_after() that the frames have not reached
 
   bool dwelling_ = false, truncated_ = false;
@@ -187,6 +191,7 @@ class DwellDetector {
   // the last stop.
   Way travelled_range_, range_to_stop_;
   Way range_since_stop_;             // range of positions since the axis left the last stop
+  double sharp_since_stop_m_ = 0;    // largest Slot::sharp_m since then
   bool last_stop_is_point_ = false;  // the last stop became a point
   int direction_ = 0;                // direction of approach of the current stop
   std::vector<double> scratch_, finite_;

@@ -1,4 +1,5 @@
-// Finds events besides the stops: creeping, jumps, and probes that froze or stepped.
+// Finds the direction of approach of a stop, and events besides the stops: creeping, jumps, and
+// probes that froze or stepped.
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +10,11 @@
 namespace mdof::algo {
 namespace {
 
+// The axis has reversed if it moved back by more than the larger of these values: the tolerances
+// are for the noise of the encoder.
+constexpr double kTurnTolerances = 5;
+constexpr double kLeastTurn_m = 10e-6;
+constexpr double kGreatest_m_s2 = 10;  // a larger acceleration is an error of the encoder
 constexpr double kJumpTolerances = 10;
 constexpr std::size_t kReach = 6;  // rows that find_jump() needs before and after a jump
 constexpr std::int64_t kGlitch_ns = 1'000'000'000;
@@ -16,6 +22,36 @@ constexpr double kSlowTravel_m = 200e-6;  // a longer travel is a motion, not a 
 constexpr std::size_t kMostEvents = 10'000;
 
 }  // namespace
+
+double DwellDetector::turn_m() const {
+  return std::max(kLeastTurn_m, kTurnTolerances * summary_.tolerance_m);
+}
+
+// If the encoder is too noisy for the last motion, or the axis was not observed, only the path is
+// used.
+int DwellDetector::direction_to(double position_m) const {
+  if (turn_m() >= options_.approach_m || !travel_observed_)
+    return motion_.by_path(position_m, options_.approach_m);
+  return motion_.by_last_motion(position_m, options_.approach_m, travelled_range_.min_m,
+                                travelled_range_.max_m);
+}
+
+// Returns whether the axis continues the last stop: it was disturbed for a short time, or vibrated.
+// In a slow log the slots are so long that the axis can move past an end target and return within
+// one slot.
+bool DwellDetector::continues_stop(double position_m) const {
+  if (left_ns_ == 0 || std::abs(position_m - left_m_) >= options_.approach_m) return false;
+  const double up_m = range_since_stop_.max_m - left_m_, down_m = left_m_ - range_since_stop_.min_m;
+  const double farther_m = std::max(up_m, down_m);
+  const bool is_slow = slot_ns_ > static_cast<std::int64_t>(options_.window_s * 1e9) / 4;
+  if (is_slow && farther_m > options_.approach_m) return false;
+  const bool both_sides = 2 * std::min(up_m, down_m) >= farther_m;
+  if (slots_.front().begin_ns - left_ns_ > 2 * slot_ns_)
+    return both_sides && farther_m <= options_.approach_m && farther_m > turn_m();
+  const double period_s = ns_to_s(period_ns_);
+  const bool is_motion = sharp_since_stop_m_ <= kGreatest_m_s2 * period_s * period_s;
+  return both_sides || farther_m <= turn_m() || !is_motion;
+}
 
 void DwellDetector::note(const DwellEvent& event) {
   if (events_.size() < kMostEvents) events_.push_back(event);

@@ -21,6 +21,13 @@ std::string in_mm(double m) {
   return text.data();
 }
 
+std::string list_in_mm(const std::vector<double>& positions_m) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(positions_m.size(), kMostNamed); ++i)
+    text += (i == 0 ? "" : ", ") + in_mm(positions_m[i]);
+  return text + (positions_m.size() > kMostNamed ? ", ..." : "");
+}
+
 void append(std::vector<StopLeftOut>& to, std::vector<StopLeftOut> more) {
   std::move(more.begin(), more.end(), std::back_inserter(to));
 }
@@ -43,6 +50,7 @@ void place(const std::vector<Point>& points, const SequenceOptions& options, Seq
     }
     MeasuredPoint m;
     m.target = static_cast<int>(t) + 1;
+    m.target_m = sequence.targets_m[t];
     m.point = p;
     sequence.points.push_back(std::move(m));
   }
@@ -70,18 +78,28 @@ void note_left_out(Sequence& sequence) {
       reasons.push_back(stop.reason);
   }
   for (const auto& reason : reasons) {
-    std::string positions_mm;
-    std::size_t count = 0;
-    for (const auto& stop : sequence.left_out) {
-      if (stop.reason != reason || count++ >= kMostNamed) continue;
-      positions_mm += (positions_mm.empty() ? "" : ", ") + in_mm(stop.position_m);
-    }
-    if (count > kMostNamed) positions_mm += ", ...";
+    std::vector<double> positions_m;
+    for (const auto& stop : sequence.left_out)
+      if (stop.reason == reason) positions_m.push_back(stop.position_m);
     const auto code = notice_code_from(reason);
     assert(code);
-    sequence.notices.push_back(
-        notice(*code, "", {{"stops", count}, {"positions_mm", positions_mm}}));
+    sequence.notices.push_back(notice(
+        *code, "", {{"stops", positions_m.size()}, {"positions_mm", list_in_mm(positions_m)}}));
   }
+}
+
+void note_merged(const std::vector<MergedStop>& merged, Sequence& sequence) {
+  if (merged.empty()) return;
+  double most_m = 0;
+  std::vector<double> positions_m;
+  for (const MergedStop& stop : merged) {
+    most_m = std::max(most_m, stop.moved_m);
+    positions_m.push_back(stop.position_m);
+  }
+  sequence.notices.push_back(notice(NoticeCode::stops_merged, "",
+                                    {{"stops", merged.size()},
+                                     {"positions_mm", list_in_mm(positions_m)},
+                                     {"most_um", to_um(most_m)}}));
 }
 
 // `stops` have the flag "overshot" and their direction of travel.
@@ -106,7 +124,7 @@ Sequence recognise_sequence(const std::vector<Point>& points, const SequenceOpti
   const int overshot = correct_overshot(stops);
   place(stops, options, sequence);
   assume_approaches(sequence.points);
-  merge_interrupted(sequence.points);
+  note_merged(merge_interrupted(sequence.points), sequence);
   append(sequence.left_out, leave_out_parked_start(sequence.points));
   if (options.targets_m.empty())
     append(sequence.left_out, leave_out_odd_stops(sequence.points, sequence.targets_m));

@@ -13,6 +13,7 @@ namespace {
 constexpr double kMinStep_m = 2e-6;      // stops at smaller distances are always one target
 constexpr double kMaxScatter_m = 50e-6;  // groups with a larger range are never one target
 constexpr double kStepToScatter = 10;
+constexpr double kLeastTurn_m = 10e-6;       // smaller motions from a stop and back are no approach
 constexpr double kLeastOvershoot_m = 40e-6;  // smaller overshoots do not change the approach
 
 // Returns the largest distance of neighbouring sorted positions that belong to one target.
@@ -32,11 +33,28 @@ double scatter_limit(const std::vector<double>& sorted) {
   return limit;
 }
 
-// Returns whether the axis left the stop between the point before and `p`: it was farther from `p`
-// than kMaxScatter_m.
-bool has_left_stop(const Point& p) {
+// Returns whether the axis left the stop between `before` and `p`. It then was farther from `p`
+// than kMaxScatter_m, or moved past both stops to one side. A vibration moves it to both sides.
+bool has_left_stop(const Point& before, const Point& p) {
+  const auto [low_m, high_m] = std::minmax(before.position_m, p.position_m);
+  const double up_m = p.travel_max_m - high_m, down_m = low_m - p.travel_min_m;
+  const double farther_m = std::max(up_m, down_m);
   return p.travel_max_m - p.position_m > kMaxScatter_m ||
-         p.position_m - p.travel_min_m > kMaxScatter_m;
+         p.position_m - p.travel_min_m > kMaxScatter_m ||
+         (farther_m > kLeastTurn_m && 2 * std::min(up_m, down_m) < farther_m);
+}
+
+// The part that is averaged. If the axis moved to the target in two steps, the stop at the target.
+bool is_better(const MeasuredPoint& part, const MeasuredPoint& stop) {
+  const double part_off_m = std::abs(part.point.position_m - part.target_m);
+  const double stop_off_m = std::abs(stop.point.position_m - part.target_m);
+  if (std::abs(part_off_m - stop_off_m) > kLeastTurn_m) return part_off_m < stop_off_m;
+  return part.point.samples > stop.point.samples;
+}
+
+double moved_between(const Point& before, const Point& p) {
+  const double high_m = std::fmax(std::max(before.position_m, p.position_m), p.travel_max_m);
+  return high_m - std::fmin(std::min(before.position_m, p.position_m), p.travel_min_m);
 }
 
 }  // namespace
@@ -55,7 +73,11 @@ std::vector<double> stop_targets(const std::vector<Point>& points) {
   for (const Point& p : points) {
     const auto above = std::upper_bound(targets.begin(), targets.end(), p.position_m);
     const auto t = static_cast<std::size_t>(above - targets.begin()) - 1;
-    if (!named[t]) first[t] = p.position_m;
+    // The axis may be parked beside its first target.
+    const bool parked_beside = points.front().direction == 0 && p.direction != 0 &&
+                               first[t] == points.front().position_m &&
+                               std::abs(p.position_m - first[t]) > kLeastTurn_m;
+    if (!named[t] || parked_beside) first[t] = p.position_m;
     named[t] = true;
   }
   return first;
@@ -100,9 +122,9 @@ void assume_approaches(std::vector<MeasuredPoint>& points) {
 
 bool merge_into(MeasuredPoint& stop, MeasuredPoint& part) {
   if (stop.target != part.target || stop.point.direction != part.point.direction ||
-      has_left_stop(part.point))
+      has_left_stop(stop.point, part.point))
     return false;
-  if (part.point.samples > stop.point.samples) {
+  if (is_better(part, stop)) {
     // The merged stop keeps the path of its first part.
     part.point.travel_min_m = stop.point.travel_min_m;
     part.point.travel_max_m = stop.point.travel_max_m;
@@ -112,18 +134,27 @@ bool merge_into(MeasuredPoint& stop, MeasuredPoint& part) {
   return true;
 }
 
-void merge_interrupted(std::vector<MeasuredPoint>& points) {
+std::vector<MergedStop> merge_interrupted(std::vector<MeasuredPoint>& points) {
   std::vector<MeasuredPoint> merged;
-  for (auto& p : points)
-    if (merged.empty() || !merge_into(merged.back(), p)) merged.push_back(std::move(p));
+  std::vector<MergedStop> moved;
+  for (auto& p : points) {
+    const MergedStop stop = {p.point.position_m,
+                             merged.empty() ? 0 : moved_between(merged.back().point, p.point)};
+    if (merged.empty() || !merge_into(merged.back(), p))
+      merged.push_back(std::move(p));
+    else if (stop.moved_m > kMinStep_m)
+      moved.push_back(stop);
+  }
   points = std::move(merged);
+  return moved;
 }
 
 std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& points) {
   if (points.size() < 2) return {};
   const MeasuredPoint &parked = points[0], &next = points[1];
   const bool again = next.target == parked.target && next.point.direction == parked.point.direction;
-  if (!has_flag(parked.point, Flag::approach_assumed) || !again || !has_left_stop(next.point))
+  if (!has_flag(parked.point, Flag::approach_assumed) || !again ||
+      !has_left_stop(parked.point, next.point))
     return {};
   std::vector<StopLeftOut> left_out = {{parked.point.position_m, parked.point.begin_ns,
                                         to_string(NoticeCode::stop_parked_at_start)}};

@@ -35,9 +35,15 @@ bool correct_overshot(Point& stop);
 // stop.
 void assume_approaches(std::vector<MeasuredPoint>& points);
 
+struct MergedStop {
+  double position_m = 0, moved_m = 0;  // moved_m: range of the positions from stop to stop
+};
+
 // Merges two consecutive stops at one target with the same approach if the axis did not leave the
-// target between them. The longer stop is kept.
-void merge_interrupted(std::vector<MeasuredPoint>& points);
+// target between them: it moved by at most 10 µm past both stops to one side, or by 50 µm to both
+// sides. The longer stop is kept. If their distances from the target differ by more than 10 µm, the
+// nearer stop is kept. Returns the merged stops between which the axis moved by more than 2 µm.
+std::vector<MergedStop> merge_interrupted(std::vector<MeasuredPoint>& points);
 
 // Merges `part` into `stop` under the conditions of merge_interrupted(). Returns whether they were
 // merged.

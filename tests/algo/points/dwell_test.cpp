@@ -367,21 +367,6 @@ TEST(Sequence, StopWithARecordingGapCountsOnce) {
   }
 }
 
-TEST(Sequence, InterruptedStopCountsOnce) {
-  Stepper axis;
-  axis.move_to(0);
-  axis.dwell();
-  axis.move_to(40e-6);  // a short disturbance
-  for (int i = 0; i < 20; ++i) axis.scan();
-  axis.move_to(0);
-  axis.dwell();
-  axis.move_to(2e-3);
-  axis.dwell();
-  const Sequence s = recognise_sequence(detect(axis.frames, 1000), {});
-  ASSERT_EQ(s.points.size(), 2u);
-  EXPECT_EQ(to_string(s.points[0].point.flags), "interrupted");
-}
-
 // A slow probe has a new reading every fourth row. The readings between them are interpolated.
 TEST(Dwell, AveragesOnlyFreshReadings) {
   Stepper axis;

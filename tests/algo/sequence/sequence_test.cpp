@@ -134,7 +134,7 @@ TEST(Cycle, ReportsAnUnknownCycle) {
 }
 
 TEST(Cycle, OvershootOfEveryStopIsNoTurn) {
-  for (const double by_m : {60e-6, 100e-6, 200e-6}) {
+  for (const double by_m : {40e-6, 100e-6, 200e-6}) {
     Machine m;
     m.speed_m_s = 4e-3;
     for (int run = 1; run <= 3; ++run) {
@@ -153,7 +153,7 @@ TEST(Cycle, OvershootOfEveryStopIsNoTurn) {
     EXPECT_EQ(s.runs, 3);
     EXPECT_EQ(s.cycle, Cycle::standard);
     // An overshoot is reported only if it looks like an approach from the other side.
-    EXPECT_EQ(test::has(s.notices, NoticeCode::stop_overshot), by_m > 60e-6) << by_m;
+    EXPECT_EQ(test::has(s.notices, NoticeCode::stop_overshot), by_m > 50e-6) << by_m;
     for (const Notice& told : s.notices) {
       if (told.code != NoticeCode::stop_overshot) continue;
       EXPECT_NEAR(std::get<double>(*value(told, "most_mm")), by_m * 1e3, 0.01);

@@ -126,12 +126,19 @@ Sequence recognise_sequence(const std::vector<Point>& points, const SequenceOpti
   assume_approaches(sequence.points);
   note_merged(merge_interrupted(sequence.points), sequence);
   append(sequence.left_out, leave_out_parked_start(sequence.points));
-  if (options.targets_m.empty())
-    append(sequence.left_out, leave_out_odd_stops(sequence.points, sequence.targets_m));
+  OddStops odd;
+  if (options.targets_m.empty()) odd = leave_out_odd_stops(sequence.points, sequence.targets_m);
+  append(sequence.left_out, std::move(odd.left_out));
   sequence.targets = static_cast<int>(sequence.targets_m.size());
   number_runs(sequence);
   note_left_out(sequence);
   note_overshot(overshot, stops, sequence);
+  if (odd.assumed_target != 0) {
+    const double at_m = sequence.targets_m[static_cast<std::size_t>(odd.assumed_target) - 1];
+    sequence.notices.push_back(
+        notice(NoticeCode::end_target_assumed, "",
+               {{"target", odd.assumed_target}, {"position_mm", to_mm(at_m)}}));
+  }
   if (sequence.cycle == Cycle::none) sequence.notices.push_back(notice(NoticeCode::cycle_unknown));
   return sequence;
 }

@@ -16,20 +16,22 @@ namespace {
 constexpr double kCertainTargetShare = 0.6;
 // Places with at least this share of the typical number of visits determine the typical approaches.
 constexpr double kTypicalVisitsShare = 0.75;
-constexpr double kTooNear = 0.6;    // smallest distance to a target, in typical intervals
-constexpr double kTooFar = 1.6;     // largest distance to the end target, in typical intervals
+constexpr double kTooNear = 0.6;  // smallest distance to a target, in typical intervals
+constexpr double kTooFar = 1.6;   // largest distance to the end target, in typical intervals
+constexpr double kEvenInterval = 0.02, kSameInterval = 0.1;  // shares of the typical interval
 constexpr std::size_t kFewest = 4;  // places necessary if all places have one visit
 constexpr int kCertainVisits = 3;   // typical number of visits; see may_be_a_target()
 
 // A place where the axis stopped.
 struct Place {
   double position_m = 0;
-  int forward = 0, reverse = 0;
-  // true: the only visit is the first stop of the log, and its approach was not observed.
-  bool parked = false;
-  bool first = false, last = false;
+  int forward = 0, reverse = 0;  // visits with an observed approach
+  // The first stop of the log was here, and its approach was not observed: the axis may be parked.
+  bool begins_here = false;
+  bool first = false, last = false;  // an observed visit is the first, or the last, stop of the log
   bool kept = false;
   int visits() const { return forward + reverse; }
+  bool is_parked() const { return begins_here && visits() == 0; }
 };
 
 struct Typical {
@@ -37,6 +39,7 @@ struct Typical {
   bool both_sides = false;
   int direction = 0;  // direction of all visits if they are from one side
   double interval_m = 0;
+  bool is_even = false;  // all intervals are equal within kEvenInterval
 };
 
 std::vector<Place> places_of(const std::vector<MeasuredPoint>& points,
@@ -45,13 +48,14 @@ std::vector<Place> places_of(const std::vector<MeasuredPoint>& points,
   for (std::size_t t = 0; t < places.size(); ++t) places[t].position_m = targets_m[t];
   for (std::size_t i = 0; i < points.size(); ++i) {
     Place& place = places[static_cast<std::size_t>(points[i].target) - 1];
+    place.last = place.last || i + 1 == points.size();
+    if (i == 0 && has_flag(points[i].point, Flag::approach_assumed)) {
+      place.begins_here = true;
+      continue;
+    }
     ++(points[i].point.direction > 0 ? place.forward : place.reverse);
     place.first = place.first || i == 0;
-    place.last = place.last || i + 1 == points.size();
   }
-  if (points.empty()) return places;
-  Place& start = places[static_cast<std::size_t>(points.front().target) - 1];
-  start.parked = start.visits() == 1 && has_flag(points.front().point, Flag::approach_assumed);
   return places;
 }
 
@@ -77,6 +81,10 @@ double median(std::vector<double> x) {
   return x.empty() ? 0 : x[x.size() / 2];
 }
 
+bool is_interval(double distance_m, const Typical& typical, double share) {
+  return std::abs(distance_m - typical.interval_m) <= share * typical.interval_m;
+}
+
 Typical typical_of(std::vector<Place>& places) {
   Typical typical;
   typical.visits = typical_visits(places);
@@ -95,7 +103,11 @@ Typical typical_of(std::vector<Place>& places) {
     if (p.kept && before) intervals.push_back(p.position_m - before->position_m);
     if (p.kept) before = &p;
   }
-  typical.interval_m = median(std::move(intervals));
+  typical.interval_m = median(intervals);
+  typical.is_even = intervals.size() + 1 >= kFewest &&
+                    std::all_of(intervals.begin(), intervals.end(), [&](double interval_m) {
+                      return is_interval(interval_m, typical, kEvenInterval);
+                    });
   return typical;
 }
 
@@ -122,8 +134,13 @@ bool may_be_a_target(const Place& place, const Neighbours& n, const Typical& typ
   if (nearest_m < kTooNear * typical.interval_m) return false;
   const bool inside = std::isfinite(n.below_m) && std::isfinite(n.above_m);
   if (inside) return true;
-  const bool once = place.visits() == 1 && n.sure;
-  if (once && (place.parked || typical.visits >= kCertainVisits)) return false;
+  const bool once = place.visits() <= 1 && n.sure;
+  if (once && (place.is_parked() || typical.visits >= kCertainVisits)) return false;
+  // The axis was parked here before the first and after the last target.
+  const bool at_ends_of_log = place.begins_here || place.last;
+  if (once && at_ends_of_log && typical.both_sides && typical.is_even &&
+      !is_interval(nearest_m, typical, kSameInterval))
+    return false;
   return nearest_m <= kTooFar * typical.interval_m;
 }
 
@@ -158,15 +175,20 @@ void judge_start(std::vector<Place>& places) {
   const auto off_grid = [&](double interval_m) {
     return interval_m < kTooNear * typical_m || interval_m > kTooFar * typical_m;
   };
-  if (places.front().parked && off_grid(intervals.front())) places.front().kept = false;
-  if (places.back().parked && off_grid(intervals.back())) places.back().kept = false;
+  if (places.front().is_parked() && off_grid(intervals.front())) places.front().kept = false;
+  if (places.back().is_parked() && off_grid(intervals.back())) places.back().kept = false;
+}
+
+// Returns whether the axis may only have been parked at this place, or turned there.
+bool is_unsure(const Place& p) {
+  return p.begins_here && (p.forward == 0 || p.reverse == 0);
 }
 
 // Returns the reason why a place is no target. The axis may stop anywhere before the first visit,
 // after the last visit, and outside the end targets.
-NoticeCode reason(const std::vector<Place>& places, std::size_t at) {
+NoticeCode reason(const std::vector<Place>& places, std::size_t at, bool begins_log) {
   const Place& p = places[at];
-  if (p.parked) return NoticeCode::stop_parked_at_start;
+  if (begins_log && p.begins_here) return NoticeCode::stop_parked_at_start;
   if (p.visits() == 1 && p.first) return NoticeCode::stop_before_first_target;
   if (p.visits() == 1 && p.last) return NoticeCode::stop_at_end_of_log;
   const auto kept = [](const Place& q) { return q.kept; };
@@ -178,8 +200,7 @@ NoticeCode reason(const std::vector<Place>& places, std::size_t at) {
 
 }  // namespace
 
-std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,
-                                             std::vector<double>& targets_m) {
+OddStops leave_out_odd_stops(std::vector<MeasuredPoint>& points, std::vector<double>& targets_m) {
   std::vector<Place> places = places_of(points, targets_m);
   const Typical typical = typical_of(places);
   if (typical.visits <= 1) {
@@ -196,16 +217,19 @@ std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,
     kept_m.push_back(targets_m[i]);
     number[i] = static_cast<int>(kept_m.size());
   }
-  std::vector<StopLeftOut> left_out;
+  OddStops found;
   for (MeasuredPoint& p : points) {
     const auto at = static_cast<std::size_t>(p.target) - 1;
     p.target = number[at];
     if (p.target != 0) continue;
-    left_out.push_back({p.point.position_m, p.point.begin_ns, to_string(reason(places, at))});
+    found.left_out.push_back({p.point.position_m, p.point.begin_ns,
+                              to_string(reason(places, at, &p == &points.front()))});
   }
   std::erase_if(points, [](const MeasuredPoint& p) { return p.target == 0; });
   targets_m = std::move(kept_m);
-  return left_out;
+  for (std::size_t i = 0; typical.both_sides && typical.visits > 1 && i < places.size(); ++i)
+    if (places[i].kept && is_unsure(places[i])) found.assumed_target = number[i];
+  return found;
 }
 
 }  // namespace mdof::algo

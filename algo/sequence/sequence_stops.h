@@ -49,11 +49,18 @@ std::vector<MergedStop> merge_interrupted(std::vector<MeasuredPoint>& points);
 // merged.
 bool merge_into(MeasuredPoint& stop, MeasuredPoint& part);
 
+struct OddStops {
+  std::vector<StopLeftOut> left_out;
+  // Target at which the log begins, and which was not approached from both sides as other targets:
+  // the axis may only have been parked there, or turned. 0: none.
+  int assumed_target = 0;
+};
+
 // Finds by comparison with the other stops the stops at no target (a parked axis, a pause, a
-// reversal). Removes these stops from `points` and returns them. Removes targets without points
-// from `targets_m`; the target numbers of the points are changed accordingly.
-std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,
-                                             std::vector<double>& targets_m);
+// reversal). The first stop of the log is no visit if its approach was not observed. Removes these
+// stops from `points` and returns them. Removes targets without points from `targets_m`; the target
+// numbers of the points are changed accordingly.
+OddStops leave_out_odd_stops(std::vector<MeasuredPoint>& points, std::vector<double>& targets_m);
 // Removes and returns the first stop of the log if its approach was not observed, and the next stop
 // is at the same target with the same approach after the axis left the target.
 std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& points);

@@ -41,7 +41,7 @@ Told left_out_stops(const std::vector<Visited>& places, bool parked_first = fals
   }
   if (parked_first) add_flag(points.front().point, Flag::approach_assumed);
   Told reported;
-  for (const StopLeftOut& stop : leave_out_odd_stops(points, targets_m))
+  for (const StopLeftOut& stop : leave_out_odd_stops(points, targets_m).left_out)
     reported.reasons.push_back(stop.reason);
   for (const double x : targets_m) reported.kept_mm.push_back(1e3 * x);
   for (const MeasuredPoint& p : points)
@@ -261,7 +261,7 @@ std::vector<std::string> left_out_reasons(const std::vector<Stop>& stops,
   }
   if (parked_first) add_flag(points.front().point, Flag::approach_assumed);
   std::vector<std::string> reasons;
-  for (const StopLeftOut& stop : leave_out_odd_stops(points, targets_m))
+  for (const StopLeftOut& stop : leave_out_odd_stops(points, targets_m).left_out)
     reasons.push_back(stop.reason);
   return reasons;
 }

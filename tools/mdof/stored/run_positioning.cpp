@@ -42,8 +42,10 @@ Result<std::vector<std::size_t>> chosen_errors(const std::vector<std::string>& a
 Status add_error(const Run& run, std::size_t k, double scale_period_m, RunPositioning& found) {
   const auto series = algo::readings_of_run(run, k, found.keep_slope);
   auto figures = algo::positioning(series.readings);
-  if (!figures)
+  if (!figures) {
+    figures.error().remedy = Remedy::replay_with_targets;
     return in_context("run " + std::to_string(run.header.id), std::move(figures.error()));
+  }
   append_new(found.notices, algo::plan_notices(*figures, scale_period_m));
   if (series.left_out > 0)
     append_new(found.notices,

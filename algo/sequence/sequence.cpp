@@ -70,6 +70,14 @@ void number_runs(Sequence& sequence) {
   }
 }
 
+// Returns the largest distance of these positions from the nearest target.
+double farthest(const std::vector<double>& positions_m, const std::vector<double>& targets_m) {
+  double most_m = 0;
+  for (const double at_m : positions_m)
+    most_m = std::max(most_m, std::abs(at_m - targets_m[nearest_target(targets_m, at_m)]));
+  return most_m;
+}
+
 // Adds one notice for each reason with the first few positions.
 void note_left_out(Sequence& sequence) {
   std::vector<std::string> reasons;
@@ -83,8 +91,15 @@ void note_left_out(Sequence& sequence) {
       if (stop.reason == reason) positions_m.push_back(stop.position_m);
     const auto code = notice_code_from(reason);
     assert(code);
-    sequence.notices.push_back(notice(
-        *code, "", {{"stops", positions_m.size()}, {"positions_mm", list_in_mm(positions_m)}}));
+    const auto count = positions_m.size();
+    const std::string at_mm = list_in_mm(positions_m);
+    sequence.notices.push_back(
+        *code == NoticeCode::stop_beside_target
+            ? notice(*code, "",
+                     {{"stops", count},
+                      {"positions_mm", at_mm},
+                      {"distance_mm", to_mm(farthest(positions_m, sequence.targets_m))}})
+            : notice(*code, "", {{"stops", count}, {"positions_mm", at_mm}}));
   }
 }
 
@@ -124,6 +139,8 @@ Sequence recognise_sequence(const std::vector<Point>& points, const SequenceOpti
   const int overshot = correct_overshot(stops);
   place(stops, options, sequence);
   assume_approaches(sequence.points);
+  if (!options.targets_m.empty())
+    append(sequence.left_out, leave_out_beside_targets(sequence.points));
   note_merged(merge_interrupted(sequence.points), sequence);
   append(sequence.left_out, leave_out_parked_start(sequence.points));
   OddStops odd;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "algo/points/flags.h"
+#include "algo/points/median.h"
 
 namespace mdof::algo {
 namespace {
@@ -147,6 +148,34 @@ std::vector<MergedStop> merge_interrupted(std::vector<MeasuredPoint>& points) {
   }
   points = std::move(merged);
   return moved;
+}
+
+std::vector<StopLeftOut> leave_out_beside_targets(std::vector<MeasuredPoint>& points) {
+  std::vector<double> off_m;
+  for (const MeasuredPoint& p : points) off_m.push_back(p.point.position_m - p.target_m);
+  // All positions may be shifted against the nominal positions.
+  const double shift_m = median_of(off_m);
+  for (double& off : off_m) off = std::abs(off - shift_m);
+  const double most_m = std::max(kLeastTurn_m, kStepToScatter * median_of(off_m));
+  std::vector<StopLeftOut> left_out;
+  std::vector<MeasuredPoint> kept;
+  for (std::size_t from = 0, to = 0; from < points.size(); from = to) {
+    bool any_near = false;
+    for (to = from; to < points.size() && points[to].target == points[from].target; ++to)
+      any_near = any_near || off_m[to] <= most_m;
+    for (std::size_t i = from; i < to; ++i) {
+      const Point& stop = points[i].point;
+      const bool parked = i == 0 && has_flag(stop, Flag::approach_assumed);
+      if (any_near && off_m[i] > most_m)
+        left_out.push_back({stop.position_m, stop.begin_ns,
+                            to_string(parked ? NoticeCode::stop_parked_at_start
+                                             : NoticeCode::stop_beside_target)});
+      else
+        kept.push_back(std::move(points[i]));
+    }
+  }
+  points = std::move(kept);
+  return left_out;
 }
 
 std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& points) {

@@ -61,6 +61,10 @@ struct OddStops {
 // stops from `points` and returns them. Removes targets without points from `targets_m`; the target
 // numbers of the points are changed accordingly.
 OddStops leave_out_odd_stops(std::vector<MeasuredPoint>& points, std::vector<double>& targets_m);
+// For given targets: the axis stopped several times at one target without a stop at another target.
+// Removes and returns the stops that are farther from the target than another of these stops: by
+// more than 10 µm, and more than ten times the median distance of all stops from their targets.
+std::vector<StopLeftOut> leave_out_beside_targets(std::vector<MeasuredPoint>& points);
 // Removes and returns the first stop of the log if its approach was not observed, and the next stop
 // is at the same target with the same approach after the axis left the target.
 std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& points);

@@ -63,6 +63,7 @@ Status OnTheFly::push(const FrameBlock& frames) {
       last_ns_ = frames.time_ns[i];
     }
     summary_.scans += to - from;
+    jumps_.push(frames, from, to);
     MDOF_CHECK(finder_.push(frames, from, to, take));
     from = places_.find_unplaced_end(frames, to);
     summary_.unplaced = places_.left_out();
@@ -71,6 +72,7 @@ Status OnTheFly::push(const FrameBlock& frames) {
 }
 
 void OnTheFly::flush() {
+  jumps_.flush();
   finder_.flush([this](const AxisPass& pass) { take_pass(pass); });
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "algo/on_the_fly/jump_search.h"
 #include "algo/on_the_fly/pass_bins.h"
 #include "algo/on_the_fly/passes.h"
 #include "algo/on_the_fly/reading_lag.h"
@@ -40,7 +41,8 @@ class OnTheFly {
   Sequence sequence() const;
   // Error: there is no point. The error states measured values and what to change.
   Status check_has_points() const;
-  // Notices about events in the log that are not visible in the points.
+  // Notices about events in the log that are not visible in the points. If the encoder's count
+  // jumped by 50 µm or more, the positions after the jump are invalid.
   Notices notices() const;
   // Notices about the method: that the run was measured in motion, omitted bins, speeds, and the
   // effects of the motion.
@@ -62,6 +64,7 @@ class OnTheFly {
   ProbeResolution resolution_;
   PlaceWatch places_;
   ProbeWatch watch_;
+  JumpSearch jumps_;
   PassFinder finder_;
   std::vector<PassBins> passes_;
   DwellDetector::Summary summary_;

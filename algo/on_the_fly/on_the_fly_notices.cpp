@@ -18,6 +18,7 @@ constexpr double kSeenWave = 2.5;
 // Smallest difference of the speeds that is reported, as share of the smaller speed.
 constexpr double kOtherSpeed = 0.1;
 constexpr double kBriefDelay_s = 1e-6;
+constexpr double kLeastShift_m = 40e-6;  // a jump of 50 um whose size has an error
 
 struct Speeds {
   double min_m_s = INFINITY, max_m_s = 0, sum_m_s = 0, n = 0;
@@ -123,13 +124,35 @@ struct Stretch {
   double way_m = 0, passed_s = 0;
 };
 
-// The stretch from the first to the last bin that was left out, so without the pauses and ramps at both
-// ends of the pass. Without such bins, the whole pass.
+// The stretch from the first to the last bin that was left out, so without the pauses and ramps at
+// both ends of the pass. Without such bins, the whole pass.
 Stretch stretch_of(const PassBins& pass) {
   if (pass.left_out.size() < 2)
     return {std::abs(pass.to_m - pass.from_m), ns_to_s(pass.end_ns - pass.begin_ns)};
   const BinLeftOut &first = pass.left_out.front(), &last = pass.left_out.back();
   return {std::abs(last.position_m - first.position_m), ns_to_s(last.begin_ns - first.begin_ns)};
+}
+
+// After a jump, all positions are shifted.
+Notices jump_notices(const std::vector<EncoderJump>& jumps, std::int64_t begin_ns) {
+  Notices all;
+  double shift_m = 0;
+  std::int64_t shifted_ns = 0;
+  for (const EncoderJump& jump : jumps) {
+    all.push_back(notice(NoticeCode::encoder_jump, "",
+                         {{"jump_um", to_um(jump.size_m)},
+                          {"position_mm", to_mm(jump.position_m)},
+                          {"time_s", ns_to_s(jump.time_ns - begin_ns)}}));
+    shift_m += jump.size_m;
+    if (shifted_ns == 0 && std::abs(shift_m) > kLeastShift_m) shifted_ns = jump.time_ns;
+  }
+  Notices found;
+  append_first(found, std::move(all));
+  if (shifted_ns != 0)
+    found.push_back(
+        notice(NoticeCode::targets_shifted, "",
+               {{"time_s", ns_to_s(shifted_ns - begin_ns)}, {"shift_mm", to_mm(shift_m)}}));
+  return found;
 }
 
 }  // namespace
@@ -188,7 +211,9 @@ Notices OnTheFly::notices() const {
     all.push_back(
         notice(NoticeCode::speed_varies, "",
                {{"from_mm_s", to_mm(speeds.min_m_s)}, {"to_mm_s", to_mm(speeds.max_m_s)}}));
-  const auto found = lags();
+  append(all, jump_notices(jumps_.jumps(), begin_ns_));
+  // After a jump, the difference between forward and reverse is no delay.
+  const auto found = jumps_.jumps().empty() ? lags() : std::vector<ReadingLag>{};
   for (std::size_t k = 0; k < found.size(); ++k)
     if (found[k].significant && std::abs(found[k].delay_s) > kBriefDelay_s)
       all.push_back(delay_notice(probes_.ids[k], found[k]));

@@ -34,6 +34,32 @@ double scatter_limit(const std::vector<double>& sorted) {
   return limit;
 }
 
+// Returns the first position of each group of positions.
+std::vector<double> divided(const std::vector<double>& sorted, double limit) {
+  std::vector<double> first;
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    if (i == 0 || sorted[i] - sorted[i - 1] > limit) first.push_back(sorted[i]);
+  return first;
+}
+
+std::size_t group_of(const std::vector<double>& first, double position_m) {
+  const auto above = std::upper_bound(first.begin(), first.end(), position_m);
+  return static_cast<std::size_t>(above - first.begin()) - 1;
+}
+
+// Returns whether most motions are steps within a group, without an overrun: the distances of the
+// targets then were taken for their scatter.
+bool steps_within_targets(const std::vector<Point>& points, const std::vector<double>& first) {
+  std::size_t steps = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double from_m = points[i - 1].position_m, to_m = points[i].position_m;
+    const double step_m = std::abs(to_m - from_m);
+    const bool is_direct = points[i].travel_max_m - points[i].travel_min_m < step_m + kMinStep_m;
+    steps += group_of(first, from_m) == group_of(first, to_m) && step_m > kMinStep_m && is_direct;
+  }
+  return 2 * steps > points.size();
+}
+
 // Returns whether the axis left the stop between `before` and `p`. It then was farther from `p`
 // than kMaxScatter_m, or moved past both stops to one side. A vibration moves it to both sides.
 bool has_left_stop(const Point& before, const Point& p) {
@@ -64,16 +90,15 @@ std::vector<double> stop_targets(const std::vector<Point>& points) {
   std::vector<double> sorted;
   for (const Point& p : points) sorted.push_back(p.position_m);
   std::sort(sorted.begin(), sorted.end());
-  const double limit = scatter_limit(sorted);
-  std::vector<double> targets;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    if (i == 0 || sorted[i] - sorted[i - 1] > limit) targets.push_back(sorted[i]);
+  std::vector<double> targets = divided(sorted, scatter_limit(sorted));
+  if (steps_within_targets(points, targets)) {
+    const std::vector<double> closer = divided(sorted, kMinStep_m);
+    if (2 * closer.size() <= points.size()) targets = closer;
   }
   std::vector<bool> named(targets.size(), false);
   std::vector<double> first = targets;
   for (const Point& p : points) {
-    const auto above = std::upper_bound(targets.begin(), targets.end(), p.position_m);
-    const auto t = static_cast<std::size_t>(above - targets.begin()) - 1;
+    const std::size_t t = group_of(targets, p.position_m);
     // The axis may be parked beside its first target.
     const bool parked_beside = points.front().direction == 0 && p.direction != 0 &&
                                first[t] == points.front().position_m &&

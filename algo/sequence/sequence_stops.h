@@ -18,8 +18,9 @@ inline constexpr double kMostOvershoot_m = 0.25e-3;
 
 // Returns the targets from the stops of the axis, in ascending order. The sorted positions are
 // divided where the distance to the next position is at least ten times the scatter within a target
-// (and above 2 µm). The position of a target is the position of its first stop, so later stops do
-// not change it.
+// (and above 2 µm). If most motions then are within a target and without an overrun, the positions
+// are divided at each distance above 2 µm. The position of a target is the position of its first
+// stop, so later stops do not change it.
 std::vector<double> stop_targets(const std::vector<Point>& points);
 std::size_t nearest_target(const std::vector<double>& targets_m, double position_m);
 

@@ -129,6 +129,37 @@ TEST(SmallOverrun, GivesTheApproachAtCloseTargets) {
   EXPECT_EQ(wrong.approaches, 0);
 }
 
+// The distance to the turn is 20 times the distance of the targets, so it decides the ratio.
+TEST(CloseTargets, AreSeparateTargets) {
+  for (const double step_m : {5e-6, 10e-6, 20e-6}) {
+    std::vector<double> targets_m;
+    for (int i = 0; i < 11; ++i) targets_m.push_back(step_m * i);
+    Stage stage;
+    stage.speed_m_s = 1e-3;
+    const Wrong wrong = wrong_after_overrun(stage, targets_m, 0.2e-3, 0, false);
+    EXPECT_EQ(wrong.points, 66u) << step_m;
+    EXPECT_EQ(wrong.approaches, 0) << step_m;
+    EXPECT_EQ(wrong.positions, 0) << step_m;
+  }
+}
+
+// The stops of a step cycle scatter by some micrometres about each target.
+TEST(CloseTargets, AreNotTheScatterOfAStepCycle) {
+  Stage stage;
+  stage.x_m = -1e-3;
+  for (const double t : {0.0, 5e-3, 10e-3, 15e-3}) {
+    for (int k = 0; k < 4; ++k) {
+      stage.move_to(t + (k % 2 == 0 ? -0.5e-3 : 0.5e-3));
+      stage.move_to(t + 4e-6 * k);
+      stage.wait(0.5);
+    }
+  }
+  const Sequence found = stage.sequence({});
+  EXPECT_EQ(found.targets, 4);
+  EXPECT_EQ(found.points.size(), 16u);
+  EXPECT_EQ(found.cycle, Cycle::pilgrim);
+}
+
 // A servo that overshoots each target by 30 um: the approach is the direction of travel.
 TEST(SmallOverrun, IsNoOvershootOfATarget) {
   Stage stage;

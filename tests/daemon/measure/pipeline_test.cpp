@@ -226,12 +226,15 @@ TEST(Pipeline, ReportsWhyNothingWasMeasured) {
   TestAxis passing;
   for (const double mm : {20.0, 0.0}) passing.move_to(mm, 2);
   EXPECT_SAYS(refusal(passing), "no stop found in 4000 scans from -0.9895 to 19.99 mm");
-  const auto in_minutes = measured(both_ways(), five_probe_rig(), {}, [](SampleBlock& block) {
-    for (std::int64_t& t_ns : block.time_ns) t_ns /= 60;
-  });
-  ASSERT_FALSE(in_minutes);
-  EXPECT_SAYS(in_minutes.error().message,
-              "the sample rate is 59999 Hz: if time_s of the log is in minutes or hours");
+  // 1 kHz and 100 Hz in minutes.
+  for (const auto& [parts, rate] : {std::pair{60, "59999"}, {6, "6000"}}) {
+    const auto in_minutes = measured(both_ways(), five_probe_rig(), {}, [&](SampleBlock& block) {
+      for (std::int64_t& t_ns : block.time_ns) t_ns /= parts;
+    });
+    ASSERT_FALSE(in_minutes);
+    EXPECT_SAYS(in_minutes.error().message, "the sample rate is " + std::string(rate) +
+                                                " Hz: if time_s of the log is in minutes or hours");
+  }
   PipelineOptions elsewhere;
   elsewhere.sequence.targets_m = {0.1, 0.2};
   EXPECT_SAYS(refusal(both_ways(), elsewhere), "none of the 10 stops is near a given target");

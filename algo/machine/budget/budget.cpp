@@ -33,7 +33,8 @@ constexpr const char* unit_of(std::size_t k) {
 }
 
 // Adds part q of FrameValues::u_parts of frame i as one cause, in µm or µrad. The cause has the
-// name of error q. It also acts on the following errors that are correlated with error q.
+// name of error q. It also acts on the following errors that are correlated with error q. So it is
+// not the whole uncertainty of error q: add_error_rows() calculates that.
 void add_measured_error(BudgetModel& model, std::size_t i, std::size_t q) {
   const auto& parts = model.values[i].u_parts;
   const auto column = static_cast<Eigen::Index>(q);
@@ -54,11 +55,11 @@ void add_measured_error(BudgetModel& model, std::size_t i, std::size_t q) {
 // Adds one cause with u = 1 for each part that the errors of several bodies have in common.
 void add_shared(BudgetModel& model) {
   for (std::size_t p = 0;; ++p) {
-    BudgetCause cause{"", "u", 1, SourceShape::normal, {}, Eigen::Vector3d::Zero()};
+    BudgetCause cause{"", "u", 1, SourceShape::normal, {}, Eigen::Vector3d::Zero(), true};
     for (std::size_t i = 0; i < model.values.size(); ++i) {
       const FrameValues& v = model.values[i];
       if (p >= v.shared.size()) continue;
-      cause.name = model.machine.frames[i].covariance.shared[p].name + ", shared by the axes";
+      cause.name = model.machine.frames[i].covariance.shared[p].name;
       for (std::size_t k = 0; k < kBodyErrors; ++k)
         if (v.shared[p][k] != 0) cause.effects.push_back({i, k, false, v.shared[p][k]});
     }
@@ -140,14 +141,57 @@ void name_not_declared(const std::vector<ErrorDerivative>& all, BudgetModel& mod
   }
 }
 
-void add_sensitivities(BudgetModel& model) {
-  const auto all = derivatives(model.machine, model.at);
-  name_not_declared(all, model);
+using Derivatives = std::vector<ErrorDerivative>;
+
+bool acts_on(const CauseEffect& e, const ErrorDerivative& d) {
+  return e.frame == d.frame && e.k == d.k && e.of_line == d.of_line;
+}
+
+Eigen::Vector3d place_derivative(const Derivatives& all, const CauseEffect& e) {
+  for (const ErrorDerivative& d : all)
+    if (acts_on(e, d)) return d.d.head<3>();
+  return Eigen::Vector3d::Zero();
+}
+
+void add_sensitivities(const Derivatives& all, BudgetModel& model) {
   for (BudgetCause& cause : model.causes)
     for (const CauseEffect& e : cause.effects)
-      for (const ErrorDerivative& d : all)
-        if (d.frame == e.frame && d.k == e.k && d.of_line == e.of_line)
-          cause.sensitivity += e.per_unit * d.d.head<3>();
+      cause.sensitivity += e.per_unit * place_derivative(all, e);
+}
+
+// Adds one row for each source. The sources are the first causes.
+void add_source_rows(std::size_t sources, BudgetModel& model) {
+  for (std::size_t i = 0; i < sources; ++i) {
+    BudgetCause& cause = model.causes[i];
+    for (CauseEffect& e : cause.effects) e.row = i;
+    model.rows.push_back({cause.name, cause.unit, cause.u, cause.shape, cause.sensitivity, 0});
+  }
+}
+
+// Adds one row for each error with a u. u contains all causes that act on the error, except the
+// sources.
+void add_error_rows(const Derivatives& all, std::size_t sources, BudgetModel& model) {
+  for (const ErrorDerivative& d : all) {
+    double square = 0;
+    for (std::size_t i = sources; i < model.causes.size(); ++i)
+      for (CauseEffect& e : model.causes[i].effects) {
+        if (!acts_on(e, d)) continue;
+        e.row = model.rows.size();
+        square += std::pow(e.per_unit * model.causes[i].u, 2);
+      }
+    if (square == 0) continue;
+    model.rows.push_back({name_of(model.machine.frames[d.frame], d.k, d.of_line), unit_of(d.k),
+                          std::sqrt(square) * 1e6, SourceShape::normal, 1e-6 * d.d.head<3>(), 0});
+  }
+}
+
+// Distributes the variance of each cause to the rows of the errors that the cause acts on.
+void add_variances(const Derivatives& all, BudgetModel& model) {
+  for (const BudgetCause& cause : model.causes) {
+    const Eigen::Vector3d whole = cause.sensitivity * cause.u;
+    for (const CauseEffect& e : cause.effects)
+      model.rows[e.row].variance_m2 += whole.dot(place_derivative(all, e) * (e.per_unit * cause.u));
+  }
 }
 
 double mean_square(const ErrorFunction& f) {
@@ -175,7 +219,7 @@ double per_unit_at(const Machine& machine, const SourceEffect& effect, const Com
 
 Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
                                  MachineApproach approach, BudgetStage stage) {
-  BudgetModel model{machine, at, {}, {}, {}, {}};
+  BudgetModel model{machine, at, {}, {}, {}, {}, {}};
   if (stage == BudgetStage::designed)
     for (MachineFrame& frame : model.machine.frames) {
       frame.error = {};
@@ -187,10 +231,16 @@ Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
     BudgetCause cause = cause_of(source, model, stage);
     if (!cause.effects.empty()) model.causes.push_back(std::move(cause));
   }
+  const std::size_t sources = model.causes.size();
   add_measured(model);
   add_shared(model);
   MDOF_CHECK(check_sizes(model));
-  add_sensitivities(model);
+  const Derivatives all = derivatives(model.machine, at);
+  name_not_declared(all, model);
+  add_sensitivities(all, model);
+  add_source_rows(sources, model);
+  add_error_rows(all, sources, model);
+  add_variances(all, model);
   return model;
 }
 
@@ -199,6 +249,13 @@ Eigen::Vector3d budget_u_m(const BudgetModel& model) {
   for (const BudgetCause& cause : model.causes)
     squares += cause.contribution_m().cwiseProduct(cause.contribution_m());
   return squares.cwiseSqrt();
+}
+
+bool has_correlated_rows(const BudgetModel& model) {
+  return std::any_of(model.causes.begin(), model.causes.end(), [](const BudgetCause& cause) {
+    return std::any_of(cause.effects.begin(), cause.effects.end(),
+                       [&](const CauseEffect& e) { return e.row != cause.effects.front().row; });
+  });
 }
 
 std::vector<MeasuredError> designed_against_measured(const Machine& machine, const Command& at) {

@@ -16,7 +16,12 @@ struct CauseEffect {
   std::size_t frame = 0, k = 0;
   bool of_line = false;
   double per_unit = 0;
+  std::size_t row = 0;  // index in BudgetModel::rows
 };
+
+// An independent random quantity of the trials: a source, a part of the uncertainties of the
+// correlated errors of one body (FrameValues::u_parts), an error of an axis line, or a quantity
+// that several bodies share.
 
 struct BudgetCause {
   std::string name, unit;
@@ -25,6 +30,21 @@ struct BudgetCause {
   std::vector<CauseEffect> effects;
   Eigen::Vector3d sensitivity = Eigen::Vector3d::Zero();  // of the tool's place, m for one `unit`;
                                                           // derivative where all errors are 0
+  bool is_shared = false;  // a quantity that the errors of several bodies have in common
+
+  Eigen::Vector3d contribution_m() const { return sensitivity.cwiseAbs() * u; }
+};
+
+// A row of the budget: a source, or an error with its own u. The errors can be correlated, so the
+// squares of the contributions do not add up to u²; the variances do.
+struct BudgetRow {
+  std::string name, unit;
+  double u = 0;  // standard uncertainty, in `unit`
+  SourceShape shape = SourceShape::normal;
+  Eigen::Vector3d sensitivity = Eigen::Vector3d::Zero();  // as in BudgetCause
+  // Part of u_x² + u_y² + u_z², m²: square of the contribution, plus the covariances with the other
+  // errors. Negative: the correlation with other errors reduces u by more than this error adds.
+  double variance_m2 = 0;
 
   Eigen::Vector3d contribution_m() const { return sensitivity.cwiseAbs() * u; }
 };
@@ -39,6 +59,7 @@ struct BudgetModel {
   Command at{};
   std::vector<FrameValues> values;  // values of the measured errors
   std::vector<BudgetCause> causes;
+  std::vector<BudgetRow> rows;
   std::vector<std::string> replaced;  // effects that a measured error replaces: "screw B on EXX"
   std::vector<std::string> not_declared;  // errors that act on the tool but have neither a cause
                                           // nor a declared u
@@ -53,6 +74,9 @@ Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
 
 // Standard uncertainty of x, y, z by the linear model with independent causes (GUM 5.1.2).
 Eigen::Vector3d budget_u_m(const BudgetModel& model);
+
+// Returns whether errors of different rows are correlated.
+bool has_correlated_rows(const BudgetModel& model);
 
 // One measured error, compared with the effect of its declared sources.
 struct MeasuredError {

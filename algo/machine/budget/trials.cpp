@@ -55,8 +55,11 @@ class BudgetTrials : public ScalableExperiment {
       : seed_(seed), set_(set) {
     for (const BudgetCause& cause : model.causes) {
       causes_.push_back(cause.name);
-      sizes_.push_back(cause.u);
       drawings_.push_back(drawing_of(cause));
+    }
+    for (const BudgetRow& row : model.rows) {
+      quantities_.push_back(row.name);
+      sizes_.push_back(row.u);
     }
     for (std::size_t i = model.machine.frames.size(); i-- > 0;) add_step(model, i);
     const Pose nominal = nominal_tool(model.machine, model.at);
@@ -69,7 +72,7 @@ class BudgetTrials : public ScalableExperiment {
   const std::vector<std::string>& outputs() const override { return outputs_; }
   const BinnedQuantity& binned() const override { return binned_; }
   const std::vector<std::string>& causes() const override { return causes_; }
-  const std::vector<std::string>& quantities() const override { return causes_; }
+  const std::vector<std::string>& quantities() const override { return quantities_; }
   const std::vector<double>& sizes() const override { return sizes_; }
 
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
@@ -83,7 +86,7 @@ class BudgetTrials : public ScalableExperiment {
   void run_scaled(std::span<const double> scale, std::uint64_t first, std::uint64_t step,
                   std::size_t n, std::span<double* const> out) const override {
     std::vector<ChainTerm> terms = terms_;
-    for (ChainTerm& term : terms) term.factor *= scale[term.column];
+    for (std::size_t t = 0; t < terms.size(); ++t) terms[t].factor *= scale[term_rows_[t]];
     run_all({}, terms, first, step, n, out);
   }
   std::vector<std::pair<std::string, double>> inputs(std::uint64_t trial) const override {
@@ -104,8 +107,10 @@ class BudgetTrials : public ScalableExperiment {
     ChainSum sum{of_line ? v.location[k] : v.error[k], terms_.size(), 0};
     for (std::size_t c = 0; c < model.causes.size(); ++c)
       for (const CauseEffect& e : model.causes[c].effects)
-        if (e.frame == frame && e.k == k && e.of_line == of_line && e.per_unit != 0)
+        if (e.frame == frame && e.k == k && e.of_line == of_line && e.per_unit != 0) {
           terms_.push_back(term_of(model.causes[c], c, e.per_unit));
+          term_rows_.push_back(e.row);
+        }
     sum.last = terms_.size();
     return sum;
   }
@@ -181,13 +186,14 @@ class BudgetTrials : public ScalableExperiment {
 
   std::uint64_t seed_;
   InstructionSet set_;
-  std::vector<std::string> outputs_ = {"x_um", "y_um", "z_um", "volume_um"}, causes_;
+  std::vector<std::string> outputs_ = {"x_um", "y_um", "z_um", "volume_um"}, causes_, quantities_;
   BinnedQuantity binned_;
-  std::vector<double> sizes_;
+  std::vector<double> sizes_;      // of the quantities, which are the rows of the budget
   std::vector<Drawing> drawings_;  // one for each cause; the random numbers of cause c are in
                                    // column c
   std::vector<ChainStep> steps_;   // from the tool to the work
   std::vector<ChainTerm> terms_;
+  std::vector<std::size_t> term_rows_;  // row of the budget that scales each term
   ChainProgram chain_;
 };
 

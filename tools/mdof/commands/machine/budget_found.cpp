@@ -65,12 +65,12 @@ Result<FoundAllocation> allocate(const algo::BudgetModel& model, const BudgetReq
   planned.trials = std::min(request.trials, kAllocationTrials);
   planned.where = "--target-um";
   FoundAllocation found;
-  std::vector<std::size_t> all(model.causes.size());
+  std::vector<std::size_t> all(model.rows.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   MDOF_TRY(found.common_factor, algo::largest_factor(*experiment, planned, all, for_each));
   planned.trials = std::min(request.trials, kAloneTrials);
-  for (const std::size_t cause : all) {
-    MDOF_TRY(const double factor, algo::largest_factor(*experiment, planned, {cause}, for_each));
+  for (const std::size_t row : all) {
+    MDOF_TRY(const double factor, algo::largest_factor(*experiment, planned, {row}, for_each));
     found.alone.push_back(factor);
   }
   return found;

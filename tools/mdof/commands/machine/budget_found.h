@@ -30,12 +30,12 @@ struct FoundStage {
   double volume_p95_um = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Largest factors for the standard uncertainties of the causes at which the target is still met. 0:
-// the target is missed even if the causes have no uncertainty. Infinite: the target is met for any
+// Largest factors for the standard uncertainties of the rows at which the target is still met. 0:
+// the target is missed even if the rows have no uncertainty. Infinite: the target is met for any
 // uncertainty.
 struct FoundAllocation {
-  double common_factor = 0;   // the same factor for all causes
-  std::vector<double> alone;  // [cause] factor for this cause only
+  double common_factor = 0;   // the same factor for all rows
+  std::vector<double> alone;  // [row] factor for this row only
 };
 
 struct FoundMachineBudget {

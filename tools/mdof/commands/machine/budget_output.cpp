@@ -23,19 +23,18 @@ constexpr const char* kNotKept =
     "source has u = 0";
 constexpr const char* kFactorRule = "all u are multiplied by the same factor";
 
-// The indices of the causes, sorted by their contribution to u_x² + u_y² + u_z², the largest first.
-std::vector<std::size_t> causes_by_contribution(const algo::BudgetModel& model) {
-  std::vector<std::size_t> order(model.causes.size());
+// The indices of the rows, sorted by their part of u_x² + u_y² + u_z², the largest first.
+std::vector<std::size_t> rows_by_variance(const algo::BudgetModel& model) {
+  std::vector<std::size_t> order(model.rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return model.causes[a].contribution_m().squaredNorm() >
-           model.causes[b].contribution_m().squaredNorm();
+    return model.rows[a].variance_m2 > model.rows[b].variance_m2;
   });
   return order;
 }
 
-double share(const algo::BudgetModel& model, const algo::BudgetCause& cause) {
-  return cause.contribution_m().squaredNorm() / algo::budget_u_m(model).squaredNorm();  // 0/0: NaN
+double share(const algo::BudgetModel& model, double variance_m2) {
+  return variance_m2 / algo::budget_u_m(model).squaredNorm();  // 0/0: NaN
 }
 
 void write_place(JsonWriter& json, const char* key, const Eigen::Vector3d& place_m) {
@@ -67,16 +66,39 @@ void write_stage(JsonWriter& json, const FoundStage& stage) {
 
 void write_contributions(JsonWriter& json, const algo::BudgetModel& model) {
   json.key("contributions").begin_array();
-  for (const std::size_t i : causes_by_contribution(model)) {
-    const algo::BudgetCause& cause = model.causes[i];
+  for (const std::size_t i : rows_by_variance(model)) {
+    const algo::BudgetRow& row = model.rows[i];
     json.begin_object()
-        .field("name", cause.name)
-        .field("u", cause.u)
-        .field("unit", cause.unit)
-        .field("distribution", to_string(cause.shape));
-    write_place(json, "sensitivity", cause.sensitivity);
-    write_place(json, "contribution_um", cause.contribution_m());
-    json.field("share", share(model, cause)).end_object();
+        .field("name", row.name)
+        .field("u", row.u)
+        .field("unit", row.unit)
+        .field("distribution", to_string(row.shape));
+    write_place(json, "sensitivity", row.sensitivity);
+    write_place(json, "contribution_um", row.contribution_m());
+    json.field("share", share(model, row.variance_m2)).end_object();
+  }
+  json.end_array();
+}
+
+// The quantities that the errors of several axes have in common, the largest contribution first.
+// The rows of these errors contain them.
+std::vector<const algo::BudgetCause*> shared_causes(const algo::BudgetModel& model) {
+  std::vector<const algo::BudgetCause*> shared;
+  for (const algo::BudgetCause& cause : model.causes)
+    if (cause.is_shared) shared.push_back(&cause);
+  std::stable_sort(shared.begin(), shared.end(),
+                   [](const algo::BudgetCause* a, const algo::BudgetCause* b) {
+                     return a->contribution_m().squaredNorm() > b->contribution_m().squaredNorm();
+                   });
+  return shared;
+}
+
+void write_shared(JsonWriter& json, const algo::BudgetModel& model) {
+  json.key("shared_by_axes").begin_array();
+  for (const algo::BudgetCause* cause : shared_causes(model)) {
+    json.begin_object().field("name", cause->name);
+    write_place(json, "contribution_um", cause->contribution_m());
+    json.field("share", share(model, cause->contribution_m().squaredNorm())).end_object();
   }
   json.end_array();
 }
@@ -86,14 +108,14 @@ void write_allocation(JsonWriter& json, const algo::BudgetModel& model,
   json.field("allocation_rule", kFactorRule).field("allocation_factor", found.common_factor);
   if (found.common_factor == 0) json.field("allocation_reason", kNotKept);
   json.key("allocation").begin_array();
-  for (const std::size_t i : causes_by_contribution(model)) {
-    const algo::BudgetCause& cause = model.causes[i];
+  for (const std::size_t i : rows_by_variance(model)) {
+    const algo::BudgetRow& row = model.rows[i];
     json.begin_object()
-        .field("name", cause.name)
-        .field("u", cause.u)
-        .field("unit", cause.unit)
-        .field("allowed_u", cause.u * found.common_factor)
-        .field("allowed_u_alone", cause.u * found.alone[i])
+        .field("name", row.name)
+        .field("u", row.u)
+        .field("unit", row.unit)
+        .field("allowed_u", row.u * found.common_factor)
+        .field("allowed_u_alone", row.u * found.alone[i])
         .end_object();
   }
   json.end_array();
@@ -141,24 +163,76 @@ std::string stage_text(const FoundStage& stage) {
          fixed(stage.volume_p95_um, 4) + " µm\n";
 }
 
+std::vector<std::string> contribution_cells(const Eigen::Vector3d& contribution_m, double share) {
+  std::vector<std::string> cells;
+  for (int k = 0; k < 3; ++k) cells.push_back(fixed(to_um(contribution_m[k]), 4));
+  cells.push_back(fixed(100 * share, 1));
+  return cells;
+}
+
+std::string shared_text(const algo::BudgetModel& model) {
+  TextTable table({"shared by the axes", "x/µm", "y/µm", "z/µm", "share/%"});
+  const auto shared = shared_causes(model);
+  if (shared.empty()) return "";
+  for (const algo::BudgetCause* cause : shared) {
+    std::vector<std::string> row = {cause->name};
+    const Eigen::Vector3d part = cause->contribution_m();
+    for (std::string& cell : contribution_cells(part, share(model, part.squaredNorm())))
+      row.push_back(std::move(cell));
+    table.add(row);
+  }
+  return "\n" + table.text(terminal_columns()) +
+         wrapped("The errors above contain these quantities, which act on several axes.",
+                 terminal_columns()) +
+         "\n";
+}
+
+std::string allowed_u(double u, double factor) {
+  if (factor == 0) return "none";
+  return std::isfinite(factor) ? plain_number(u * factor, 4) : "any";
+}
+
 std::string contributions_text(const FoundMachineBudget& found) {
   const algo::BudgetModel& model = found.now.model;
   std::vector<std::string> head = {"cause", "u", "unit", "x/µm", "y/µm", "z/µm", "share/%"};
   if (found.allocation)
     for (const char* name : {"allowed u", "alone"}) head.push_back(name);
   TextTable table(head);
-  for (const std::size_t i : causes_by_contribution(model)) {
-    const algo::BudgetCause& cause = model.causes[i];
-    const Eigen::Vector3d part = cause.contribution_m();
+  for (const std::size_t i : rows_by_variance(model)) {
+    const algo::BudgetRow& cause = model.rows[i];
     std::vector<std::string> row = {cause.name, plain_number(cause.u, 4), cause.unit};
-    for (int k = 0; k < 3; ++k) row.push_back(fixed(to_um(part[k]), 4));
-    row.push_back(fixed(100 * share(model, cause), 1));
+    for (std::string& cell :
+         contribution_cells(cause.contribution_m(), share(model, cause.variance_m2)))
+      row.push_back(std::move(cell));
     if (found.allocation)
       for (const double factor : {found.allocation->common_factor, found.allocation->alone[i]})
-        row.push_back(std::isfinite(factor) ? plain_number(cause.u * factor, 4) : "any");
+        row.push_back(allowed_u(cause.u, factor));
     table.add(row);
   }
-  return "\n" + table.text(terminal_columns());
+  std::string text = "\n" + table.text(terminal_columns());
+  if (has_correlated_rows(model))
+    text += wrapped(
+                "Some errors are correlated, because the same probes measured them. Therefore the "
+                "squares of their contributions do not add up to u²; the share contains the "
+                "covariances and can be negative.",
+                terminal_columns()) +
+            "\n";
+  return text + shared_text(model);
+}
+
+std::string allocation_text(const FoundAllocation& allocation, double target_um) {
+  std::string text;
+  if (allocation.common_factor == 0)
+    text = std::string(kNotKept) + ".";
+  else
+    text =
+        "\"allowed u\": if all sources have these u, 95 % of the error vectors are shorter than " +
+        plain_number(target_um, 6) + " µm (" + kFactorRule + ", " +
+        fixed(allocation.common_factor, 4) + ").";
+  text +=
+      " \"alone\": allowed u of one source if all other sources keep their declared u (\"any\": no "
+      "limit; \"none\": the target is not met even with u = 0)";
+  return wrapped(text, terminal_columns()) + "\n";
 }
 
 // `at`: the positions of the axes.
@@ -215,6 +289,7 @@ std::string machine_budget_json(const Machine& machine, const BudgetRequest& req
       .end_object();
   write_stage(json, found.now);
   write_contributions(json, model);
+  write_shared(json, model);
   write_strings(json, "not_declared", model.not_declared);
   if (request.target_um) json.field("target_um", *request.target_um);
   if (found.allocation) write_allocation(json, model, *found.allocation);
@@ -231,17 +306,7 @@ std::string machine_budget_text(const Machine& machine, const BudgetRequest& req
                      machine.chain.text + ", at" + at_text(machine, request.at) + "\n" +
                      stage_text(found.now);
   if (!found.now.outputs.empty()) text += contributions_text(found);
-  if (found.allocation)
-    text +=
-        wrapped(
-            "\"allowed u\": if all sources have these u, 95 % of the error vectors are shorter "
-            "than " +
-                plain_number(*request.target_um, 6) + " µm (" + kFactorRule + ", " +
-                fixed(found.allocation->common_factor, 4) +
-                "). \"alone\": allowed u of one source if all other sources keep their declared "
-                "u (\"any\": no limit)",
-            terminal_columns()) +
-        "\n";
+  if (found.allocation) text += allocation_text(*found.allocation, *request.target_um);
   if (const auto& names = found.now.model.not_declared; !names.empty())
     text += wrapped("no [[source]] and no u is declared for " + std::to_string(names.size()) +
                         " errors that act on the tool" +

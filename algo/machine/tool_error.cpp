@@ -152,6 +152,11 @@ const MachineFrame* squareness_partner(const Machine& machine, const ErrorDeriva
   return machine.find(std::string(1, "XYZ"[other]));
 }
 
+bool is_measured(const Machine& machine, const ErrorDerivative& d) {
+  const MachineFrame* axis = squareness_partner(machine, d);
+  return is_known(machine.frames[d.frame], d) || (axis && axis->location[d.k].value.has_value());
+}
+
 Pose nominal_tool(const Machine& machine, const Command& command) {
   return tool_in_work(machine, [&](std::size_t i) {
     return nominal_pose(machine.frames[i], travel_of(machine.frames[i], command));

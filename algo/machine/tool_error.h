@@ -42,6 +42,10 @@ std::vector<Vector6> shared_effects(const std::vector<ErrorDerivative>& derivati
 // the chain does not have the second axis.
 const MachineFrame* squareness_partner(const Machine& machine, const ErrorDerivative& d);
 
+// Returns whether the error was measured. A squareness was also measured if the location error of
+// the other axis is known, because both are the same angle.
+bool is_measured(const Machine& machine, const ErrorDerivative& d);
+
 // Sum over all errors of the derivative times the error.
 Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
                      const std::vector<FrameValues>& values);

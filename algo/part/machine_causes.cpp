@@ -38,7 +38,7 @@ Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, con
                           const std::vector<ErrorDerivative>& all, bool with_axes) {
   Eigen::Vector3d effect = Eigen::Vector3d::Zero();
   for (const SourceEffect& acts : source.acts_on) {
-    if (with_axes && machine.frames[acts.frame].is_known(acts.k, acts.of_line)) continue;
+    if (with_axes && is_measured(machine, {acts.frame, acts.k, acts.of_line, {}})) continue;
     const double factor = per_unit_at(machine, acts, command);
     for (const ErrorDerivative& d : all)
       if (d.frame == acts.frame && d.k == acts.k && d.of_line == acts.of_line)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "schema/units.h"
 
@@ -18,7 +19,8 @@ BudgetCause cause_of(const ErrorSource& source, BudgetModel& model, BudgetStage 
   BudgetCause cause{source.name, source.unit, source.u, source.shape, {}, Eigen::Vector3d::Zero()};
   for (const SourceEffect& effect : source.acts_on) {
     const MachineFrame& frame = model.machine.frames[effect.frame];
-    if (stage == BudgetStage::measured && frame.is_known(effect.k, effect.of_line)) {
+    if (stage == BudgetStage::measured &&
+        is_measured(model.machine, {effect.frame, effect.k, effect.of_line, {}})) {
       model.replaced.push_back(source.name + " on " + name_of(frame, effect.k, effect.of_line));
       continue;
     }
@@ -204,6 +206,30 @@ double mean_square(const ErrorFunction& f) {
   return sum / static_cast<double>(f.forward.size());
 }
 
+// Returns whether the source acts on this error, or on the other location error of this squareness.
+bool acts_on_error(const Machine& machine, const SourceEffect& effect, const ErrorDerivative& d) {
+  if (effect.k != d.k || effect.of_line != d.of_line) return false;
+  return effect.frame == d.frame ||
+         (d.of_line && &machine.frames[effect.frame] == squareness_partner(machine, d));
+}
+
+// Standard uncertainty of the error by one effect of a source: root mean square over the table of
+// the error.
+double designed_u(const Machine& machine, const SourceEffect& effect, double u,
+                  const ErrorDerivative& d, Command at) {
+  const MachineFrame& frame = machine.frames[d.frame];
+  const std::size_t axis = std::string_view("XYZABC").find(frame.id);
+  const bool has_table =
+      !d.of_line && !frame.error[d.k].position.empty() && frame.id.size() == 1 && axis < at.size();
+  if (!has_table) return std::abs(per_unit_at(machine, effect, at)) * u;
+  double squares = 0;
+  for (const double position : frame.error[d.k].position) {
+    at[axis] = position;
+    squares += std::pow(per_unit_at(machine, effect, at) * u, 2);
+  }
+  return std::sqrt(squares / static_cast<double>(frame.error[d.k].position.size()));
+}
+
 double measured_square(const MachineFrame& frame, std::size_t k, bool of_line) {
   if (!of_line) return mean_square(frame.error[k]);
   const double value = *frame.location[k].value, u = frame.location[k].u.value_or(0);
@@ -269,8 +295,8 @@ std::vector<MeasuredError> designed_against_measured(const Machine& machine, con
     double designed = 0;
     for (const ErrorSource& source : machine.sources)
       for (const SourceEffect& effect : source.acts_on) {
-        if (effect.frame != d.frame || effect.k != d.k || effect.of_line != d.of_line) continue;
-        const double u = per_unit_at(machine, effect, at) * source.u;
+        if (!acts_on_error(machine, effect, d)) continue;
+        const double u = designed_u(machine, effect, source.u, d, at);
         designed += u * u;
         e.has_design = true;
       }

@@ -50,8 +50,8 @@ struct BudgetRow {
 };
 
 // designed: all sources as declared; measured errors are ignored. measured: a measured error has
-// its measured value and u. Sources do not act on a measured error, because its value includes
-// their effect.
+// its measured value and u. Sources do not act on a measured error (is_measured()), because its
+// value includes their effect.
 enum class BudgetStage { designed, measured };
 
 struct BudgetModel {
@@ -83,8 +83,9 @@ struct MeasuredError {
   std::string name;
   std::size_t k = 0;
   bool has_design = false;  // at least one source acts on the error
-  // m or rad. designed_u: standard uncertainty by the sources. measured_u: root of the mean of
-  // value² + u² over the table of the error, that is, without compensation.
+  // m or rad. designed_u: standard uncertainty by the sources, root mean square over the positions
+  // of the table of the error. measured_u: root of the mean of value² + u² over this table, that
+  // is, without compensation.
   double designed_u = 0, measured_u = 0;
   // Effect on the tool's place: u times |derivative of the place|.
   double designed_effect_m = 0, measured_effect_m = 0;

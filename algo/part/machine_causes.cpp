@@ -32,6 +32,62 @@ std::vector<Known> known_errors(const Machine& machine, std::size_t points, Mach
   return known;
 }
 
+// Follows the commands along the path and keeps the last direction of motion of each axis.
+class Approaches {
+ public:
+  // The first point has the approach of the first step.
+  Approaches(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m)
+      : machine_(machine),
+        approach_(machine.frames.size(), MachineApproach::mean),
+        unknown_(machine.frames.size(), 0) {
+    if (at_m.size() < 2) return;
+    before_ = command_at_place(machine, at_m[0]);
+    move_to(command_at_place(machine, at_m[1]));
+  }
+
+  // Values of the errors at the next point of the path.
+  std::vector<FrameValues> values_at_next(const Command& command) {
+    std::vector<FrameValues> values;
+    if (next_++ > 0) move_to(command);
+    for (std::size_t f = 0; f < machine_.frames.size(); ++f) {
+      if (approach_[f] == MachineApproach::mean) ++unknown_[f];
+      values.push_back(values_at(machine_.frames[f], command, approach_[f]));
+    }
+    before_ = command;
+    return values;
+  }
+
+  std::vector<std::pair<std::string, std::size_t>> unknown() const {
+    std::vector<std::pair<std::string, std::size_t>> list;
+    for (std::size_t f = 0; f < machine_.frames.size(); ++f) {
+      const auto& errors = machine_.frames[f].error;
+      const bool depends = std::any_of(errors.begin(), errors.end(),
+                                       [](const ErrorFunction& e) { return !e.reverse.empty(); });
+      if (depends && unknown_[f] > 0) list.emplace_back(machine_.frames[f].id, unknown_[f]);
+    }
+    return list;
+  }
+
+ private:
+  static constexpr double kRounding = 1e-9;  // m or rad
+
+  void move_to(const Command& command) {
+    for (std::size_t f = 0; f < machine_.frames.size(); ++f) {
+      const MachineFrame& frame = machine_.frames[f];
+      const double step = command_of(frame, command) - command_of(frame, before_);
+      // The coordinates of a path are rounded.
+      if (std::abs(step) > kRounding)
+        approach_[f] = step > 0 ? MachineApproach::forward : MachineApproach::reverse;
+    }
+  }
+
+  const Machine& machine_;
+  Command before_{};
+  std::size_t next_ = 0;                   // index of the next point
+  std::vector<MachineApproach> approach_;  // [frame]; mean: the axis has not moved
+  std::vector<std::size_t> unknown_;       // [frame] number of points
+};
+
 // Returns the effect of one unit of the source on the position of the tool for this command.
 // Measured errors are left out, because their values already contain the effect of the source.
 Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, const Command& command,
@@ -84,9 +140,10 @@ MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Ve
   const std::size_t measured = causes.axes.size();
   for (const ErrorSource& source : machine.sources)
     causes.budget.push_back(new_cause(source.name, at_m.size()));
+  Approaches approaches(machine, at_m);
   for (std::size_t p = 0; p < at_m.size(); ++p) {
     const Command command = command_at_place(machine, at_m[p]);
-    const auto values = values_at(machine, command, MachineApproach::mean);
+    const auto values = approaches.values_at_next(command);
     const auto all = derivatives(machine, command);
     for (const Known& one : known)
       for (const ErrorDerivative& d : all) {
@@ -108,6 +165,7 @@ MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Ve
     }
     add_new(error.beyond, causes.beyond);
   }
+  causes.unknown_approach = approaches.unknown();
   return causes;
 }
 

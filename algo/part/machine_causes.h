@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "algo/part/part_error.h"
@@ -17,9 +18,14 @@ struct MachineCauses {
   // measured.
   std::vector<PartCause> budget;
   std::vector<std::string> not_measured, no_u, beyond;  // same as in ToolError
+  // Axes whose errors depend on the approach, with the number of points at which the path does not
+  // give the approach, because the axis has not moved before. The mean of both approaches is used
+  // there.
+  std::vector<std::pair<std::string, std::size_t>> unknown_approach;
 };
 
-// `at_m`: positions of the tool in workpiece coordinates, relative to the position of the tool when
+// `at_m`: path of the tool. The errors of an axis are those of its last direction of motion on this
+// path: positions of the tool in workpiece coordinates, relative to the position of the tool when
 // all commands are 0. command_at_place() calculates the commands from the chain. `with_axes`: true:
 // `budget` contains no effects on measured errors. false: `budget` contains the effects on all
 // errors, as for a machine that is only designed.

@@ -159,6 +159,22 @@ std::vector<double> sizes(const PartPath& path, const Causes& all, const std::ve
   return found;
 }
 
+// Returns the index of the point with the largest expected square of the error. The values of a
+// budget are 0, so the error without random numbers has no largest point.
+std::size_t worst_point(const Causes& all, const std::vector<double>& errors_m, std::size_t width) {
+  std::size_t worst = 0;
+  double most = -1;
+  for (std::size_t k = 0; k < errors_m.size(); ++k) {
+    double square = errors_m[k] * errors_m[k];
+    for (const std::vector<double>& u : all.u)
+      for (std::size_t i = k * width; i < (k + 1) * width; ++i) square += u[i] * u[i];
+    if (square <= most) continue;
+    most = square;
+    worst = k;
+  }
+  return worst;
+}
+
 }  // namespace
 
 PartError part_error(const PartPath& path, const std::vector<PartCause>& causes, std::size_t layers,
@@ -168,9 +184,8 @@ PartError part_error(const PartPath& path, const std::vector<PartCause>& causes,
   find_shares(causes, all, layers, trials, result);
   std::vector<double> xi(causes.size());
   const std::vector<double> found = sizes(path, all, xi, 1);
-  const auto worst = std::max_element(found.begin(), found.end());
-  result.worst = static_cast<std::size_t>(worst - found.begin());
-  result.max_m = *worst;
+  result.worst = worst_point(all, found, path.normal.empty() ? 3 : 1);
+  result.max_m = *std::max_element(found.begin(), found.end());
   result.p95_m = quantile_95(found);
   // The trials may use fewer points than the estimate. So they are compared with the error at the
   // same points without random numbers.

@@ -39,7 +39,9 @@ struct PartShare {
 
 struct PartError {
   double p95_m = 0, U_p95_m = 0, max_m = 0, U_max_m = 0;
-  std::size_t worst = 0;  // index of the point with the largest error
+  // Index of the point with the largest expected square of the error, that is |sum of the values|²
+  // + the sum of all |u|². If no cause has a u, it is the point with the largest error.
+  std::size_t worst = 0;
   std::vector<PartShare> layers, causes;
 };
 

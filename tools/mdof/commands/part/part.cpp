@@ -134,10 +134,43 @@ std::string part_json(const FoundPart& found) {
   write_strings(json, "not_declared", part.no_u);
   write_strings(json, "beyond_tables", part.beyond_tables);
   write_strings(json, "tables_without_slope", part.tables_without_slope);
+  json.key("unknown_approach").begin_array();
+  for (const auto& [axis, points] : part.unknown_approach)
+    json.begin_object()
+        .field("axis", axis)
+        .field("points", static_cast<std::uint64_t>(points))
+        .end_object();
+  json.end_array();
   json.field("points_off_form_map", static_cast<std::uint64_t>(part.points_off_form_map));
   write_notices(json, "notices", part.notices, words::text);
   json.end_object();
   return json.take();
+}
+
+bool has_only_u(const algo::PartCause& cause) {
+  const auto is_zero = [](const Eigen::Vector3d& v) { return v.isZero(0); };
+  return std::all_of(cause.value_m.begin(), cause.value_m.end(), is_zero) &&
+         !std::all_of(cause.u_m.begin(), cause.u_m.end(), is_zero);
+}
+
+// Facts about the approaches of the axes and about causes whose value is unknown.
+std::string assumptions_text(const LoadedPart& part) {
+  std::string text;
+  for (const auto& [axis, points] : part.unknown_approach)
+    text += wrapped("axis " + axis + " has not moved before " + std::to_string(points) +
+                        (points == 1 ? " point" : " points") +
+                        " of the path, so its approach is unknown there; the mean of both "
+                        "approaches is used",
+                    terminal_columns()) +
+            "\n";
+  if (std::any_of(part.causes.begin(), part.causes.end(), has_only_u))
+    text += wrapped(
+                "RMS of a layer or cause with u and without value: root of the expected mean "
+                "square. The largest error and the error of 95 % of the points are medians of the "
+                "trials, so this RMS can be larger.",
+                terminal_columns()) +
+            "\n";
+  return text;
 }
 
 std::string part_text(const FoundPart& found) {
@@ -154,8 +187,8 @@ std::string part_text(const FoundPart& found) {
       "95 % of the points have an error below " +
       in_um(found.error.p95_m) + " µm (U = " + in_um(found.error.U_p95_m) +
       "); the largest error is " + in_um(found.error.max_m) +
-      " µm (U = " + in_um(found.error.U_max_m) + ") at x " + in_mm(worst(0)) + ", y " +
-      in_mm(worst(1)) + ", z " + in_mm(worst(2)) + " mm\n";
+      " µm (U = " + in_um(found.error.U_max_m) + "); the error is largest at x " + in_mm(worst(0)) +
+      ", y " + in_mm(worst(1)) + ", z " + in_mm(worst(2)) + " mm\n";
   TextTable layers({"layer", "share/%", "U/%", "RMS/µm", "U/µm", "residual/µm", "corrected by"});
   for (const std::size_t k : found.layers) {
     const algo::PartShare& share = found.error.layers[k];
@@ -171,7 +204,8 @@ std::string part_text(const FoundPart& found) {
   return text + "\n" + layers.text(terminal_columns()) + "\n" + causes.text(terminal_columns()) +
          "share: contribution of a layer or cause to the sum of all mean square errors\n"
          "residual: RMS of the error that remains after the compensation of the layer\n" +
-         notices_text(part) + missing_text(part.not_measured, part.no_u, terminal_columns());
+         assumptions_text(part) + notices_text(part) +
+         missing_text(part.not_measured, part.no_u, terminal_columns());
 }
 
 Status part(const PartCommand& o) {

@@ -196,6 +196,7 @@ Status add_machine_layers(LoadedPart& part) {
     add_layer(part, *axes, "compensating command (mdof machine error, mdof compensation export)",
               found.axes);
     part.no_u = found.no_u;
+    part.unknown_approach = found.unknown_approach;
   }
   if (budget) {
     if (budget->compensated)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "algo/part/part_error.h"
@@ -33,6 +34,8 @@ struct LoadedPart {
   // - the number of points of the path that the form map does not cover
   std::vector<std::string> beyond_tables, tables_without_slope;
   std::size_t points_off_form_map = 0;
+  // See algo::MachineCauses.
+  std::vector<std::pair<std::string, std::size_t>> unknown_approach;
   Notices notices;  // Notices on missing data; the subject of a notice is the layer.
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algo/milling/input_limits.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -85,21 +87,20 @@ Result<WearOffset> wear_offset(const DeclaredMillingPlan& declared) {
   MDOF_TRY(out.offset_m, mean_offset_m(declared.plan));
   double square = 0;
   for (const auto& [input, u] : declared.u) {
-    MillingPlan higher = declared.plan, lower = declared.plan;
-    // Only the angle may be negative.
-    const bool is_angle = input->member == &MillingPlan::runout_angle_rad;
-    higher.*(input->member) += u;
-    lower.*(input->member) -= u;
-    if (!is_angle) lower.*(input->member) = std::max(lower.*(input->member), 0.0);
-    const double width = higher.*(input->member) - lower.*(input->member);
-    MDOF_TRY(const double above, mean_offset_m(higher));
-    MDOF_TRY(const double below, mean_offset_m(lower));
-    out.parts.push_back({input, (above - below) / width * u});
+    const InputStep step = input_step(declared.plan, *input, u);
+    MDOF_TRY(const double above, mean_offset_m(step.higher));
+    MDOF_TRY(const double below, mean_offset_m(step.lower));
+    out.parts.push_back({input, (above - below) / step.width * u});
     square += out.parts.back().contribution_m * out.parts.back().contribution_m;
   }
   std::stable_sort(out.parts.begin(), out.parts.end(), [](const auto& a, const auto& b) {
     return std::abs(a.contribution_m) > std::abs(b.contribution_m);
   });
+  for (const MillingInput& input : milling_inputs()) {
+    const bool is_declared = std::any_of(declared.u.begin(), declared.u.end(),
+                                         [&](const auto& one) { return one.first == &input; });
+    if (!is_declared && declared.plan.*(input.member) != 0) out.not_declared.push_back(&input);
+  }
   out.u_m = declared.u.empty() ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(square);
   return out;
 }

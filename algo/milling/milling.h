@@ -46,7 +46,8 @@ struct WearOffset {
     const MillingInput* input = nullptr;
     double contribution_m = 0;
   };
-  std::vector<Part> parts;  // largest first
+  std::vector<Part> parts;                        // largest first
+  std::vector<const MillingInput*> not_declared;  // inputs other than 0 whose u is not declared
 };
 Result<WearOffset> wear_offset(const DeclaredMillingPlan& declared);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algo/milling/input_limits.h"
 #include "algo/sensitivity/random.h"
 #include "schema/base/random.h"
 
@@ -11,15 +12,6 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kAssumedShare = 0.01;
-
-// Returns whether the random values describe a cut.
-bool is_cut(const MillingPlan& plan) {
-  return plan.feed_per_tooth_m > 0 && plan.radial_depth_m > 0 && plan.axial_depth_m > 0 &&
-         plan.youngs_modulus_Pa > 0 && plan.Kt > 0 && plan.radial_depth_m <= plan.diameter_m &&
-         plan.axial_depth_m <= plan.overhang_m() &&
-         plan.feed_per_tooth_m * plan.teeth <= plan.radius_m() &&
-         std::abs(plan.runout_m) <= plan.radius_m() / 10;
-}
 
 class MillingTrials : public CausalExperiment {
  public:
@@ -52,7 +44,9 @@ class MillingTrials : public CausalExperiment {
     MillingPlan drawn = plan_;
     for (std::size_t q = 0; q < inputs_.size(); ++q) {
       const std::uint32_t stream = q < second.size() && second[q] != 0 ? 1 : 0;
-      drawn.*(inputs_[q].input->member) += inputs_[q].u * gaussian(draw({seed_, stream}, i, q));
+      const MillingInput& input = *inputs_[q].input;
+      set_input(drawn, input,
+                plan_.*(input.member) + inputs_[q].u * gaussian(draw({seed_, stream}, i, q)));
     }
     if (!is_cut(drawn)) return unsolved;
     const auto result = milling(drawn);
@@ -98,18 +92,12 @@ Result<std::vector<std::vector<double>>> milling_effects(const MillingPlan& plan
                                                          const std::vector<VaryingInput>& inputs) {
   std::vector<std::vector<double>> effects;
   for (const VaryingInput& input : inputs) {
-    MillingPlan higher = plan, lower = plan;
-    const double value = plan.*(input.input->member);
-    higher.*(input.input->member) += input.u;
-    // If the input is positive and its u is larger than its value, the difference uses no negative
-    // value.
-    lower.*(input.input->member) = value > 0 && input.u >= value ? value : value - input.u;
-    const double width = higher.*(input.input->member) - lower.*(input.input->member);
-    MDOF_TRY(const MillingResult above, milling(higher));
-    MDOF_TRY(const MillingResult below, milling(lower));
+    const InputStep step = input_step(plan, *input.input, input.u);
+    MDOF_TRY(const MillingResult above, milling(step.higher));
+    MDOF_TRY(const MillingResult below, milling(step.lower));
     std::vector<double> row = milling_output_values(above);
     const std::vector<double> from = milling_output_values(below);
-    for (std::size_t k = 0; k < row.size(); ++k) row[k] = (row[k] - from[k]) / width * input.u;
+    for (std::size_t k = 0; k < row.size(); ++k) row[k] = (row[k] - from[k]) / step.width * input.u;
     effects.push_back(row);
   }
   return effects;

@@ -26,14 +26,15 @@ const std::vector<std::string>& milling_outputs();
 std::vector<double> milling_output_values(const MillingResult& result);
 
 // Returns the effect of the u of each input on each output: [input][output]. It is calculated from
-// the outputs for the input + u and for the input - u. Errors: the errors of milling().
+// the outputs for the input + u and for the input - u (input_step()). Errors: the errors of
+// milling().
 Result<std::vector<std::vector<double>>> milling_effects(const MillingPlan& plan,
                                                          const std::vector<VaryingInput>& inputs);
 
 // Each trial simulates the plan with random values of all inputs; random number q is for input q. A
 // trial has at most kTrialStepsPerTurn steps per turn, because the effects of the inputs hardly
-// depend on this number. A trial has no result if the random values describe no cut or if there is
-// no equilibrium.
+// depend on this number. A trial has no result if the random values describe no cut (is_cut()) or
+// if there is no equilibrium.
 inline constexpr int kTrialStepsPerTurn = 720;
 std::unique_ptr<CausalExperiment> milling_trials(const MillingPlan& plan,
                                                  const std::vector<VaryingInput>& inputs,

@@ -11,6 +11,7 @@
 #include "schema/base/files.h"
 #include "schema/base/json_writer.h"
 #include "schema/milling/milling_plan.h"
+#include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/milling/milling_sensitivity.h"
@@ -56,6 +57,16 @@ Result<MilledModel> mill(const DeclaredMillingPlan& declared, const MillingComma
   return milled;
 }
 
+std::string name_of(const MillingInput& input) {
+  return std::string(input.table) + "." + input.key;
+}
+
+std::vector<std::string> names_of(const std::vector<const MillingInput*>& inputs) {
+  std::vector<std::string> names;
+  for (const MillingInput* input : inputs) names.push_back(name_of(*input));
+  return names;
+}
+
 double deg(double rad) {
   return rad / algo::kHalfTurn_rad * 180;
 }
@@ -71,10 +82,11 @@ void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
   json.key("contributions").begin_array();
   for (const auto& part : offset.parts)
     json.begin_object()
-        .field("name", std::string(part.input->table) + "." + part.input->key)
+        .field("name", name_of(*part.input))
         .field("contribution_um", to_um(part.contribution_m))
         .end_object();
   json.end_array();
+  write_strings(json, "not_declared", names_of(offset.not_declared));
   json.field("wear_offset_sense",
              "the offset is added to the radius of the tool, with the same sign for G41 and G42")
       .field("wear_offset_line", line_to_type(offset))
@@ -155,12 +167,17 @@ std::string offset_text(const MilledModel& milled) {
   if (offset.parts.empty())
     text += "  u is unknown: the plan declares no uncertainty (no key such as u_Kt_N_per_mm2)\n";
   for (const auto& part : offset.parts)
-    text += "  u from " + std::string(part.input->table) + "." + part.input->key + ": " +
+    text += "  u from " + name_of(*part.input) + ": " +
             um_to_place(part.contribution_m, part.contribution_m) + " µm\n";
+  if (!offset.parts.empty() && !offset.not_declared.empty())
+    text += wrapped("  u is too small: the plan declares no u of " +
+                        joined(names_of(offset.not_declared)),
+                    terminal_columns()) +
+            "\n";
   return text;
 }
 
-std::string milling_text(const std::vector<MilledModel>& all) {
+std::string milling_text(const std::vector<MilledModel>& all, const MillingCommand& o) {
   std::vector<std::string> head = {""};
   for (const MilledModel& m : all)
     head.push_back(std::string(to_string(m.plan.chip)) + ", " + to_string(m.plan.deflection));
@@ -200,7 +217,7 @@ std::string milling_text(const std::vector<MilledModel>& all) {
   for (const MilledModel& m : all)
     if (m.sensitivity)
       text += "\nsensitivity (" + std::string(to_string(m.plan.deflection)) + ")" +
-              milling_sensitivity_text(*m.sensitivity);
+              milling_sensitivity_text(request_of(o), *m.sensitivity);
   return text;
 }
 
@@ -239,7 +256,7 @@ Status milling(const MillingCommand& o) {
     all.push_back(steady);
   }
   MDOF_CHECK(write_walls(all, o.plots));
-  return o.json ? write_line(milling_json(all, o)) : write_out(milling_text(all));
+  return o.json ? write_line(milling_json(all, o)) : write_out(milling_text(all, o));
 }
 
 Action declare_milling(CLI::App& command) {

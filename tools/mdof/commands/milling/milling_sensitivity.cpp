@@ -60,6 +60,20 @@ std::vector<OutputIndices> indices_of(const algo::CausalExperiment& trials,
   return all->result();
 }
 
+// Trials without a result, if there are any.
+std::string dropped_text(const MillingSensitivityRequest& request,
+                         const MillingSensitivity& found) {
+  std::uint64_t dropped = 0;
+  for (const OutputSummary& output : found.outputs) dropped = std::max(dropped, output.unsolved);
+  if (dropped == 0) return "";
+  return wrapped(std::to_string(dropped) + " of " + std::to_string(request.trials) +
+                     " trials have no result, because the drawn inputs are no cut or have no "
+                     "equilibrium of force and deflection; u and shares do not contain these "
+                     "trials",
+                 terminal_columns()) +
+         "\n";
+}
+
 const CauseIndex* index_of(const OutputIndices& output, const std::string& cause) {
   const auto found = std::find_if(output.causes.begin(), output.causes.end(),
                                   [&](const CauseIndex& c) { return c.cause == cause; });
@@ -120,7 +134,8 @@ void write_milling_sensitivity(JsonWriter& json, const MillingSensitivityRequest
   json.end_array().end_object();
 }
 
-std::string milling_sensitivity_text(const MillingSensitivity& found) {
+std::string milling_sensitivity_text(const MillingSensitivityRequest& request,
+                                     const MillingSensitivity& found) {
   std::vector<std::string> head = {"effect of a change by u", "u"};
   for (const std::string& key : algo::milling_outputs()) head.push_back(key);
   TextTable effects(head);
@@ -141,7 +156,8 @@ std::string milling_sensitivity_text(const MillingSensitivity& found) {
     std::vector<std::string> row = {name_of(input)};
     for (const OutputIndices& output : found.indices) {
       const CauseIndex* index = index_of(output, name_of(input));
-      row.push_back(index ? fixed(100 * index->total, 1) : "-");
+      row.push_back(index ? with_u(fixed(100 * index->total, 1), fixed(100 * index->total_se, 1))
+                          : "-");
     }
     shares.add(row);
   }
@@ -150,7 +166,11 @@ std::string milling_sensitivity_text(const MillingSensitivity& found) {
                   [](const algo::VaryingInput& input) { return !input.declared; }))
     text += "* u is taken as 1 % of the value, because the plan declares no u of this input\n";
   return text + "\n" + shares.text(terminal_columns()) +
-         "share: total Sobol index, which includes interactions\n";
+         wrapped("share: total Sobol index, which includes interactions, by " +
+                     std::to_string(request.trials) +
+                     " trials, with its standard error (smaller with more --trials)",
+                 terminal_columns()) +
+         "\n" + dropped_text(request, found);
 }
 
 }  // namespace mdof::tools

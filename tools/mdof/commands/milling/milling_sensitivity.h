@@ -34,6 +34,7 @@ Result<MillingSensitivity> find_milling_sensitivity(const DeclaredMillingPlan& d
 
 void write_milling_sensitivity(JsonWriter& json, const MillingSensitivityRequest& request,
                                const MillingSensitivity& found);
-std::string milling_sensitivity_text(const MillingSensitivity& found);
+std::string milling_sensitivity_text(const MillingSensitivityRequest& request,
+                                     const MillingSensitivity& found);
 
 }  // namespace mdof::tools

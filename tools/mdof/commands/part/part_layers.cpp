@@ -126,8 +126,13 @@ Field wall_normals(const algo::PartPath& path, bool is_up) {
   return normals;
 }
 
-Result<std::vector<algo::PartCause>> milling_causes(const LoadedPart& part,
-                                                    const std::string& file) {
+double sum_of_u(const algo::PartCause& cause) {
+  double sum = 0;
+  for (const Eigen::Vector3d& u : cause.u_m) sum += u.norm();
+  return sum;
+}
+
+Result<std::vector<algo::PartCause>> milling_causes(LoadedPart& part, const std::string& file) {
   MDOF_TRY(const std::string text, read_text_file(file));
   MDOF_TRY(const DeclaredMillingPlan declared, parse_milling_plan(text, file));
   MDOF_TRY(const algo::MillingResult result, algo::milling(declared.plan));
@@ -143,6 +148,12 @@ Result<std::vector<algo::PartCause>> milling_causes(const LoadedPart& part,
     // The wall has a slope over the depth of cut. Its standard deviation is form / sqrt(12).
     causes[1].u_m[k] = result.wall.form_m / std::sqrt(12.0) * normals[k];
   }
+  if (sum_of_u(causes[0]) == 0) {
+    part.no_u.push_back(causes[0].name);
+    return causes;
+  }
+  for (const MillingInput* input : offset.not_declared)
+    part.no_u.push_back(std::string(input->table) + "." + input->key);
   return causes;
 }
 
@@ -152,12 +163,6 @@ Result<std::vector<algo::PartCause>> milling_causes(const LoadedPart& part,
 algo::PartCause without_value(algo::PartCause cause) {
   for (Eigen::Vector3d& value : cause.value_m) value.setZero();
   return cause;
-}
-
-double sum_of_u(const algo::PartCause& cause) {
-  double sum = 0;
-  for (const Eigen::Vector3d& u : cause.u_m) sum += u.norm();
-  return sum;
 }
 
 void add_layer(LoadedPart& part, const PartLayer& plan, const std::string& compensated_by,
@@ -235,7 +240,6 @@ Result<LoadedPart> load_part(const std::string& file, const std::string& databas
     if (layer.name == "milling") {
       MDOF_TRY(const auto causes, milling_causes(part, beside(layer.from.front())));
       add_layer(part, layer, "radius wear offset (mdof milling --offset)", causes);
-      if (sum_of_u(causes.front()) == 0) part.no_u.push_back(causes.front().name);
     }
   }
   return part;

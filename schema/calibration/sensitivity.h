@@ -14,7 +14,7 @@ namespace mdof {
 struct SensitivityCalibration {
   std::string id;            // id of the probe
   double sensitivity_1 = 1;  // change of the reading / true displacement, by least squares
-  double u_sensitivity_1 = 0;
+  double u_sensitivity_1 = 0;  // u of sensitivity_1; for a corrected reading see relative_u()
   // Degrees of freedom of u_sensitivity_1.
   double freedom = std::numeric_limits<double>::infinity();
   double linearity_m = 0;  // largest residual from the least-squares line
@@ -28,6 +28,10 @@ struct SensitivityCalibration {
   std::vector<std::array<double, 2>> linearity;
   std::array<double, 2> calibrated_um{};  // t of the first and the last position
   std::vector<std::string> not_seen;      // sentences about effects that u does not include
+
+  // Relative standard uncertainty of the scale of the corrected readings (u_sensitivity_ppm of a
+  // rig or record): the correction divides by sensitivity_1.
+  double relative_u() const { return u_sensitivity_1 / sensitivity_1; }
 };
 
 }  // namespace mdof

@@ -48,6 +48,21 @@ TEST(Sensitivity, MatchesSlopeAndUncertaintyByHand) {
   EXPECT_FALSE(found->um_per_V);
 }
 
+// The correction divides the readings by the sensitivity. So the relative u of the corrected
+// readings does not depend on the scale of the readings before the correction.
+TEST(Sensitivity, RelativeUDoesNotDependOnTheScaleOfTheReadings) {
+  const auto with_scale = [](double scale) {
+    int k = 0;
+    return *fit_sensitivity(test::rig_x(), kA, along_z([&](double z) {
+                              return scale * (z + (k++ % 2 ? 20e-9 : -20e-9));
+                            }));
+  };
+  const auto half = with_scale(0.6), whole = with_scale(1);
+  EXPECT_NEAR(half.u_sensitivity_1, 0.6 * whole.u_sensitivity_1, 1e-12);
+  EXPECT_NEAR(half.relative_u(), whole.relative_u(), 1e-9 * whole.relative_u());
+  EXPECT_NEAR(whole.relative_u(), whole.u_sensitivity_1, 1e-3 * whole.u_sensitivity_1);
+}
+
 // Share (%) of 5,000 intervals that contain the true sensitivity; the coverage factor follows from
 // the degrees of freedom. The axis visits `places` positions in both directions. The readings have
 // white noise, and an encoder error that is the same at both visits of a position.

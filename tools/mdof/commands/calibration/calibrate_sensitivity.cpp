@@ -33,7 +33,7 @@ std::string json_of(const SensitivityCalibration& found, const CalibrationRecord
   json.field("date", record.date).field("valid_until", record.valid_until).key("record");
   file.empty() ? json.null() : json.value(file);
   json.field("probe", found.id).field("sensitivity_1", found.sensitivity_1);
-  json.field("u_sensitivity_ppm", found.u_sensitivity_1 * 1e6).field("dof", found.freedom);
+  json.field("u_sensitivity_ppm", found.relative_u() * 1e6).field("dof", found.freedom);
   json.key("not_seen").begin_array();
   for (const std::string& what : found.not_seen) json.value(what);
   json.end_array();
@@ -88,7 +88,7 @@ CalibratedProbe as_record(const SensitivityCalibration& found, const Probe& prob
   kept.um_per_V = found.um_per_V;
   kept.linearity = found.linearity;
   kept.calibrated_um = found.calibrated_um;
-  kept.u_sensitivity_1 = found.u_sensitivity_1;
+  kept.u_sensitivity_1 = found.relative_u();
   kept.sensitivity_freedom = found.freedom;
   if (!found.um_per_V) return kept;
   kept.offset_um = found.offset_um;

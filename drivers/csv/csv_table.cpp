@@ -61,16 +61,30 @@ std::string folded(const std::string& name) {
   return text;
 }
 
-// Whether `column` is a misspelt `name`: "Direction", "runs", "dirction". Returns false for short
-// names and for names with a capital letter (EYX_um), because a name that differs by one letter can
-// be another quantity.
+// The capital letters and digits of a name, which name its quantity: "EXX" of "reverse_EXX_um".
+std::string quantity_of(const std::string& name) {
+  std::string quantity;
+  for (const unsigned char c : name)
+    if (std::isupper(c) != 0 || std::isdigit(c) != 0) quantity += static_cast<char>(c);
+  return quantity;
+}
+
+std::string unit_of(const std::string& name) {
+  return name.substr(name.rfind('_') + 1);  // without "_": the name
+}
+
+// Whether `column` is a misspelt `name`: "Direction", "runs", "dirction", "revers_EXX_um". Returns
+// false for short names. A name with a capital letter must have the same quantity and unit, because
+// a name that differs in these can be another quantity (EYX_um, EZX_um).
 bool is_misspelling(const std::string& column, const std::string& name) {
   constexpr std::size_t kLongName = 5;
   const std::string is = folded(column), wanted = folded(name);
   if (is == wanted || is == wanted + "s") return true;
   const bool plain =
       std::none_of(name.begin(), name.end(), [](unsigned char c) { return std::isupper(c) != 0; });
-  return plain && wanted.size() > kLongName && edit_distance(is, wanted) <= 1;
+  if (!plain && (quantity_of(column) != quantity_of(name) || unit_of(column) != unit_of(name)))
+    return false;
+  return wanted.size() > kLongName && edit_distance(is, wanted) <= 1;
 }
 
 // Without this check, an optional column with a misspelt name would be ignored without a message.

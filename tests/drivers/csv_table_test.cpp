@@ -76,15 +76,19 @@ TEST_F(CsvTableTest, ReadsOptionalColumnsIfTheyExist) {
 TEST_F(CsvTableTest, RefusesMisspeltOptionalColumns) {
   const auto with = [&](const std::string& column) {
     std::ofstream(path_, std::ios::binary) << "position_mm,deviation_um," + column + "\n1,2,-1\n";
-    return read_csv_table(path_.string(), kSeries, {"direction", "run", "u_um", "u_EYX_um"});
+    return read_csv_table(path_.string(), kSeries,
+                          {"direction", "run", "u_um", "u_EYX_um", "reverse_EXX_um"});
   };
-  const std::vector<std::pair<std::string, std::string>> meant = {{"Direction", "direction"},
-                                                                  {"RUN", "run"},
-                                                                  {"runs", "run"},
-                                                                  {"dirction", "direction"},
-                                                                  {"directoin", "direction"},
-                                                                  {"U_um", "u_um"},
-                                                                  {"u_eyx_um", "u_EYX_um"}};
+  const std::vector<std::pair<std::string, std::string>> meant = {
+      {"Direction", "direction"},
+      {"RUN", "run"},
+      {"runs", "run"},
+      {"dirction", "direction"},
+      {"directoin", "direction"},
+      {"U_um", "u_um"},
+      {"u_eyx_um", "u_EYX_um"},
+      {"revers_EXX_um", "reverse_EXX_um"},
+      {"reverseEXX_um", "reverse_EXX_um"}};
   for (const auto& [column, name] : meant) {
     const auto table = with(column);
     ASSERT_FALSE(table) << column;
@@ -93,7 +97,8 @@ TEST_F(CsvTableTest, RefusesMisspeltOptionalColumns) {
     EXPECT_NE(table.error().message.find("rename the column to " + name), std::string::npos)
         << table.error().message;
   }
-  for (const char* other : {"rung", "point", "u_EZX_um", "time_s"})
+  for (const char* other :
+       {"rung", "point", "u_EZX_um", "time_s", "reverse_EYX_um", "reverse_EX0X_um"})
     EXPECT_TRUE(with(other)) << other;
   std::ofstream(path_, std::ios::binary) << "position_mm,deviation_um,U_um,u_um\n1,2,6,3\n";
   EXPECT_EQ(read_csv_table(path_.string(), kSeries, {"u_um"})->columns[2], std::vector<double>{3});

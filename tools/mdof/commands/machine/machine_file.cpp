@@ -88,8 +88,9 @@ Result<algo::Command> command_from(const Machine& machine, const std::string& te
   const bool named = text.find('=') != std::string::npos;
   if (!named && words.size() != 3) return tl::unexpected(number_in("", text).error());
   for (std::size_t i = 0; i < words.size(); ++i) {
+    if (named && (words[i].size() < 3 || words[i][1] != '='))
+      return tl::unexpected(number_in("", text).error());
     const std::string letter = named ? words[i].substr(0, 1) : std::string(1, kAxisLetters[i]);
-    if (named && words[i].substr(1, 1) != "=") return tl::unexpected(number_in("", text).error());
     MDOF_TRY(const double x, number_in(named ? words[i].substr(2) : words[i], text));
     const MachineFrame* frame = machine.find(letter);
     if (!frame || frame->kind == FrameKind::fixed)

@@ -125,7 +125,8 @@ Command machine_budget_command() {
       .footer =
           "mdof calculates u by linear propagation (GUM). It calculates intervals and lengths of\n"
           "error vectors by Monte Carlo with the exact product of rotations. Measured errors\n"
-          "replace the declared sources of the same errors.\n"
+          "replace the declared sources of the same errors. The keys of MACHINE.toml are in\n"
+          "share/doc/mdof/machine.md.\n"
           "Examples:\n"
           "  mdof machine budget --preset co-planar --at X=60,Y=40\n"
           "  mdof machine budget machine.toml --target-um 0.8\n"

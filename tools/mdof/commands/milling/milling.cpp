@@ -299,6 +299,7 @@ Command milling_command() {
   return {.name = "milling",
           .summary = "Calculate force, deflection and wall error of a micro end mill",
           .footer =
+              "The keys of PLAN.toml are in share/doc/mdof/milling.md.\n"
               "Examples:\n"
               "  mdof milling --preset micro-end-mill\n"
               "  mdof milling plan.toml --offset",

@@ -241,7 +241,9 @@ Command part_command() {
   return {
       .name = "part",
       .summary = "Calculate the error of a part along the tool path, with causes and compensation",
-      .footer = "Example:\n  mdof part part.toml",
+      .footer =
+          "The keys of PART.toml are in share/doc/mdof/part.md.\n"
+          "Example:\n  mdof part part.toml",
       .declare = declare_part};
 }
 

@@ -49,7 +49,7 @@ class Turn {
         step_rad_(kWholeTurn_rad / steps_),
         element_m_(plan.axial_depth_m / plan.elements) {
     for (int m = 0; m < plan.elements; ++m) height_m_.push_back((m + 0.5) * element_m_);
-    C_ = beam_compliance(plan.sections, plan.youngs_modulus_Pa, height_m_, height_m_);
+    C_ = beam_compliance(plan.beam(), plan.youngs_modulus_Pa, height_m_, height_m_);
     for (int j = 0; j < plan.teeth; ++j)
       for (int m = 0; m < plan.elements; ++m) teeth_.push_back(tooth(j, m));
     u_.assign(steps(), VectorXd::Zero(2 * plan.elements));
@@ -319,7 +319,7 @@ Result<CutTurn> cut_turn(const MillingPlan& plan) {
 
 Eigen::MatrixXd deflection_m(const MillingPlan& plan, const CutTurn& turn, double height_m) {
   const Eigen::MatrixXd C =
-      beam_compliance(plan.sections, plan.youngs_modulus_Pa, {height_m}, turn.height_m);
+      beam_compliance(plan.beam(), plan.youngs_modulus_Pa, {height_m}, turn.height_m);
   Eigen::MatrixXd out(turn.fx_N.rows(), 2);
   out.col(0) = turn.fx_N * C.transpose();
   out.col(1) = turn.fy_N * C.transpose();

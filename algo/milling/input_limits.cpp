@@ -27,6 +27,9 @@ InputLimits limits_of(const MillingPlan& plan, double MillingPlan::*input) {
   if (input == &P::feed_per_tooth_m) return {0, plan.radius_m() / plan.teeth, false};
   if (input == &P::radial_depth_m) return {0, plan.diameter_m, false};
   if (input == &P::axial_depth_m) return {0, plan.overhang_m(), false};
+  if (input == &P::overhang_factor)
+    return {plan.axial_depth_m * plan.overhang_factor / plan.overhang_m(), kInfinite, true};
+  if (input == &P::beam_diameter_factor) return {0, kInfinite, false};
   if (input == &P::youngs_modulus_Pa || input == &P::Kt) return {0, kInfinite, false};
   return {};  // Kr, Kte, Kre
 }

@@ -11,7 +11,7 @@ namespace mdof {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180;
-constexpr double kMm = 1e-3, kUm = 1e-6, kPerMm2 = 1e6, kPerMm = 1e3;
+constexpr double kMm = 1e-3, kUm = 1e-6, kPerMm2 = 1e6, kPerMm = 1e3, kPercent = 0.01;
 
 // Limits of a number: greater than `above`, at most `up_to`.
 struct Limits {
@@ -66,13 +66,7 @@ class Reader {
     return fallback;
   }
 
- private:
-  static std::string text(double x) { return plain_number(x, 6); }
-  static std::string range(const Limits& limits) {
-    std::string lower = limits.includes_lower ? "at least " : "above ";
-    return "it must be " + lower + text(limits.above) + " and at most " + text(limits.up_to);
-  }
-
+  // Reads the standard uncertainty of an input of the present table, if it is declared.
   void read_u(const std::string& key) {
     for (const MillingInput& input : milling_inputs()) {
       if (std::string(input.table) != name_ || key != input.key) continue;
@@ -85,6 +79,13 @@ class Reader {
     }
   }
 
+ private:
+  static std::string text(double x) { return plain_number(x, 6); }
+  static std::string range(const Limits& limits) {
+    std::string lower = limits.includes_lower ? "at least " : "above ";
+    return "it must be " + lower + text(limits.above) + " and at most " + text(limits.up_to);
+  }
+
   TomlTable& root_;
   std::vector<std::pair<const MillingInput*, double>>& u_;
   std::string name_;
@@ -92,6 +93,7 @@ class Reader {
 };
 
 void read_sections(TomlTable& tool, Reader& reader, MillingPlan& plan) {
+  for (const char* factor : {"overhang_percent", "beam_diameter_percent"}) reader.read_u(factor);
   if (!tool.has("sections_mm")) {
     const double overhang = reader.number("overhang_mm", kPositive) * kMm;
     const double ratio = reader.number("equivalent_diameter", {0, 1}, 0.8);
@@ -149,7 +151,16 @@ const char* to_string(Mode mode) {
 double MillingPlan::overhang_m() const {
   double sum = 0;
   for (const ToolSection& section : sections) sum += section.length_m;
-  return sum;
+  return sum * overhang_factor;
+}
+
+std::vector<ToolSection> MillingPlan::beam() const {
+  std::vector<ToolSection> scaled = sections;
+  for (ToolSection& section : scaled) {
+    section.length_m *= overhang_factor;
+    section.diameter_m *= beam_diameter_factor;
+  }
+  return scaled;
 }
 
 const char* to_string(ChipModel model) {
@@ -175,6 +186,8 @@ const std::vector<MillingInput>& milling_inputs() {
       {"force", "Kr_N_per_mm2", &P::Kr, kPerMm2},
       {"force", "Kte_N_per_mm", &P::Kte, kPerMm},
       {"force", "Kre_N_per_mm", &P::Kre, kPerMm},
+      {"tool", "overhang_percent", &P::overhang_factor, kPercent},
+      {"tool", "beam_diameter_percent", &P::beam_diameter_factor, kPercent},
   };
   return inputs;
 }

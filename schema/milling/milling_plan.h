@@ -30,6 +30,8 @@ struct MillingPlan {
   int teeth = 0;
   double helix_rad = 0;
   std::vector<ToolSection> sections;
+  // Factors on all lengths and all diameters of `sections`, to vary them.
+  double overhang_factor = 1, beam_diameter_factor = 1;
   double youngs_modulus_Pa = 0;
   // [runout] Run-out at the tip: magnitude and angle. runout_tilt: change of the run-out, m per m
   // of height.
@@ -47,10 +49,11 @@ struct MillingPlan {
 
   double radius_m() const { return diameter_m / 2; }
   double overhang_m() const;
+  std::vector<ToolSection> beam() const;  // `sections` with the factors
 };
 
 // A number of PLAN.toml that can have a standard uncertainty. The key of the uncertainty is "u_" +
-// key.
+// key. The factors of the beam have only this key; it is in percent of the value.
 struct MillingInput {
   const char* table;
   const char* key;  // including the unit

@@ -76,7 +76,8 @@ TEST(WearOffset, NamesTheInputsWithoutU) {
   // Kte and Kre are 0.
   EXPECT_EQ(names, (std::vector<std::string>{"helix_deg", "youngs_modulus_GPa", "radial_um",
                                              "angle_deg", "radial_depth_mm", "axial_depth_mm",
-                                             "Kt_N_per_mm2", "Kr_N_per_mm2"}));
+                                             "Kt_N_per_mm2", "Kr_N_per_mm2", "overhang_percent",
+                                             "beam_diameter_percent"}));
 }
 
 TEST(SetInput, WidthBeyondTheDiameterIsASlot) {
@@ -103,6 +104,33 @@ TEST(MillingTrials, AllTrialsOfASlotHaveAResult) {
   trials->run(0, 1, n, at);
   for (std::size_t j = 0; j < n; ++j) EXPECT_TRUE(std::isfinite(out[j])) << j;
   EXPECT_TRUE(milling_effects(slot(), inputs));
+}
+
+// The deflection of a beam is proportional to length³ and diameter⁻⁴. The force of the rigid tool
+// does not depend on them.
+TEST(MillingEffects, ContainTheDimensionsOfTheBeam) {
+  MillingPlan plan = coarse_preset();
+  plan.deflection = DeflectionModel::rigid;
+  plan.axial_depth_m = 1e-6;  // the force acts at the tip
+  const double deflection_um = milling(plan)->deflection_m * 1e6;
+  const auto effects = milling_effects(
+      plan, {{&input_of("overhang_percent"), 0.001}, {&input_of("beam_diameter_percent"), 0.001}});
+  ASSERT_TRUE(effects) << effects.error().message;
+  ASSERT_EQ(milling_outputs()[2], "deflection_um");
+  EXPECT_NEAR((*effects)[0][2] / deflection_um, 0.003, 1e-5);
+  EXPECT_NEAR((*effects)[1][2] / deflection_um, -0.004, 1e-5);
+  EXPECT_NEAR((*effects)[0][0], 0, 1e-12);
+}
+
+TEST(MillingPlan, DeclaresTheUOfTheBeamInPercent) {
+  std::string text(micro_end_mill_preset());
+  text.insert(text.find("overhang_mm"), "u_overhang_percent = 2\n");
+  const auto declared = parse_milling_plan(text, "plan");
+  ASSERT_TRUE(declared) << declared.error().message;
+  ASSERT_EQ(declared->u.size(), 1u);
+  EXPECT_STREQ(declared->u[0].first->key, "overhang_percent");
+  EXPECT_NEAR(declared->u[0].second, 0.02, 1e-15);
+  EXPECT_FALSE(parse_milling_plan("overhang_percent = 2\n" + text, "plan"));
 }
 
 }  // namespace

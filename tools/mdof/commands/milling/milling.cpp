@@ -115,7 +115,7 @@ void write_members(JsonWriter& json, const MilledModel& milled, const MillingCom
       .end_object();
   json.field("deflection_um", to_um(r.deflection_m))
       .field("deflection_rigid_um", to_um(r.deflection_rigid_m))
-      .field("shear_left_out_share", algo::shear_share(plan.sections));
+      .field("shear_left_out_share", algo::shear_share(plan.beam()));
   json.key("window_deg").begin_array().value(deg(r.entry_rad)).value(deg(r.exit_rad)).end_array();
   json.field("power_W", r.power_W);
   json.key("wall")
@@ -207,7 +207,7 @@ std::string milling_text(const std::vector<MilledModel>& all, const MillingComma
       wrapped(
           "Force on the tool: x points against the feed, y points towards the wall of an up cut. "
           "Wall offset: + is an overcut. The deflection contains bending only; shear would add " +
-              fixed(100 * algo::shear_share(all.front().plan.sections), 1) + " %",
+              fixed(100 * algo::shear_share(all.front().plan.beam()), 1) + " %",
           terminal_columns()) +
       "\n";
   if (!all.front().plan.force_source.empty())

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "schema/sample.h"
+#include "schema/study/study.h"
 #include "tools/mdof/commands/measure/live_view.h"
+#include "tools/mdof/study/output.h"
 #include "tools/mdof/text/json_text.h"
 #include "tools/mdof/text/text_table.h"
 
@@ -114,6 +116,19 @@ TEST(JsonText, ShowsMembersAndTables) {
 
 TEST(JsonText, ReturnsInvalidJsonWithANewline) {
   EXPECT_EQ(readable("{"), "{\n");
+}
+
+// The first requirement is not met even without the tolerance. In the second, its size is 0.
+TEST(StudyText, AToleranceThatCannotMeetTheLimitIsNotZero) {
+  StudyResult result;
+  result.allocations = {{"EYX_um", 2, 0.95, 0.5, {{"probe.A.x_um", 0, 0, 0}}, 0, {}},
+                        {"EZX_um", 2, 0.95, 0.97, {{"probe.B.x_um", 0, 0, 0}}, 1, {}}};
+  const std::string text = study_text(result);
+  EXPECT_NE(text.find("alone     probe.A.x_um: none; the limit is not met"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("together: none; the limit is not met"), std::string::npos) << text;
+  EXPECT_EQ(text.find("probe.B.x_um: none"), std::string::npos) << text;
+  EXPECT_NE(text.find("multiplied by 1.0000"), std::string::npos) << text;
 }
 
 }  // namespace

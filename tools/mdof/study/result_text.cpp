@@ -77,13 +77,20 @@ std::string tolerance(const AllocatedTolerance& t) {
          fixed(t.high, d) + ")";
 }
 
+constexpr const char* kNotMet = ": none; the limit is not met even with the value 0";
+
 std::string allocation(const Allocation& a) {
   std::string text = "\nTolerances for |" + with_unit(a.output) +
                      "| <= " + fixed(a.limit, decimals_for(a.limit)) + " with probability " +
                      percent(a.probability) +
                      "; probability with the planned values: " + percent(a.reached) + "\n";
-  for (const AllocatedTolerance& t : a.alone) text += "  alone     " + tolerance(t) + "\n";
-  text += "  together  all planned values multiplied by " + fixed(a.common_factor, 4) + "\n";
+  for (const AllocatedTolerance& t : a.alone)
+    text += "  alone     " +
+            (t.value == 0 && a.reached < a.probability ? t.tolerance + kNotMet : tolerance(t)) +
+            "\n";
+  text += a.common_factor == 0
+              ? std::string("  together") + kNotMet + "\n"
+              : "  together  all planned values multiplied by " + fixed(a.common_factor, 4) + "\n";
   for (const auto& pair : a.frontier) {
     std::vector<std::string> words;
     for (const AllocatedTolerance& t : pair) words.push_back(tolerance(t));

@@ -304,7 +304,7 @@ std::string machine_budget_text(const Machine& machine, const BudgetRequest& req
   std::string text = noise_only_notice(noise_only(machine, true)) +
                      simulated_notice(machine.simulated) + machine.name + ", " +
                      machine.chain.text + ", at" + at_text(machine, request.at) + "\n" +
-                     stage_text(found.now);
+                     approach_text(machine, request.approach) + stage_text(found.now);
   if (!found.now.outputs.empty()) text += contributions_text(found);
   if (found.allocation) text += allocation_text(*found.allocation, *request.target_um);
   if (const auto& names = found.now.model.not_declared; !names.empty())

@@ -106,7 +106,8 @@ std::string compensating_text(const Machine& machine, const FoundError& found) {
          in_urad(c.angles_rad[1]) + ", " + in_urad(c.angles_rad[2]) + " µrad about X, Y, Z\n";
 }
 
-std::string error_text(const Machine& machine, const FoundError& found) {
+std::string error_text(const Machine& machine, const FoundError& found,
+                       algo::MachineApproach approach) {
   const algo::ToolError& e = found.error;
   TextTable table({"", "error", "u", "linear", "difference", "missing"});
   const char* const labels[] = {"x/µm", "y/µm", "z/µm", "a/µrad", "b/µrad", "c/µrad"};
@@ -121,7 +122,8 @@ std::string error_text(const Machine& machine, const FoundError& found) {
          wrapped(machine.name + ", " + machine.chain.text +
                      ": error of the tool relative to the workpiece, actual - nominal",
                  terminal_columns()) +
-         "\n" + table.text(terminal_columns()) + "missing: errors that were not measured\n" +
+         "\n" + approach_text(machine, approach) + table.text(terminal_columns()) +
+         "missing: errors that were not measured\n" +
          wrapped("u is the standard uncertainty. It contains " +
                      covers_text(machine, !no_u.empty()) + ".",
                  terminal_columns()) +
@@ -141,7 +143,7 @@ Status machine_error(const MachineErrorCommand& o) {
   }
   warn_outside_tables(found.error.beyond);
   return o.json ? write_line(error_json(machine, found, o.approach))
-                : write_out(error_text(machine, found));
+                : write_out(error_text(machine, found, approach));
 }
 
 Action declare_machine_error(CLI::App& command) {

@@ -1,6 +1,7 @@
 #include "tools/mdof/commands/machine/machine_file.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -79,6 +80,19 @@ algo::MachineApproach approach_from(const std::string& name) {
   return name == "forward"   ? algo::MachineApproach::forward
          : name == "reverse" ? algo::MachineApproach::reverse
                              : algo::MachineApproach::mean;
+}
+
+std::string approach_text(const Machine& machine, algo::MachineApproach approach) {
+  const auto depends = [](const ErrorFunction& error) { return !error.reverse.empty(); };
+  const bool any =
+      std::any_of(machine.frames.begin(), machine.frames.end(), [&](const MachineFrame& frame) {
+        return std::any_of(frame.error.begin(), frame.error.end(), depends);
+      });
+  if (!any) return "";
+  return approach == algo::MachineApproach::forward ? "approach: forward\n"
+         : approach == algo::MachineApproach::reverse
+             ? "approach: reverse\n"
+             : "approach: mean of forward and reverse (other values: --approach)\n";
 }
 
 Result<algo::Command> command_from(const Machine& machine, const std::string& text) {

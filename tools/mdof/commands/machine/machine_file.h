@@ -35,6 +35,8 @@ Result<Machine> load_machine(const std::string& file, const std::string& databas
 void add_machine_argument(CLI::App& command, std::string& file);
 void add_approach_option(CLI::App& command, std::string& approach);
 algo::MachineApproach approach_from(const std::string& name);
+// A line that states the approach; empty if no error of the machine depends on the approach.
+std::string approach_text(const Machine& machine, algo::MachineApproach approach);
 
 // Reads positions of the axes in mm and degrees: "10,20,30" for X, Y and Z, or "X=10,C=90" with all
 // other axes at 0. Errors: an axis is not in the chain of the machine; a value is not a number.

@@ -166,7 +166,8 @@ void add_source_rows(std::size_t sources, BudgetModel& model) {
   for (std::size_t i = 0; i < sources; ++i) {
     BudgetCause& cause = model.causes[i];
     for (CauseEffect& e : cause.effects) e.row = i;
-    model.rows.push_back({cause.name, cause.unit, cause.u, cause.shape, cause.sensitivity, 0});
+    model.rows.push_back({cause.name, cause.unit, cause.u, cause.shape, cause.sensitivity,
+                          cause.contribution_m().squaredNorm()});
   }
 }
 
@@ -187,9 +188,11 @@ void add_error_rows(const Derivatives& all, std::size_t sources, BudgetModel& mo
   }
 }
 
-// Distributes the variance of each cause to the rows of the errors that the cause acts on.
-void add_variances(const Derivatives& all, BudgetModel& model) {
-  for (const BudgetCause& cause : model.causes) {
+// Distributes the variance of each cause, except the sources, to the rows of the errors that the
+// cause acts on.
+void add_variances(const Derivatives& all, std::size_t sources, BudgetModel& model) {
+  for (std::size_t i = sources; i < model.causes.size(); ++i) {
+    const BudgetCause& cause = model.causes[i];
     const Eigen::Vector3d whole = cause.sensitivity * cause.u;
     for (const CauseEffect& e : cause.effects)
       model.rows[e.row].variance_m2 += whole.dot(place_derivative(all, e) * (e.per_unit * cause.u));
@@ -266,7 +269,7 @@ Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
   add_sensitivities(all, model);
   add_source_rows(sources, model);
   add_error_rows(all, sources, model);
-  add_variances(all, model);
+  add_variances(all, sources, model);
   return model;
 }
 

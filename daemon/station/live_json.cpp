@@ -92,7 +92,8 @@ std::string live_json(const Rig& rig, const Pipeline& pipeline, const RecentRang
       .field("encoder_mm", to_mm(now.encoder_m[0]))
       .field("still", pipeline.still())
       .field("simulated", state.simulated)
-      .field("stale", state.stale);
+      .field("stale", state.stale)
+      .field("age_s", state.age_s);
   json.key("waiting_for");
   const auto waiting = pipeline.waiting_for();
   waiting ? json.value(*waiting) : json.null();

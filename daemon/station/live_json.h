@@ -26,12 +26,14 @@ struct LiveState {
   bool simulated = false;
   // The newest readings are older than stale_s, so no reading has the quality "good".
   bool stale = false;
+  double age_s = 0;                       // age of the newest readings
   std::int64_t run = 0;                   // 0: no run
   std::vector<std::string> trouble = {};  // current troubles of the devices of the axis
 };
 
 // The value of the topic live.update:
-//   {"axis", "time_ns", "encoder_mm", "still", "simulated", "stale", "waiting_for",
+//   {"axis", "time_ns", "encoder_mm", "still", "simulated", "stale", "age_s",
+//    "waiting_for",
 //    "probes": [{"id", "um", "low_um", "high_um", "quality", "range_um"}],
 //    "errors": {...} | null, "run": id | null, "trouble": [...]}
 // "errors" is null if the readings are stale. low_um and high_um are the smallest and the largest

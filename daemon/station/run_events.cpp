@@ -1,8 +1,12 @@
 #include "daemon/station/run_events.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "algo/uncertainty/run_uncertainty.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_page.h"
+#include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/notice/notice.h"
 #include "schema/run_json.h"
@@ -49,6 +53,31 @@ std::string points_json(const Run& part, const RunUncertainty& uncertainty, std:
   return json.take();
 }
 
+// Number of requested points that are measured. Only solved points count, and at most `repeats`
+// points for each target and approach.
+std::size_t done(const RunRequest& request, const std::vector<MeasuredPoint>& points) {
+  std::vector<int> ways(2 * request.targets_m.size());
+  std::size_t done = 0;
+  for (const auto& p : points) {
+    if (!p.errors.valid || p.target < 1) continue;
+    const auto way = 2 * (static_cast<std::size_t>(p.target) - 1) + (p.point.direction > 0);
+    done += way < ways.size() && ways[way]++ < request.repeats;
+  }
+  return done;
+}
+
+// The index of the expected next target: the neighbour in the direction of the last motion. At the
+// end of the travel, the same target is expected again.
+std::optional<std::size_t> expected_target(const RunRequest& request,
+                                           const std::vector<MeasuredPoint>& points) {
+  if (request.targets_m.empty()) return std::nullopt;
+  if (points.empty()) return 0;
+  const auto last = static_cast<std::size_t>(points.back().target) - 1;
+  const bool forward = points.back().point.direction > 0;
+  if (forward) return std::min(last + 1, request.targets_m.size() - 1);
+  return last > 0 ? last - 1 : 0;
+}
+
 }  // namespace
 
 std::vector<std::string> points_messages(std::int64_t run, const Rig& rig, Model model,
@@ -76,6 +105,47 @@ std::string left_out_message(std::int64_t run, Axis axis, double position_m) {
       .field("code", to_string(left_out.code))
       .field("text", words::text(left_out))
       .end_object();
+  return json.take();
+}
+
+std::string started_message(std::int64_t run, Axis axis) {
+  JsonWriter json;
+  json.begin_object()
+      .field("type", "started")
+      .field("run", run)
+      .field("axis", std::string(1, letter(axis)))
+      .end_object();
+  return json.take();
+}
+
+std::string ended_message(std::int64_t run, Axis axis, RunState state) {
+  JsonWriter json;
+  json.begin_object()
+      .field("type", "ended")
+      .field("run", run)
+      .field("axis", std::string(1, letter(axis)))
+      .field("state", to_string(state))
+      .end_object();
+  return json.take();
+}
+
+std::string progress_message(std::int64_t run, Axis axis, const RunRequest& request,
+                             const std::vector<MeasuredPoint>& points) {
+  JsonWriter json;
+  json.begin_object()
+      .field("type", "progress")
+      .field("run", run)
+      .field("axis", std::string(1, letter(axis)))
+      .field("points", static_cast<std::uint64_t>(points.size()));
+  const std::size_t of = 2 * request.targets_m.size() * static_cast<std::size_t>(request.repeats);
+  json.key("of");
+  of > 0 ? json.value(static_cast<std::uint64_t>(of)) : json.null();
+  json.key("done");
+  of > 0 ? json.value(static_cast<std::uint64_t>(done(request, points))) : json.null();
+  json.key("awaited_mm");
+  const auto next = expected_target(request, points);
+  next ? json.value(to_mm(request.targets_m[*next])) : json.null();
+  json.end_object();
   return json.take();
 }
 

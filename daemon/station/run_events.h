@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "daemon/measure/run_request.h"
 #include "schema/point.h"
 #include "schema/rig/rig.h"
+#include "schema/run.h"
 
 namespace mdof::daemon {
 
@@ -22,5 +24,15 @@ std::vector<std::string> points_messages(std::int64_t run, const Rig& rig, Model
 // Message for a stop that is not near any target:
 //   {"type": "left_out", "run", "axis", "position_mm", "code", "text"}
 std::string left_out_message(std::int64_t run, Axis axis, double position_m);
+
+// {"type": "started", "run", "axis"}
+std::string started_message(std::int64_t run, Axis axis);
+// {"type": "ended", "run", "axis", "state"}: the run to read and its state.
+std::string ended_message(std::int64_t run, Axis axis, RunState state);
+// {"type": "progress", "run", "axis", "points", "of", "done", "awaited_mm"}: number of points,
+// number of requested points (null without repeats), and the expected next target (null without
+// targets).
+std::string progress_message(std::int64_t run, Axis axis, const RunRequest& request,
+                             const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::daemon

@@ -145,6 +145,7 @@ class Station {
               RunDone done = {}, const std::optional<HistoryEntry>& action = std::nullopt);
   const Pipeline* pipeline() const;
   void note_newest();
+  double age_s(std::chrono::steady_clock::time_point now) const;
   void show_live();
   void watch_range(Pipeline& pipeline);
   std::vector<std::string> present_troubles() const;

@@ -14,7 +14,7 @@
 #include "daemon/store/result_hash.h"
 #include "daemon/words/error_text.h"
 #include "drivers/calibration.h"
-#include "schema/base/json_writer.h"
+#include "drivers/clock/monotonic.h"
 #include "schema/base/thread_start.h"
 #include "schema/rig/calibrated.h"
 #include "schema/rig/check/rig_check.h"
@@ -55,82 +55,12 @@ bool approach_assumed(const MeasuredPoint& p) {
   return algo::has_flag(p.point, Flag::approach_assumed);
 }
 
-// Number of requested points that are measured. Only solved points count, and at most `repeats`
-// points for each target and approach.
-std::size_t done(const RunRequest& request, const std::vector<MeasuredPoint>& points) {
-  std::vector<int> ways(2 * request.targets_m.size());
-  std::size_t done = 0;
-  for (const auto& p : points) {
-    if (!p.errors.valid || p.target < 1) continue;
-    const auto way = 2 * (static_cast<std::size_t>(p.target) - 1) + (p.point.direction > 0);
-    done += way < ways.size() && ways[way]++ < request.repeats;
-  }
-  return done;
-}
-
-// The index of the expected next target: the neighbour in the direction of the last motion. At the
-// end of the travel, the same target is expected again.
-std::optional<std::size_t> expected_target(const RunRequest& request,
-                                           const std::vector<MeasuredPoint>& points) {
-  if (request.targets_m.empty()) return std::nullopt;
-  if (points.empty()) return 0;
-  const auto last = static_cast<std::size_t>(points.back().target) - 1;
-  const bool forward = points.back().point.direction > 0;
-  if (forward) return std::min(last + 1, request.targets_m.size() - 1);
-  return last > 0 ? last - 1 : 0;
-}
-
 // Whether the result begins with the stored points. The result can contain further points.
 bool begins_with(const std::vector<MeasuredPoint>& result,
                  const std::vector<MeasuredPoint>& stored) {
   if (result.size() < stored.size()) return false;
   const auto n = static_cast<std::ptrdiff_t>(stored.size());
   return same_points(stored, {result.begin(), result.begin() + n});
-}
-
-std::string event_json(const char* type, std::int64_t run, Axis axis) {
-  JsonWriter json;
-  json.begin_object()
-      .field("type", type)
-      .field("run", run)
-      .field("axis", std::string(1, letter(axis)))
-      .end_object();
-  return json.take();
-}
-
-// Message that a run has ended. It states the run to read and the state of this run.
-std::string ended_json(std::int64_t run, Axis axis, RunState state) {
-  JsonWriter json;
-  json.begin_object()
-      .field("type", "ended")
-      .field("run", run)
-      .field("axis", std::string(1, letter(axis)))
-      .field("state", to_string(state))
-      .end_object();
-  return json.take();
-}
-
-// Message about progress: number of points, number of requested points, expected next target.
-// Without repeats, the number of requested points is null. Without targets, the expected target is
-// null.
-std::string progress_json(std::int64_t run, Axis axis, const RunRequest& request,
-                          const std::vector<MeasuredPoint>& points) {
-  JsonWriter json;
-  json.begin_object()
-      .field("type", "progress")
-      .field("run", run)
-      .field("axis", std::string(1, letter(axis)))
-      .field("points", static_cast<std::uint64_t>(points.size()));
-  const std::size_t of = 2 * request.targets_m.size() * static_cast<std::size_t>(request.repeats);
-  json.key("of");
-  of > 0 ? json.value(static_cast<std::uint64_t>(of)) : json.null();
-  json.key("done");
-  of > 0 ? json.value(static_cast<std::uint64_t>(done(request, points))) : json.null();
-  json.key("awaited_mm");
-  const auto next = expected_target(request, points);
-  next ? json.value(to_mm(request.targets_m[*next])) : json.null();
-  json.end_object();
-  return json.take();
 }
 
 }  // namespace
@@ -203,7 +133,7 @@ void Station::attach(std::int64_t run, const RunRequest& request, const Options&
   if (beginning) open_->left_out_ns = beginning->end_ns;  // the old run has reported its stops
   zero_.begins(run);
   shared_->run = run;
-  shared_->events.run_event(event_json("started", run, config_.rig.axis));
+  shared_->events.run_event(started_message(run, config_.rig.axis));
   done(run);
   if (!config_.live()) acquisitions_.front()->start();
   // The encoder may have passed its reference mark after the check in start_run().
@@ -292,7 +222,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   report_unsolved(fresh);
   const std::int64_t run = open_->id;
   auto messages = points_messages(run, config_.rig, open_->model, open_->stored, first);
-  std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
+  std::string progress = progress_message(run, config_.rig.axis, open_->request, open_->stored);
   // Clients receive the points when the points are on the disk.
   keeper_.append_points(run, std::move(fresh),
                         [shared = shared_, messages = std::move(messages),
@@ -347,8 +277,8 @@ void Station::finish(RunState state, Notices why, const drivers::SourceInfo& sou
                   [shared = shared_, id, axis, became,
                    done = std::move(done)](const Result<std::int64_t>& stored) {
                     shared->run = 0;
-                    shared->events.run_event(ended_json(stored ? *stored : id, axis,
-                                                        stored ? became : RunState::failed));
+                    shared->events.run_event(ended_message(stored ? *stored : id, axis,
+                                                           stored ? became : RunState::failed));
                     if (done) done(stored);
                   });
 }
@@ -363,6 +293,15 @@ void Station::note_newest() {
   if (!from || from->newest().size() == 0 || from->newest().time_ns[0] == newest_ns_) return;
   newest_ns_ = from->newest().time_ns[0];
   newest_since_ = steady_clock::now();
+}
+
+// Age of the newest readings. If a device is silent, readings of the others arrive late (see
+// AlignOptions::lag_bound_s), so the times of the readings count, too. The times in a log are not
+// times of the computer's clock.
+double Station::age_s(steady_clock::time_point now) const {
+  const double since_arrival_s = std::chrono::duration<double>(now - newest_since_).count();
+  if (!config_.live()) return since_arrival_s;
+  return std::max(since_arrival_s, ns_to_s(drivers::monotonic_ns() - newest_ns_));
 }
 
 std::vector<std::string> Station::present_troubles() const {
@@ -383,8 +322,9 @@ void Station::show_live() {
   const auto now = steady_clock::now();
   if (now - last_live_ < every) return;
   last_live_ = now;
-  const bool stale = now - newest_since_ > std::chrono::duration<double>(options_.stale_s);
-  const LiveState state{config_.simulated(), stale, open_ ? open_->id : 0, present_troubles()};
+  const double age = age_s(now);
+  const LiveState state{config_.simulated(), age > options_.stale_s, age, open_ ? open_->id : 0,
+                        present_troubles()};
   shared_->events.live(live_json(config_.rig, *from, recent_, state));
 }
 

@@ -25,9 +25,10 @@ export function onChange(listener) {
 export const axes = () => (state.info?.axes ?? []).map((a) => a.axis);
 export const axisInfo = (axis) => state.info?.axes.find((a) => a.axis === axis);
 
+// Age of the newest values: their age when mdofd sent them, and the time since then.
 export function ageOf(axis) {
   const newest = state.newest.get(axis);
-  return newest ? (performance.now() - newest.at) / 1000 : Infinity;
+  return newest ? newest.value.age_s + (performance.now() - newest.at) / 1000 : Infinity;
 }
 export const isStale = (axis) => ageOf(axis) > kStale_s || state.newest.get(axis).value.stale;
 
@@ -42,6 +43,12 @@ export async function refresh() {
   for (const listener of changed) listener();
 }
 
+// If one device is silent, mdofd waits some seconds for it, and all values are late.
+export function staleReason(axis) {
+  const waits = state.newest.get(axis)?.value.waiting_for;
+  return waits ? `the values are late, because ${waits === "encoder" ? "the encoder" : `probe ${waits}`} sends nothing` : "no new values arrive";
+}
+
 // [{kind, text, age}]. kind: CSS class of the line. age: age of the values in s. Screen readers do
 // not read the age, because it changes all the time.
 export function warnings() {
@@ -52,7 +59,7 @@ export function warnings() {
       age: all.length ? Math.min(...all.map(ageOf)) : Infinity});
   else
     for (const axis of all.filter(isStale))
-      found.push({kind: "invalid", text: `Axis ${axis} is stale: no new values arrive.`, age: ageOf(axis)});
+      found.push({kind: "invalid", text: `Axis ${axis} is stale: ${staleReason(axis)}.`, age: ageOf(axis)});
   const simulated = (state.info?.axes ?? []).filter((a) => a.simulated).map((a) => a.axis);
   if (simulated.length)
     found.push({kind: "doubtful", text: `SIMULATED: ${simulated.join(", ")}. No machine is measured.`});

@@ -14,6 +14,12 @@ export async function units(page) {
     const {hoursLeft} = await import("/views/health.js");
     const {layer} = await import("/views/volume.js");
     const {fixed, measured, short} = await import("/dom.js");
+    const machine = await import("/machine.js");
+    // An axis that no message changes.
+    const value = {axis: "U", age_s: 3, stale: true, waiting_for: "E"};
+    machine.state.newest.set("U", {value, at: performance.now()});
+    const age = [machine.ageOf("U"), machine.staleReason("U")];
+    machine.state.newest.delete("U");
     const probe = {id: "A", direction: [0, 0, 1], low_um: -100, high_um: 100};
     const card = {probe, noise: {pooled: [0.01, 60]}};
     // Two stops at places far apart: ss of 0 2 is 2, of 10 14 is 8, each with one degree of freedom; then 20 times 100.
@@ -25,6 +31,7 @@ export async function units(page) {
     for (let i = 0; i < 20; ++i) noise.add(100, true);
     const points = [{position_mm: 0, forward: {k: 1}}, {position_mm: 10, forward: {k: 3}}];
     return {
+      age,
       // The target is pushed along what the probe measures: its reading rises.
       right: verdict(5, card, [0, 0, 1]), wrong: verdict(-5, card, [0, 0, 1]), across: verdict(5, card, [1, 0, 0]), none: verdict(0.1, card, [0, 0, 1]),
       noise: [tooFew, noise.pooled],
@@ -68,6 +75,8 @@ export async function units(page) {
       numbers: [fixed(-0.0001, 2), fixed(-1.5, 1), fixed(null, 2), measured({value: 1.83045, U: 0.0886, k: 2}, "µm"), measured({value: 1}, "µm"), short(0.000123456)],
     };
   });
+  assert.ok(found.age[0] >= 3 && found.age[0] < 10);
+  assert.equal(found.age[1], "the values are late, because probe E sends nothing");
   assert.deepEqual(found.no_reading, ["Shim: not known, because the probe has no usable reading", "Shim: not known, because the probe has no usable reading",
     "Shim at least 100.0 µm: move the probe towards +Z, or the target towards −Z", "no reading"]);
   assert.deepEqual(found.lines, [[[0, 1], [50, 1.1]], [[0, 1], [50, 0.9]], []]);

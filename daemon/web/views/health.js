@@ -24,7 +24,7 @@ export function reasons(info, devices, compensation) {
     if (a.encoder.note) found.push([`encoder of ${a.axis}`, a.encoder.note]);
     const waiting = machine.state.newest.get(a.axis)?.value.waiting_for;
     if (waiting) found.push([`axis ${a.axis}`, `waits for ${waiting}`]);
-    if (machine.isStale(a.axis)) found.push([`axis ${a.axis}`, "stale: no new values arrive"]);
+    if (machine.isStale(a.axis)) found.push([`axis ${a.axis}`, `stale: ${machine.staleReason(a.axis)}`]);
     if (!compensation.axes[a.axis] && !compensation.volume) found.push([`compensation of ${a.axis}`, "no table is active: nothing is corrected"]);
   }
   if (info.axes.length === 0) found.push(["configuration", "mdofd has no axis to measure; add an [[axis]] to mdofd.toml and restart mdofd"]);

@@ -111,7 +111,7 @@ class ProbeCard {
     this.swing.style.left = `${place(lowest)}%`;
     this.swing.style.width = `${place(highest) - place(lowest)}%`;
     setText(this.range, stale ? "" : rangeText(lowest, highest));
-    setText(this.shim, stale ? "Shim: not known, because no new values arrive" : shimText(um, this.probe, quality));
+    setText(this.shim, stale ? "Shim: not known, because the values are stale" : shimText(um, this.probe, quality));
     const {pooled} = this.noise;
     setText(this.quiet, pooled === null ? "Noise: shown when the axis is at rest" : `Noise s = ${fixed(pooled[0], 4)} µm (${pooled[1]} degrees of freedom, at rest)`);
   }

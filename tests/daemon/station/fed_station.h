@@ -161,6 +161,10 @@ class Events {
   // arrived.
   std::string wait_for(const std::vector<std::string>& parts) { return wait(run_events_, parts); }
   std::string wait_for_live(const std::vector<std::string>& parts) { return wait(live_, parts); }
+  // The first live message until now that contains all these texts, or "".
+  std::string find_live(const std::vector<std::string>& parts) {
+    return wait(live_, parts, std::chrono::seconds(0));
+  }
   std::string wait_for_trouble(const std::vector<std::string>& parts) {
     return wait(troubles_, parts);
   }
@@ -177,10 +181,11 @@ class Events {
     to.push_back(std::move(json));
     changed_.notify_all();
   }
-  std::string wait(const std::vector<std::string>& in, const std::vector<std::string>& parts) {
+  std::string wait(const std::vector<std::string>& in, const std::vector<std::string>& parts,
+                   std::chrono::seconds limit = std::chrono::seconds(20)) {
     std::unique_lock lock(mutex_);
     std::string found;
-    changed_.wait_for(lock, std::chrono::seconds(20), [&] {
+    changed_.wait_for(lock, limit, [&] {
       for (const auto& json : in) {
         const auto has = [&](const auto& part) { return json.find(part) != std::string::npos; };
         if (!std::all_of(parts.begin(), parts.end(), has)) continue;

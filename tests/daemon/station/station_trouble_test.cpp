@@ -140,6 +140,30 @@ TEST_F(StationTrouble, TheLiveViewShowsTheAxisWithAndWithoutARun) {
   EXPECT_FALSE(events_.wait_for_live({"\"stale\":true"}).empty()) << "nothing comes any more";
 }
 
+// While one device is silent, the frames of the others arrive late, but at their full rate.
+TEST_F(StationTrouble, ReadingsOfThreeSecondsAgoAreStaleAlthoughTheyJustArrived) {
+  station_->watch(std::chrono::milliseconds(20));
+  const auto give_until = [&](std::int64_t end_ns) {
+    SampleBlock block = axis_.block(0, 100);
+    const std::int64_t shift_ns = end_ns - block.time_ns.back();
+    for (auto& time_ns : block.time_ns) time_ns += shift_ns;
+    feed_->give(block);
+    feed_->wait_until_read();
+  };
+  give_until(drivers::monotonic_ns() - 3'000'000'000);
+  const std::string late = events_.wait_for_live({"\"axis\":\"X\""});
+  EXPECT_TEXT_CONTAINS(late, "\"stale\":true");
+  EXPECT_TEXT_CONTAINS(late, "\"age_s\":3.");
+  std::string fresh;
+  for (int i = 0; i < 20 && fresh.empty();
+       ++i) {  // repeated, because a busy machine may be too slow
+    give_until(drivers::monotonic_ns());
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    fresh = events_.find_live({"\"stale\":false", "\"age_s\":0."});
+  }
+  EXPECT_FALSE(fresh.empty());
+}
+
 // For an encoder that counts from its position at switch-on.
 class StationDatum : public FedStation {
  protected:

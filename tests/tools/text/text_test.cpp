@@ -87,6 +87,14 @@ TEST(LiveScreen, PrintsOneLineWithoutATerminal) {
   EXPECT_NE(line.find("A 50.000 µm"), std::string::npos);
 }
 
+TEST(LiveScreen, StatesTheAgeOfStaleReadingsAndTheLateProbe) {
+  std::string update = kUpdate;
+  update.insert(update.find("\"probes\""), R"("stale":true,"age_s":3.02,"waiting_for":"E",)");
+  LiveScreen screen(false, 200);
+  const std::string line = screen.next(*read_update(update));
+  EXPECT_NE(line.find("STALE: the values are 3.0 s old, waiting for E"), std::string::npos) << line;
+}
+
 TEST(LiveScreen, RedrawsInPlaceOnATerminal) {
   LiveScreen screen(true, 80);
   const std::string first = screen.next(*read_update(kUpdate));

@@ -39,7 +39,9 @@ std::string head_line(const LiveUpdate& u) {
   std::string line =
       u.axis + " at " + fixed(u.encoder_mm, 4) + " mm, " + (u.still ? "at rest" : "moving");
   if (u.run) line += ", run " + std::to_string(*u.run);
-  return line + (u.simulated ? ", SIMULATED" : "") + (u.stale ? ", STALE: no new values" : "");
+  if (u.simulated) line += ", SIMULATED";
+  if (u.stale) line += ", STALE: the values are " + fixed(u.age_s, 1) + " s old";
+  return line + (u.waiting_for.empty() ? "" : ", waiting for " + u.waiting_for);
 }
 
 // Joins the parts to lines of at most `columns` characters. A part is not divided.
@@ -108,6 +110,8 @@ std::optional<LiveUpdate> read_update(std::string_view notification) {
   update.json = simdjson::to_string(value);
   update.axis = text(value, "axis");
   update.encoder_mm = number(value, "encoder_mm");
+  update.age_s = number(value, "age_s");
+  update.waiting_for = text(value, "waiting_for");
   update.still = flag(value, "still");
   update.simulated = flag(value, "simulated");
   update.stale = flag(value, "stale");

@@ -16,7 +16,8 @@ struct LiveUpdate {
     double um = 0, range_um = 0;
   };
   std::string axis;
-  double encoder_mm = 0;
+  std::string waiting_for;  // The channel for which mdofd waits; empty: none.
+  double encoder_mm = 0, age_s = 0;
   bool still = false, simulated = false, stale = false;
   std::vector<Probe> probes;
   std::vector<std::pair<std::string, double>>

@@ -75,6 +75,8 @@ class DwellDetector {
   // Notices about events in the log that are not visible in the points.
   Notices notices(const std::vector<Point>& points) const;
   const std::vector<DwellEvent>& events() const { return events_; }
+  // Frozen probes that were found up to now.
+  std::vector<FrozenProbe> frozen_probes() const { return watch_.frozen(); }
 
   struct Summary {
     std::uint64_t scans = 0;

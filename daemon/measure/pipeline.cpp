@@ -63,6 +63,12 @@ Status Pipeline::push(SampleBlock& raw) {
   return {};
 }
 
+std::vector<algo::FrozenProbe> Pipeline::frozen_now() const {
+  auto frozen = dwell_.frozen_probes();
+  std::erase_if(frozen, [](const algo::FrozenProbe& probe) { return probe.end_ns != INT64_MAX; });
+  return frozen;
+}
+
 void Pipeline::find_stops() {
   dwell_.push(frames_, found_);
   frames_.time_ns.clear();

@@ -38,6 +38,8 @@ class Pipeline : RunBuilder {
   const FrameBlock& newest() const { return newest_; }
   // push() calls `watcher` with the calibrated frames, before it searches dwells.
   void watch(std::function<void(const FrameBlock&)> watcher) { watcher_ = std::move(watcher); }
+  // The probes whose reading has stopped changing and is still the same.
+  std::vector<algo::FrozenProbe> frozen_now() const;
   bool still() const { return dwell_.still(); }
   bool is_full() const { return found_.size() >= options_.max_stops; }
   std::optional<std::string> waiting_for() const { return aligner_.waiting_for(); }

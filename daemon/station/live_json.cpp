@@ -61,12 +61,23 @@ std::string devices_json(const std::vector<DeviceStatus>& devices) {
 
 namespace {
 
-void write_errors(JsonWriter& json, const Rig& rig, const Pipeline& pipeline) {
+// The quality of each reading. A frozen probe has no present reading. Its quality says so, because
+// the device of the probe cannot know this.
+std::vector<Quality> qualities(const Pipeline& pipeline, std::size_t probes) {
+  std::vector<Quality> all;
+  for (std::size_t k = 0; k < probes; ++k) all.push_back(pipeline.newest().quality_at(k, 0));
+  for (const algo::FrozenProbe& frozen : pipeline.frozen_now())
+    all[frozen.probe] =
+        std::max(all[frozen.probe], frozen.at_limit ? Quality::over_range : Quality::suspect);
+  return all;
+}
+
+void write_errors(JsonWriter& json, const Rig& rig, const Pipeline& pipeline,
+                  const std::vector<Quality>& quality) {
   const FrameBlock& now = pipeline.newest();
   std::vector<double> readings;
-  for (std::size_t k = 0; k < rig.probes.size(); ++k) {
-    readings.push_back(usable(now.quality_at(k, 0)) ? now.probe_m[k][0] : kNaN);
-  }
+  for (std::size_t k = 0; k < rig.probes.size(); ++k)
+    readings.push_back(usable(quality[k]) ? now.probe_m[k][0] : kNaN);
   const AxisErrors errors = pipeline.solve_at(now.encoder_m[0], readings, {});
   if (!errors.valid) {
     json.null();
@@ -85,6 +96,7 @@ void write_errors(JsonWriter& json, const Rig& rig, const Pipeline& pipeline) {
 std::string live_json(const Rig& rig, const Pipeline& pipeline, const RecentRange& recent,
                       const LiveState& state) {
   const FrameBlock& now = pipeline.newest();
+  const std::vector<Quality> quality = qualities(pipeline, rig.probes.size());
   JsonWriter json;
   json.begin_object()
       .field("axis", std::string(1, letter(rig.axis)))
@@ -99,21 +111,20 @@ std::string live_json(const Rig& rig, const Pipeline& pipeline, const RecentRang
   waiting ? json.value(*waiting) : json.null();
   json.key("probes").begin_array();
   for (std::size_t k = 0; k < rig.probes.size(); ++k) {
-    Quality quality = now.quality_at(k, 0);
-    if (state.stale) quality = std::max(quality, Quality::stale);
+    const Quality shown = state.stale ? std::max(quality[k], Quality::stale) : quality[k];
     const RecentRange::Range range = recent.of(k);
     json.begin_object()
         .field("id", rig.probes[k].id)
         .field("um", to_um(now.probe_m[k][0]))
         .field("low_um", to_um(range.low_m))
         .field("high_um", to_um(range.high_m))
-        .field("quality", to_string(quality))
+        .field("quality", to_string(shown))
         .field("range_um", to_um(rig.probes[k].range_m))
         .end_object();
   }
   json.end_array();
   json.field("reference", to_string(Reference::fixture)).key("errors");
-  state.stale ? void(json.null()) : write_errors(json, rig, pipeline);
+  state.stale ? void(json.null()) : write_errors(json, rig, pipeline, quality);
   json.key("run");
   state.run > 0 ? json.value(state.run) : json.null();
   json.key("trouble").begin_array();

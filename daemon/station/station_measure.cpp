@@ -13,6 +13,7 @@
 #include "daemon/station/station.h"
 #include "daemon/store/result_hash.h"
 #include "daemon/words/error_text.h"
+#include "daemon/words/words.h"
 #include "drivers/calibration.h"
 #include "drivers/clock/monotonic.h"
 #include "schema/base/thread_start.h"
@@ -308,6 +309,9 @@ std::vector<std::string> Station::present_troubles() const {
   std::vector<std::string> lines;
   for (const auto& device : devices())
     for (const auto& trouble : device.standing) lines.push_back(trouble_line(trouble));
+  for (const auto& frozen : pipeline()->frozen_now())
+    lines.push_back(
+        words::text(notice(NoticeCode::probe_constant, config_.rig.probes[frozen.probe].id)));
   return lines;
 }
 

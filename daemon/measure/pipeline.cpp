@@ -50,11 +50,14 @@ Result<Pipeline> Pipeline::create(const Rig& rig, const PipelineOptions& options
 
 Pipeline::Pipeline(Rig rig, PipelineOptions options, algo::Solver solver)
     : RunBuilder(std::move(rig), std::move(options), std::move(solver)),
-      dwell_(options_.dwell, probe_ids(rig_), probe_ranges_m(rig_)) {}
+      dwell_(options_.dwell, probe_ids(rig_), probe_ranges_m(rig_)),
+      newest_quality_(rig_.probes.size() + 1, Quality::missing) {}
 
 Status Pipeline::push(SampleBlock& raw) {
   note_scan_loss(raw);
-  MDOF_CHECK(take(raw));
+  MDOF_CHECK(calibrate(raw));
+  note_quality(raw);
+  MDOF_CHECK(align(raw));
   if (frames_.size() == 0) return {};
   copy_last_instant(frames_, newest_);
   if (watcher_) watcher_(frames_);
@@ -63,9 +66,26 @@ Status Pipeline::push(SampleBlock& raw) {
   return {};
 }
 
+void Pipeline::note_quality(const SampleBlock& calibrated) {
+  if (calibrated.scans() == 0) return;
+  const std::size_t last = calibrated.scans() - 1;
+  for (std::size_t c = 0; c < calibrated.channels.size(); ++c) {
+    const std::string& id = calibrated.channels[c].id;
+    const auto probe = std::find_if(rig_.probes.begin(), rig_.probes.end(),
+                                    [&](const Probe& p) { return p.id == id; });
+    if (probe == rig_.probes.end() && id != kEncoderChannel) continue;
+    // The index of the encoder is the number of probes.
+    newest_quality_[static_cast<std::size_t>(probe - rig_.probes.begin())] =
+        std::isnan(calibrated.value[c][last]) ? Quality::missing : calibrated.quality_at(c, last);
+  }
+}
+
 std::vector<algo::FrozenProbe> Pipeline::frozen_now() const {
+  // The detector ignores scans without a position, so the newest reading is compared, too.
   auto frozen = dwell_.frozen_probes();
-  std::erase_if(frozen, [](const algo::FrozenProbe& probe) { return probe.end_ns != INT64_MAX; });
+  std::erase_if(frozen, [this](const algo::FrozenProbe& f) {
+    return f.end_ns != INT64_MAX || newest_.probe_m[f.probe][0] != f.value_m;
+  });
   return frozen;
 }
 

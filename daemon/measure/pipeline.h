@@ -36,6 +36,10 @@ class Pipeline : RunBuilder {
   const std::vector<StopLeftOut>& left_out() const { return sequence_.left_out; }
   // The newest calibrated frame, for the live view. The block is empty before the first frame.
   const FrameBlock& newest() const { return newest_; }
+  // Quality of the newest sample of each probe and, last, of the encoder. The quality of a probe in
+  // newest() is at most that of the encoder, because without a position a reading has no use for a
+  // point.
+  const std::vector<Quality>& newest_quality() const { return newest_quality_; }
   // push() calls `watcher` with the calibrated frames, before it searches dwells.
   void watch(std::function<void(const FrameBlock&)> watcher) { watcher_ = std::move(watcher); }
   // The probes whose reading has stopped changing and is still the same.
@@ -61,6 +65,7 @@ class Pipeline : RunBuilder {
   void drop_excess_stops();
   Notice excess_stops_notice() const;
   void note_scan_loss(const SampleBlock& raw);
+  void note_quality(const SampleBlock& calibrated);
   Notice not_placed() const;
   std::optional<Notice> never_stops() const;
   void take_points();
@@ -83,6 +88,7 @@ class Pipeline : RunBuilder {
   // Times of the first and the last encoder scan.
   std::optional<std::int64_t> begin_ns_, encoder_ns_;
   std::size_t stops_without_position_ = 0;  // number of stops of found_ without a position
+  std::vector<Quality> newest_quality_;     // see newest_quality()
 };
 
 }  // namespace mdof::daemon

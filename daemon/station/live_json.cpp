@@ -1,6 +1,7 @@
 #include "daemon/station/live_json.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "schema/units.h"
 
@@ -61,11 +62,13 @@ std::string devices_json(const std::vector<DeviceStatus>& devices) {
 
 namespace {
 
-// The quality of each reading. A frozen probe has no present reading. Its quality says so, because
-// the device of the probe cannot know this.
+// The quality of each reading, also if the position is unknown: a user adjusts the probes before
+// the encoder works. A frozen probe has no present reading; its device cannot know this.
 std::vector<Quality> qualities(const Pipeline& pipeline, std::size_t probes) {
   std::vector<Quality> all;
-  for (std::size_t k = 0; k < probes; ++k) all.push_back(pipeline.newest().quality_at(k, 0));
+  for (std::size_t k = 0; k < probes; ++k)
+    all.push_back(std::isnan(pipeline.newest().probe_m[k][0]) ? Quality::missing
+                                                              : pipeline.newest_quality()[k]);
   for (const algo::FrozenProbe& frozen : pipeline.frozen_now())
     all[frozen.probe] =
         std::max(all[frozen.probe], frozen.at_limit ? Quality::over_range : Quality::suspect);
@@ -75,6 +78,10 @@ std::vector<Quality> qualities(const Pipeline& pipeline, std::size_t probes) {
 void write_errors(JsonWriter& json, const Rig& rig, const Pipeline& pipeline,
                   const std::vector<Quality>& quality) {
   const FrameBlock& now = pipeline.newest();
+  if (!usable(pipeline.newest_quality().back())) {
+    json.null();
+    return;
+  }
   std::vector<double> readings;
   for (std::size_t k = 0; k < rig.probes.size(); ++k)
     readings.push_back(usable(quality[k]) ? now.probe_m[k][0] : kNaN);
@@ -97,28 +104,30 @@ std::string live_json(const Rig& rig, const Pipeline& pipeline, const RecentRang
                       const LiveState& state) {
   const FrameBlock& now = pipeline.newest();
   const std::vector<Quality> quality = qualities(pipeline, rig.probes.size());
+  const auto stale = [&](Quality q) { return state.stale ? std::max(q, Quality::stale) : q; };
+  const Quality encoder =
+      stale(std::isnan(now.encoder_m[0]) ? Quality::missing : pipeline.newest_quality().back());
   JsonWriter json;
   json.begin_object()
       .field("axis", std::string(1, letter(rig.axis)))
       .field("time_ns", now.time_ns[0])
       .field("encoder_mm", to_mm(now.encoder_m[0]))
-      .field("still", pipeline.still())
-      .field("simulated", state.simulated)
-      .field("stale", state.stale)
-      .field("age_s", state.age_s);
+      .field("encoder_quality", to_string(encoder))
+      .key("still");
+  std::isnan(now.encoder_m[0]) ? json.null() : json.value(pipeline.still());
+  json.field("simulated", state.simulated).field("stale", state.stale).field("age_s", state.age_s);
   json.key("waiting_for");
   const auto waiting = pipeline.waiting_for();
   waiting ? json.value(*waiting) : json.null();
   json.key("probes").begin_array();
   for (std::size_t k = 0; k < rig.probes.size(); ++k) {
-    const Quality shown = state.stale ? std::max(quality[k], Quality::stale) : quality[k];
     const RecentRange::Range range = recent.of(k);
     json.begin_object()
         .field("id", rig.probes[k].id)
         .field("um", to_um(now.probe_m[k][0]))
         .field("low_um", to_um(range.low_m))
         .field("high_um", to_um(range.high_m))
-        .field("quality", to_string(shown))
+        .field("quality", to_string(stale(quality[k])))
         .field("range_um", to_um(rig.probes[k].range_m))
         .end_object();
   }

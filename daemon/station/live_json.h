@@ -32,12 +32,13 @@ struct LiveState {
 };
 
 // The value of the topic live.update:
-//   {"axis", "time_ns", "encoder_mm", "still", "simulated", "stale", "age_s",
+//   {"axis", "time_ns", "encoder_mm", "encoder_quality", "still", "simulated", "stale", "age_s",
 //    "waiting_for",
 //    "probes": [{"id", "um", "low_um", "high_um", "quality", "range_um"}],
 //    "errors": {...} | null, "run": id | null, "trouble": [...]}
-// "errors" is null if the readings are stale. low_um and high_um are the smallest and the largest
-// reading of the last second, so that a spike between two messages is visible.
+// "still" is null if the position is unknown. "errors" is null if the readings are stale. low_um
+// and high_um are the smallest and the largest reading of the last second, so that a spike between
+// two messages is visible.
 std::string live_json(const Rig& rig, const Pipeline& pipeline, const RecentRange& recent,
                       const LiveState& state);
 

@@ -1,6 +1,6 @@
 // Data that all views use: the axes, the newest live value of each axis, the rigs, and the warnings
 // that every view shows.
-import {age} from "./dom.js";
+import {age, fixed} from "./dom.js";
 import * as live from "./live.js";
 import {call} from "./rpc.js";
 
@@ -41,6 +41,13 @@ export async function refresh() {
     state.error = error;
   }
   for (const listener of changed) listener();
+}
+
+// The place of the axis: "X at 12.5000 mm, at rest". Without a position nothing is known about the motion.
+export function placeText({axis, encoder_mm, encoder_quality, still}, digits) {
+  if (encoder_mm === null) return `${axis}: position unknown, because the encoder sends no position`;
+  const usable = ["good", "simulated", "stale"].includes(encoder_quality);
+  return `${axis} at ${fixed(encoder_mm, digits)} mm, ${still ? "at rest" : "moving"}` + (usable ? "" : `, position ${encoder_quality}`);
 }
 
 // If one device is silent, mdofd waits some seconds for it, and all values are late.

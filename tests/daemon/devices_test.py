@@ -212,23 +212,29 @@ class Devices(unittest.TestCase):
         self.simulators.start()
         self.wait_until_all_flow()
         self.assertTrue(all(d["reopened"] > 0 for d in self.devices().values()))
-        # After the power failure, the count of the T7 begins at 0 again. Its position is unknown, so no reading is
-        # good ...
-        self.wait_until(lambda: self.qualities() == {"suspect"}, "readings are not suspect")
+        # After the power failure, the count of the T7 begins at 0 again. Its position is unknown, but the
+        # probes are good ...
+        self.wait_until(lambda: self.live()["encoder_quality"] == "suspect", "the position is not suspect")
+        self.assertEqual(self.qualities(), {"good"})
+        self.assertIsNone(self.live()["errors"])
         # ... until a user has restored the zero and restarts mdofd.
         self.daemon.stop()
         type(self).client = self.daemon.start()
         self.wait_until_all_flow()
         self.assertEqual(self.qualities(), {"good"})
+        self.assertEqual(self.live()["encoder_quality"], "good")
         run, _ = self.measured(targets_mm=TARGETS, repeats=1)
         self.assertEqual(self.client.call("run.get", run=run)["state"], "complete")
 
-    def qualities(self):
+    def live(self):
         watcher = Client(self.daemon.socket)
         watcher.call("live.subscribe", interval_ms=20, events=False)
         value = watcher.next_note()["params"]["value"]
         watcher.socket.close()
-        return {p["quality"] for p in value["probes"]}
+        return value
+
+    def qualities(self):
+        return {p["quality"] for p in self.live()["probes"]}
 
     def test_4_silence_is_shown_as_stale(self):
         self.wait_until_all_flow()

@@ -179,7 +179,7 @@ async function restart(page) {
 async function killedWhileItMeasures(page) {
   await page.getByRole("link", {name: "Capture"}).click();
   await page.getByRole("button", {name: "Start the run"}).click();
-  await page.waitForFunction(() => /Now at/.test(document.querySelector(".capture").innerText));
+  await page.waitForFunction(() => /Now: X at/.test(document.querySelector(".capture").innerText));
   await daemon.end("SIGKILL");
   await daemon.start();
   await page.waitForFunction(() => /Run \d+ has ended: aborted/.test(document.querySelector(".capture").innerText));

@@ -18,6 +18,8 @@ export async function units(page) {
     // An axis that no message changes.
     const value = {axis: "U", age_s: 3, stale: true, waiting_for: "E"};
     machine.state.newest.set("U", {value, at: performance.now()});
+    const places = [[5, "good", true], [5, "suspect", false], [null, "missing", null]].map(([encoder_mm, encoder_quality, still]) =>
+      machine.placeText({axis: "U", encoder_mm, encoder_quality, still}, 1));
     const age = [machine.ageOf("U"), machine.staleReason("U")];
     machine.state.newest.delete("U");
     const probe = {id: "A", direction: [0, 0, 1], low_um: -100, high_um: 100};
@@ -31,7 +33,7 @@ export async function units(page) {
     for (let i = 0; i < 20; ++i) noise.add(100, true);
     const points = [{position_mm: 0, forward: {k: 1}}, {position_mm: 10, forward: {k: 3}}];
     return {
-      age,
+      age, places,
       // The target is pushed along what the probe measures: its reading rises.
       right: verdict(5, card, [0, 0, 1]), wrong: verdict(-5, card, [0, 0, 1]), across: verdict(5, card, [1, 0, 0]), none: verdict(0.1, card, [0, 0, 1]),
       noise: [tooFew, noise.pooled],
@@ -75,6 +77,7 @@ export async function units(page) {
       numbers: [fixed(-0.0001, 2), fixed(-1.5, 1), fixed(null, 2), measured({value: 1.83045, U: 0.0886, k: 2}, "µm"), measured({value: 1}, "µm"), short(0.000123456)],
     };
   });
+  assert.deepEqual(found.places, ["U at 5.0 mm, at rest", "U at 5.0 mm, moving, position suspect", "U: position unknown, because the encoder sends no position"]);
   assert.ok(found.age[0] >= 3 && found.age[0] < 10);
   assert.equal(found.age[1], "the values are late, because probe E sends nothing");
   assert.deepEqual(found.no_reading, ["Shim: not known, because the probe has no usable reading", "Shim: not known, because the probe has no usable reading",

@@ -22,12 +22,16 @@ RunBuilder::RunBuilder(Rig rig, PipelineOptions options, algo::Solver solver)
       suspect_(options_.dwell.min_length_s / 2) {}
 
 Status RunBuilder::take(SampleBlock& raw) {
+  MDOF_CHECK(calibrate(raw));
+  return align(raw);
+}
+
+Status RunBuilder::calibrate(SampleBlock& raw) {
   lost_ += raw.lost;
   suspect_.push(raw);
   temperature_.push(raw);
   corrections_.push(raw);
-  MDOF_CHECK(calibrator_.apply(raw));
-  return aligner_.push(raw, frames_);
+  return calibrator_.apply(raw);
 }
 
 RunHeader RunBuilder::head(const algo::DwellDetector::Summary& summary) const {

@@ -46,6 +46,9 @@ class RunBuilder {
   // Takes a block and changes its content. The frames that are complete now are in frames_. Error:
   // the block cannot be calibrated, or its time decreases.
   Status take(SampleBlock& raw);
+  // The two steps of take().
+  Status calibrate(SampleBlock& raw);
+  Status align(SampleBlock& calibrated) { return aligner_.push(calibrated, frames_); }
   // Returns a run with points, figures, scans, notices and state.
   Run build(SolvedPoints points) const;
 

@@ -20,8 +20,7 @@ using std::chrono::steady_clock;
 constexpr milliseconds kReadTimeout{100};
 constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{250};
 constexpr milliseconds kFullQueueSleep{10}, kRefresh{1000};
-// Largest time for opening and set-up of a device. Some devices need seconds, and the watchdog must
-// not end mdofd during this time.
+// Largest time for opening and set-up of a device. The watchdog must not end mdofd in this time.
 constexpr milliseconds kOpening{20'000};
 
 // The sampling rate is checked over kWindow. A device becomes slow below kSlowShare of its nominal
@@ -102,7 +101,8 @@ void Acquisition::report(Trouble::Kind kind, const std::string& text, const std:
     auto& standing = status_.standing;
     const bool back = kind == Trouble::Kind::back;
     std::erase_if(standing, [&](const Trouble& t) {
-      return (t.kind == kind && t.channel == channel) || (back && t.kind != Trouble::Kind::suspect);
+      if (!back) return t.kind == kind && t.channel == channel;
+      return t.kind != Trouble::Kind::suspect && (channel.empty() || t.channel == channel);
     });
     if (!back) standing.push_back(trouble);
   }
@@ -116,6 +116,7 @@ void Acquisition::acquire(std::uint64_t pass) {
   lost_since_.reset();
   datum_lost_.clear();
   clock_is_uncertain_ = false;
+  position_ = {};
   marks_passed_ = 0;
   clock_steps_ = 0;
   {
@@ -273,6 +274,8 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
       note_loss(block);
       watch_clock(driver, block);
       const bool came_back = recover(block);
+      if (const auto trouble = spec_.live ? position_.take(block) : std::nullopt)
+        report(trouble->kind, trouble->text, trouble->channel);
       watch_rate(block.scans(), came_back ? 0 : block.lost);
       deliver(block, pass);
     } else {
@@ -289,6 +292,7 @@ bool Acquisition::recover(const SampleBlock& block) {
   if (!lost_since_) return false;
   const std::chrono::duration<double> away = steady_clock::now() - *lost_since_;
   lost_since_.reset();
+  position_ = {};  // no longer in the status, so a trouble that continues is reported again
   {
     const std::lock_guard lock(status_mutex_);
     status_.last_error = std::exchange(status_.error, "");
@@ -335,8 +339,8 @@ void Acquisition::note_loss(SampleBlock& block) {
   measure_rate(block);
   if (std::exchange(just_opened_, false) && last_ns_ && block.lost == 0) {
     const double away_s = static_cast<double>(block.time_ns.front() - *last_ns_) * 1e-9;
-    const double scans = away_s * status_.info.rate_hz;
-    block.lost = static_cast<std::uint64_t>(std::llround(std::max(1.0, scans - 1)));
+    block.lost =
+        static_cast<std::uint64_t>(std::llround(std::max(1.0, away_s * status_.info.rate_hz - 1)));
   }
   last_ns_ = block.time_ns.back();
   status_.lost += block.lost;

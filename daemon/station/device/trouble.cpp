@@ -75,6 +75,8 @@ const char* to_string(Kind kind) {
       return "suspect";
     case Kind::slow:
       return "slow";
+    case Kind::position:
+      return "position";
     case Kind::clock:
       return "clock";
     case Kind::unsolved:
@@ -100,7 +102,9 @@ std::string trouble_json(Axis axis, std::int64_t run, const Trouble& trouble) {
   return json.take();
 }
 
+// The end of a trouble of one channel is not the return of the device.
 void TroubleLog::add(const Trouble& trouble) {
+  if (trouble.kind == Kind::back && !trouble.channel.empty()) return;
   if (!devices_.contains(trouble.device)) order_.push_back(trouble.device);
   RepeatedTrouble& story = devices_[trouble.device][trouble.kind];
   if (story.times++ == 0) story.first = trouble;

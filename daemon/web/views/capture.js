@@ -180,7 +180,7 @@ class Progress {
   }
   live(v) {
     if (v.axis !== this.axis || document.hidden || this.over) return;
-    setText(this.now, `Now at ${fixed(v.encoder_mm, 3)} mm, ${v.still ? "at rest" : "moving"}`);
+    setText(this.now, `Now: ${machine.placeText(v, 3)}`);
   }
   ended({state, run}) {
     this.over = true;

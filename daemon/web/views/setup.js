@@ -235,7 +235,7 @@ export function open(place, [asked]) {
     drawn = now;
     const old = machine.isStale(axis);
     for (const p of value.probes) cardOf.get(p.id)?.draw(p, old);
-    setText(where, `${axis} at ${fixed(value.encoder_mm, 4)} mm, ${value.still ? "at rest" : "moving"}` +
+    setText(where, machine.placeText(value, 4) +
       (value.run ? `, run ${value.run}` : "") + (value.waiting_for ? `, waiting for ${value.waiting_for}` : ""));
     drawErrors(old ? null : value.errors);
     check.draw();

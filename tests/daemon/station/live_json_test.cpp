@@ -66,5 +66,43 @@ TEST(LiveJson, AProbeIsSuspectAndTheErrorsAreNullWhileItIsFrozen) {
   EXPECT_NE(recovered.find("\"errors\":{"), std::string::npos) << recovered;
 }
 
+void lose_position(SampleBlock& block) {
+  block.value[0].assign(block.scans(), kNaN);
+  block.quality.resize(block.channels.size());
+  block.quality[0].assign(block.scans(), Quality::missing);
+}
+
+TEST(LiveJson, ProbesKeepTheirQualityWithoutAPosition) {
+  LiveView view;
+  const std::string json = view.after([](SampleBlock& block) {
+    lose_position(block);
+    block.value[3].assign(block.scans(), kNaN);
+  });
+  EXPECT_NE(json.find("\"encoder_mm\":null,\"encoder_quality\":\"missing\",\"still\":null"),
+            std::string::npos)
+      << json;
+  for (const char* probe : {"A", "B", "D", "E"}) EXPECT_EQ(quality_of(json, probe), "good");
+  EXPECT_EQ(quality_of(json, "C"), "missing");
+  EXPECT_NE(json.find("\"errors\":null"), std::string::npos) << json;
+}
+
+TEST(LiveJson, AFrozenProbeRecoversAlsoWithoutAPosition) {
+  LiveView view;
+  const auto freeze = [](SampleBlock& block) { block.value[2].assign(block.scans(), 1.25); };
+  EXPECT_EQ(quality_of(view.after(freeze), "B"), "suspect");
+  EXPECT_EQ(quality_of(view.after(lose_position), "B"), "good");
+}
+
+TEST(LiveJson, ASuspectPositionHasNoErrorsAndDoesNotChangeTheQualityOfProbes) {
+  LiveView view;
+  const std::string json = view.after([](SampleBlock& block) {
+    block.quality.resize(block.channels.size());
+    block.quality[0].assign(block.scans(), Quality::suspect);
+  });
+  EXPECT_NE(json.find("\"encoder_quality\":\"suspect\""), std::string::npos) << json;
+  EXPECT_EQ(quality_of(json, "A"), "good");
+  EXPECT_NE(json.find("\"errors\":null"), std::string::npos) << json;
+}
+
 }  // namespace
 }  // namespace mdof::daemon

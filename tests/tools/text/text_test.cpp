@@ -95,6 +95,22 @@ TEST(LiveScreen, StatesTheAgeOfStaleReadingsAndTheLateProbe) {
   EXPECT_NE(line.find("STALE: the values are 3.0 s old, waiting for E"), std::string::npos) << line;
 }
 
+TEST(LiveScreen, StatesThatAPositionIsUnknownOrSuspect) {
+  const auto shown = [](const std::string& position) {
+    std::string update = kUpdate;
+    const auto at = update.find("\"encoder_mm\"");
+    update.replace(at, update.find(",\"simulated\"") - at, position);
+    return LiveScreen(false, 200).next(*read_update(update));
+  };
+  const std::string none = shown(R"("encoder_mm":null,"encoder_quality":"missing","still":null)");
+  EXPECT_NE(none.find("X: position unknown"), std::string::npos) << none;
+  EXPECT_EQ(none.find("moving"), std::string::npos) << none;
+  const std::string suspect =
+      shown(R"("encoder_mm":12.5,"encoder_quality":"suspect","still":false)");
+  EXPECT_NE(suspect.find("X at 12.5000 mm, moving, position suspect"), std::string::npos)
+      << suspect;
+}
+
 TEST(LiveScreen, RedrawsInPlaceOnATerminal) {
   LiveScreen screen(true, 80);
   const std::string first = screen.next(*read_update(kUpdate));

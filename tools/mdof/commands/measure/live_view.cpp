@@ -36,8 +36,13 @@ void read_errors(const element& value, LiveUpdate& update) {
 }
 
 std::string head_line(const LiveUpdate& u) {
-  std::string line =
-      u.axis + " at " + fixed(u.encoder_mm, 4) + " mm, " + (u.still ? "at rest" : "moving");
+  std::string line = u.axis + " at " + fixed(u.encoder_mm, 4) + " mm, ";
+  if (std::isnan(u.encoder_mm))
+    line = u.axis + ": position unknown, because the encoder sends no position";
+  else
+    line += u.still ? "at rest" : "moving";
+  const bool doubtful = u.encoder_quality == "suspect" || u.encoder_quality == "over_range";
+  if (doubtful) line += ", position " + u.encoder_quality;
   if (u.run) line += ", run " + std::to_string(*u.run);
   if (u.simulated) line += ", SIMULATED";
   if (u.stale) line += ", STALE: the values are " + fixed(u.age_s, 1) + " s old";
@@ -110,6 +115,7 @@ std::optional<LiveUpdate> read_update(std::string_view notification) {
   update.json = simdjson::to_string(value);
   update.axis = text(value, "axis");
   update.encoder_mm = number(value, "encoder_mm");
+  update.encoder_quality = text(value, "encoder_quality");
   update.age_s = number(value, "age_s");
   update.waiting_for = text(value, "waiting_for");
   update.still = flag(value, "still");

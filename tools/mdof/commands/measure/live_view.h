@@ -16,6 +16,7 @@ struct LiveUpdate {
     double um = 0, range_um = 0;
   };
   std::string axis;
+  std::string encoder_quality;
   std::string waiting_for;  // The channel for which mdofd waits; empty: none.
   double encoder_mm = 0, age_s = 0;
   bool still = false, simulated = false, stale = false;

@@ -336,11 +336,11 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
 // estimated from the time and the rate; it is at least 1.
 void Acquisition::note_loss(SampleBlock& block) {
   const std::lock_guard lock(status_mutex_);
+  const double rate_hz = status_.info.rate_hz > 0 ? status_.info.rate_hz : status_.measured_hz;
   measure_rate(block);
   if (std::exchange(just_opened_, false) && last_ns_ && block.lost == 0) {
     const double away_s = static_cast<double>(block.time_ns.front() - *last_ns_) * 1e-9;
-    block.lost =
-        static_cast<std::uint64_t>(std::llround(std::max(1.0, away_s * status_.info.rate_hz - 1)));
+    block.lost = static_cast<std::uint64_t>(std::llround(std::max(1.0, away_s * rate_hz - 1)));
   }
   last_ns_ = block.time_ns.back();
   status_.lost += block.lost;

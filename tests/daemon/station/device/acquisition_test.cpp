@@ -33,13 +33,15 @@ struct Script {
   };
   std::deque<Act> acts;
   std::int64_t time_ns = 0;  // time of the next scan
+  double rate_hz = 1000;     // 0: the device states no rate
 };
 
 class Scripted final : public drivers::Driver {
  public:
   explicit Scripted(Script script) : script_(std::move(script)) {}
   drivers::DeviceInfo info() const override {
-    return {"fake", "fake", "", {{"A", Unit::um}}, 1000, false, clock_.state(), datum_lost_};
+    return {"fake", "fake",         "",         {{"A", Unit::um}}, script_.rate_hz,
+            false,  clock_.state(), datum_lost_};
   }
   const drivers::DeviceClock* clock() const override { return &clock_; }
   Status open() override {
@@ -165,13 +167,14 @@ class Collector {
   std::string reason_;
 };
 
-drivers::DriverSpec scripted_spec(std::deque<Script::Act> acts, bool live = true) {
+drivers::DriverSpec scripted_spec(std::deque<Script::Act> acts, bool live = true,
+                                  double rate_hz = 1000) {
   drivers::DriverSpec spec;
   spec.driver = "fake";
   spec.name = "fake";
   spec.live = live;
-  spec.make = [acts]() -> Result<std::unique_ptr<drivers::Driver>> {
-    return std::make_unique<Scripted>(Script{acts, 0});
+  spec.make = [acts, rate_hz]() -> Result<std::unique_ptr<drivers::Driver>> {
+    return std::make_unique<Scripted>(Script{acts, 0, rate_hz});
   };
   spec.source_info = [](const drivers::Driver&) { return drivers::SourceInfo{}; };
   return spec;
@@ -213,6 +216,14 @@ bool is_healthy_throughout(Script::Act act) {
     std::this_thread::sleep_for(milliseconds(5));
   }
   return healthy;
+}
+
+TEST(Acquisition, EstimatesLostScansByTheMeasuredRateIfTheDeviceStatesNone) {
+  Collector collector;
+  Acquisition fake(scripted_spec({open, block, fail, open, block}, true, 0), collector.sink());
+  fake.start();
+  ASSERT_TRUE(collector.wait_for(2));
+  EXPECT_EQ(collector.blocks()[1].lost, 1000u);  // one second at 1 kHz
 }
 
 TEST(Acquisition, AnAnnouncedLongReadIsNotAHang) {

@@ -178,8 +178,7 @@ void EncoderZero::lose(const std::string& device) {
   runs_.clear();
   counts_ = true;
   found_ = false;
-  // The offset was valid only for a count from the reference mark.
-  if (datum_.kind == EncoderDatum::Kind::index) datum_.offset_m = 0;
+  datum_.offset_m = 0;  // the offset was valid only for the lost count
   datum_.kind = EncoderDatum::Kind::none;
   datum_.device = device;
   datum_.utc = datum_.by = "";

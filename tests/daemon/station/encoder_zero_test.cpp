@@ -149,6 +149,10 @@ TEST(EncoderZero, NoticeStatesThatThePositionWasLostWithPower) {
   EXPECT_EQ(zero.state().notice, std::nullopt);
   zero.lose("t7");
   EXPECT_EQ(zero.state().notice, lost_position("2026-11-23T07:00:00Z", true, false, true));
+  EXPECT_EQ(zero.datum().offset_m, 0);
+  block = resting_at(3);
+  zero.apply(block);
+  EXPECT_EQ(block.value[0][0], 3) << "the position of the device, as the notice states";
 }
 
 drivers::DriverSpec with_mark() {

@@ -50,6 +50,15 @@ bool stays(const Notice& of_run) {
          of_run.source.starts_with("device ");
 }
 
+// The notices that were known when the run began. If mdofd was killed during the run, only the
+// recording contains them. record_again() reports a recording that cannot be read.
+Notices requested_notices(const std::string& recording) {
+  drivers::RecordingLog log("recording", recording);
+  if (!log.open()) return {};
+  const auto asked = read_request_json(log.header().request, {});
+  return asked ? asked->notices : Notices();
+}
+
 Result<std::int64_t> copy(drivers::RecordingLog& log, store::RecordingWriter& writer,
                           Pipeline& pipeline, const std::atomic<bool>& wanted) {
   std::int64_t end_ns = std::numeric_limits<std::int64_t>::min();
@@ -84,8 +93,12 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   request.repeats = options->repeats;
   request.resumes =
       CutOffRun{run, header.provenance.recording_path, options->datum, options->settings_json()};
-  for (const Notice& of_run : header.notices)
-    if (stays(of_run)) request.notices.push_back(of_run);
+  Notices of_run = header.notices;
+  append(of_run, requested_notices(header.provenance.recording_path));
+  for (const Notice& one : of_run) {
+    auto& kept = request.notices;
+    if (stays(one) && std::find(kept.begin(), kept.end(), one) == kept.end()) kept.push_back(one);
+  }
   request.notices.push_back(
       notice(NoticeCode::run_goes_on, "", {{"run", run}, {"datum", datum_text(options->datum)}}));
   return request;

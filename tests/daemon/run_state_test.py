@@ -134,6 +134,24 @@ class RunState(unittest.TestCase):
         with self.assertRaisesRegex(RpcError, "is complete"):
             self.client.call("run.resume", run=header["run"])
 
+    def test_the_continuation_of_a_killed_run_has_the_notices_of_its_request(self):
+        with tempfile.TemporaryDirectory() as folder:
+            daemon = Daemon(MDOFD, folder, simulator("X", targets_mm=TARGETS))
+            client = daemon.start()
+            watcher = Client(daemon.socket, timeout_s=60)
+            watcher.call("live.subscribe", interval_ms=1000)
+            run = client.call("run.start", axis="X", targets_mm=TARGETS, repeats=2, scale_period_um=100)["run"]
+            while watcher.next_note()["params"]["value"].get("type") != "points":
+                pass
+            daemon.kill()
+            client = daemon.start()
+            resumed = client.call("run.resume", run=run)
+            self.assertIn("scale_period_hidden", [n["code"] for n in resumed["notices"]])
+            end = client.call("run.stop", run=resumed["run"])["run"]
+            codes = [n["code"] for n in client.call("run.get", run=end)["notices"]]
+            self.assertEqual(codes.count("scale_period_hidden"), 1, codes)
+            daemon.stop()
+
     def test_with_other_settings_or_devices_it_is_another_run(self):
         with tempfile.TemporaryDirectory() as folder:
             daemon = Daemon(MDOFD, folder, simulator("X", targets_mm=TARGETS))

@@ -67,6 +67,8 @@ export function warnings() {
   else
     for (const axis of all.filter(isStale))
       found.push({kind: "invalid", text: `Axis ${axis} is stale: ${staleReason(axis)}.`, age: ageOf(axis)});
+  for (const axis of all)
+    for (const text of state.newest.get(axis)?.value.trouble ?? []) found.push({kind: "doubtful", text: `Axis ${axis}: ${text}`});
   const simulated = (state.info?.axes ?? []).filter((a) => a.simulated).map((a) => a.axis);
   if (simulated.length)
     found.push({kind: "doubtful", text: `SIMULATED: ${simulated.join(", ")}. No machine is measured.`});

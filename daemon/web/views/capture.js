@@ -1,6 +1,6 @@
 // The view Capture: a form that starts a run, then the five errors at each point during the run.
 import {ErrorCharts, errorKeys} from "../charts.js";
-import {ask, covers, field, fixed, h, notices, problem, select, setText} from "../dom.js";
+import {ask, covers, field, fixed, h, isNumber, notices, problem, select, setText} from "../dom.js";
 import * as live from "../live.js";
 import * as machine from "../machine.js";
 import {call, pages} from "../rpc.js";
@@ -102,6 +102,15 @@ class Wizard {
 
 const kMostProblems = 100;
 
+// The progress of a run whose events were not received. Only solved points count, and at most `repeats` points for each
+// target and approach. The next target is known from the next event.
+export function progressOf(points, {targets_mm, repeats}) {
+  const ways = new Map();
+  for (const p of points.filter((p) => errorKeys(p).some((key) => isNumber(p[key])))) ways.set(`${p.target} ${p.direction}`, (ways.get(`${p.target} ${p.direction}`) ?? 0) + 1);
+  return {points: points.length, of: 2 * (targets_mm ?? []).length * (repeats ?? 0) || null, awaited_mm: null,
+    done: [...ways.values()].reduce((n, k) => n + Math.min(k, repeats), 0)};
+}
+
 class Progress {
   points = [];
   constructor(axis, run, reply) {
@@ -131,7 +140,8 @@ class Progress {
       this.points = page.points;
       this.draw(page);
       // If mdofd restarts, it sends no event for the end of the run.
-      const {state} = await call("run.get", {run: this.run});
+      const {state, options} = await call("run.get", {run: this.run});
+      if (state === "open" && !this.over) this.progress(progressOf(this.points, options));
       if (state === "ended") setText(this.where, `Run ${this.run} has ended; mdofd has not stored the end of the run yet, because the storage is not available`);
       else if (state !== "open" && !this.over) this.ended({state, run: this.run});
     } catch (error) {
@@ -171,6 +181,7 @@ class Progress {
     while (this.trouble.childElementCount > kMostProblems) this.trouble.firstElementChild.remove();
   }
   progress({points, of, done, awaited_mm}) {
+    if (points === 0) return;
     if (of) {
       this.bar.max = of;
       this.bar.value = done;

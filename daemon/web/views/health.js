@@ -22,6 +22,8 @@ export function reasons(info, devices, compensation) {
   }
   for (const a of info.axes) {
     if (a.encoder.note) found.push([`encoder of ${a.axis}`, a.encoder.note]);
+    for (const text of machine.state.newest.get(a.axis)?.value.trouble ?? [])  // a device has its own rows
+      if (!text.startsWith("device ")) found.push([`axis ${a.axis}`, text]);
     const waiting = machine.state.newest.get(a.axis)?.value.waiting_for;
     if (waiting) found.push([`axis ${a.axis}`, `waits for ${waiting}`]);
     if (machine.isStale(a.axis)) found.push([`axis ${a.axis}`, `stale: ${machine.staleReason(a.axis)}`]);

@@ -61,13 +61,26 @@ export async function call(method, params = {}) {
   }
 }
 
+// The newest items of a method that lists items in pages, newest first: up to `most` items that `wanted` accepts, from
+// the first `search` items. `isAll`: there are no further items.
+export async function newest(method, params, key, wanted, most, search = 5000) {
+  const items = [];
+  for (let read = 0; ;) {
+    const page = await call(method, {...params, offset: read});
+    read += page[key].length;
+    items.push(...page[key].filter(wanted));
+    const end = page[key].length === 0 || read >= page.total;
+    if (end || items.length > most || read >= search) return {items: items.slice(0, most), searched: read, isAll: end && items.length <= most};
+  }
+}
+
 // All items of a method that returns its list in pages.
 export async function pages(method, params, key, most = 100_000) {
   const items = [];
   for (;;) {
     const page = await call(method, {...params, offset: items.length});
     items.push(...page[key]);
-    const total = page.total ?? page.points_total ?? items.length;
+    const total = page.total ?? page.points_total ?? Infinity;  // without a total, the last page is empty
     if (page[key].length === 0 || items.length >= Math.min(total, most)) return {...page, [key]: items};
   }
 }

@@ -4,10 +4,10 @@ import assert from "node:assert/strict";
 export async function units(page) {
   const found = await page.evaluate(async () => {
     const {Noise, verdict, shimText, stateOf, rangeText} = await import("/views/setup.js");
-    const {lineAt} = await import("/views/run_detail.js");
+    const {approachesText, lineAt} = await import("/views/run_detail.js");
     const {difference, differenceOfRuns} = await import("/views/run_pair.js");
     const {valueAt, changeOfCorrection, statedDifferently} = await import("/views/compensation.js");
-    const {expected, targetsFrom} = await import("/views/capture.js");
+    const {expected, progressOf, targetsFrom} = await import("/views/capture.js");
     const {rowsOf, means, passes} = await import("/charts.js");
     const {squarenessPicture} = await import("/pictures.js");
     const {controlSeries, verdict: control} = await import("/views/run_trend.js");
@@ -22,6 +22,22 @@ export async function units(page) {
       machine.placeText({axis: "U", encoder_mm, encoder_quality, still}, 1));
     const age = [machine.ageOf("U"), machine.staleReason("U")];
     machine.state.newest.delete("U");
+    // Lists in pages of 41: 106 runs of which only the oldest is complete; the second list has no total.
+    const {newest, pages} = await import("/rpc.js"), fetched = window.fetch;
+    window.fetch = async (url, options) => {
+      const {method, params} = JSON.parse(options?.body ?? "{}");
+      if (!method?.startsWith("list.")) return fetched(url, options);
+      const runs = Array.from({length: 106}, (_, i) => ({run: 106 - i, state: i === 105 ? "complete" : "aborted"})).slice(params.offset, params.offset + 41);
+      return {text: async () => JSON.stringify({result: {runs, ...method === "list.total" ? {total: 106} : {}}})};
+    };
+    const isComplete = (r) => r.state === "complete";
+    const lists = await Promise.all([newest("list.total", {}, "runs", isComplete, 20), newest("list.total", {}, "runs", isComplete, 20, 50),
+      newest("list.total", {}, "runs", () => true, 20), newest("list.other", {}, "runs", isComplete, 20)].map(async (one) => {
+      const {items, searched, isAll} = await one;
+      return [items.length, searched, isAll];
+    }));
+    lists.push((await pages("list.other", {}, "runs")).runs.length, (await pages("list.total", {}, "runs")).runs.length);
+    window.fetch = fetched;
     const probe = {id: "A", direction: [0, 0, 1], low_um: -100, high_um: 100};
     const card = {probe, noise: {pooled: [0.01, 60]}};
     // Two stops at places far apart: ss of 0 2 is 2, of 10 14 is 8, each with one degree of freedom; then 20 times 100.
@@ -33,7 +49,10 @@ export async function units(page) {
     for (let i = 0; i < 20; ++i) noise.add(100, true);
     const points = [{position_mm: 0, forward: {k: 1}}, {position_mm: 10, forward: {k: 3}}];
     return {
-      age, places,
+      age, places, lists,
+      // Target 1 forward was measured three times, target 2 in reverse was not solved.
+      progress: [progressOf([[1, 1, 5], [1, 1, 5], [1, 1, 5], [1, -1, 5], [2, -1, null]].map(([target, direction, x]) => ({target, direction, EYX_um: x})), {targets_mm: [0, 2], repeats: 2}), progressOf([], {}).of],
+      angles: [[1, 1], [-1], [1, -1], [null, 1, -1]].map((all) => approachesText(all.map((direction) => ({direction})))),
       // The target is pushed along what the probe measures: its reading rises.
       right: verdict(5, card, [0, 0, 1]), wrong: verdict(-5, card, [0, 0, 1]), across: verdict(5, card, [1, 0, 0]), none: verdict(0.1, card, [0, 0, 1]),
       noise: [tooFew, noise.pooled],
@@ -77,6 +96,9 @@ export async function units(page) {
       numbers: [fixed(-0.0001, 2), fixed(-1.5, 1), fixed(null, 2), measured({value: 1.83045, U: 0.0886, k: 2}, "µm"), measured({value: 1}, "µm"), short(0.000123456)],
     };
   });
+  assert.deepEqual(found.progress, [{points: 5, of: 8, awaited_mm: null, done: 3}, null]);
+  assert.deepEqual(found.lists, [[1, 106, true], [0, 82, false], [20, 41, false], [1, 106, true], 106, 106]);
+  assert.deepEqual(found.angles, ["forward only", "reverse only", "mean of both approaches", "mean of both approaches"]);
   assert.deepEqual(found.places, ["U at 5.0 mm, at rest", "U at 5.0 mm, moving, position suspect", "U: position unknown, because the encoder sends no position"]);
   assert.ok(found.age[0] >= 3 && found.age[0] < 10);
   assert.equal(found.age[1], "the values are late, because probe E sends nothing");

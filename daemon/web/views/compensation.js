@@ -5,7 +5,7 @@ import {Chart, errorKeys} from "../charts.js";
 import {covers, decimals, fixed, h, isNumber, nameOf, notices, problem, setRows, table, time, unitOf} from "../dom.js";
 import * as live from "../live.js";
 import * as machine from "../machine.js";
-import {call, pages} from "../rpc.js";
+import {call, newest, pages} from "../rpc.js";
 import {facts} from "./run_detail.js";
 import {openVolume} from "./volume.js";
 
@@ -105,6 +105,8 @@ function card(t) {
     ["Warnings", t.doubtful ? "▲ this table is doubtful because of notices of its runs" : null], ["Active since", t.activated_utc && `${time(t.activated_utc)}, by ${t.activated_by}`]]);
 }
 
+const kMostRuns = 20, kMostActions = 200;
+
 class AxisPanel {
   opened = null;
   constructor(axis) {
@@ -121,8 +123,9 @@ class AxisPanel {
   async read() {
     const {axis} = this, mine = this.readings = (this.readings ?? 0) + 1;
     try {
-      const [status, list, {runs}, {history}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis}),
-        call("run.list", {axis, count: 100}), call("history.list", {count: 200})]);
+      const [status, list, runs, actions] = await Promise.all([call("compensation.status"), pages("compensation.list", {axis}, "tables"),
+        newest("run.list", {axis}, "runs", (r) => ["complete", "partial"].includes(r.state), kMostRuns),
+        newest("history.list", {}, "history", (d) => d.deed.startsWith("compensation."), kMostActions)]);
       if (mine !== this.readings) return;  // a newer reading is in progress
       this.now = status.axes[axis] ?? null;
       this.generation = status.generation;
@@ -132,10 +135,10 @@ class AxisPanel {
           : "No table is active: nothing is corrected on this axis.")]);
       setRows(this.table, list.tables.map((t) => this.row(t)));
       if (this.openId) this.show(this.openId);
-      this.build(runs.filter((r) => ["complete", "partial"].includes(r.state)));
-      const actions = history.filter((d) => d.deed.startsWith("compensation."));
-      this.history.replaceChildren(actions.length === 0 ? h("p", {}, "No table was built or activated yet.") : table("Actions on the tables of all axes, newest first",
-        [["when", "w"], ["action"], ["object"], ["by"], ["reason"]], actions.map((d) => [time(d.utc), d.deed.replace("compensation.", ""),
+      this.build(runs);
+      this.history.replaceChildren(actions.items.length === 0 ? h("p", {}, actions.isAll ? "No table was built or activated yet." : `The newest ${actions.searched} actions concern no table.`)
+        : table(`Actions on the tables of all axes, newest first${actions.isAll ? "" : `; only the newest ${actions.items.length}`}`,
+        [["when", "w"], ["action"], ["object"], ["by"], ["reason"]], actions.items.map((d) => [time(d.utc), d.deed.replace("compensation.", ""),
           `${d.of === "compensation_table" || d.of === "volumetric_table" ? "table" : "generation"} ${d.id}`, d.user || `uid ${d.uid}`, d.detail ?? "–"])));
     } catch (error) {
       this.wrong.replaceChildren(problem(error));
@@ -149,12 +152,12 @@ class AxisPanel {
         t.active ? "" : h("button", {"aria-label": `${newest ? "Activate" : "Roll back to"} table ${t.table}`, onclick: () => this.activate(t.table)}, newest ? "Activate …" : "Roll back …"))];
   }
   // Builds the lists again. Selected runs stay selected.
-  build(runs) {
+  build({items: runs, searched, isAll}) {
     const chosen = new Set([...this.builder.querySelectorAll("input:checked")].map((box) => Number(box.value)));
     const result = this.result ??= h("div", {role: "status"});
     this.builder.replaceChildren(h("form", {class: "panel", onsubmit: (e) => { e.preventDefault(); this.make(new FormData(e.target)); }},
-      h("h2", {}, "Build a table"), runs.length === 0 ? h("p", {}, `There is no run of ${this.axis} yet; measure one in Capture.`)
-        : h("fieldset", {}, h("legend", {}, "New table from one or more runs with the same targets"), runs.slice(0, 20).map((r) => h("label", {class: "check"},
+      h("h2", {}, "Build a table"), runs.length === 0 ? h("p", {}, isAll ? `There is no complete or partial run of ${this.axis} yet; measure one in Capture.` : `None of the newest ${searched} runs of ${this.axis} is complete or partial.`)
+        : h("fieldset", {}, h("legend", {}, `New table from one or more runs with the same targets${isAll ? "" : ` (only the newest ${runs.length} runs)`}`), runs.map((r) => h("label", {class: "check"},
           h("input", {type: "checkbox", name: "run", value: r.run, checked: chosen.has(r.run)}), `run ${r.run}, ${time(r.started_utc)}, ${r.state}${r.simulated ? ", SIMULATED" : ""} ${r.note ?? ""}`))),
       h("label", {class: "check"}, h("input", {type: "checkbox", name: "keep_slope"}), "Keep the slope in the straightness (by default the slope belongs to squareness)"),
       h("label", {class: "check"}, h("input", {type: "checkbox", name: "partial"}), "Also accept partial runs"),

@@ -65,8 +65,14 @@ class Straightness {
   }
 }
 
-function angles(run) {
-  return table("Angles: range over the travel, mean of both approaches", [["error"], ["range", "w"], ["at start/µrad", "n"], ["smallest/µrad", "n"], ["largest/µrad", "n"]],
+// The figure "mean" of a run with one approach contains this approach only.
+export function approachesText(points) {
+  const directions = [...new Set(points.map((p) => p.direction))].filter((d) => d === 1 || d === -1);
+  return directions.length === 1 ? `${approach(directions[0]).name} only` : "mean of both approaches";
+}
+
+function angles(run, points) {
+  return table(`Angles: range over the travel, ${approachesText(points)}`, [["error"], ["range", "w"], ["at start/µrad", "n"], ["smallest/µrad", "n"], ["largest/µrad", "n"]],
     Object.entries(run.angles ?? {}).map(([key, {mean}]) => [nameOf(key), measured(run.uncertainty?.[key.replace("_urad", "_range_urad")] ?? {value: mean.range_urad}, "µrad"),
       // min_urad and max_urad are relative to start_urad
       fixed(mean.start_urad, 3), fixed(mean.start_urad + mean.min_urad, 3), fixed(mean.start_urad + mean.max_urad, 3)]));
@@ -108,6 +114,7 @@ const actions = (list) => list.length === 0 ? null : h("section", {}, h("h2", {}
 
 // The runs that can be compared with this run, or from which a squareness can be calculated with
 // it.
+const kMostPartners = 500;
 function partners(run, runs) {
   const of = (test) => runs.filter((r) => r.run !== run.run && test(r)).map((r) => [r.run, `run ${r.run}, ${r.axis}, ${time(r.started_utc)} ${r.note ?? ""}`]);
   const pick = (label, options, how) => options.length === 0 ? null
@@ -156,7 +163,7 @@ export function openRun(place, id) {
   const opened = [];
   place.append(h("p", {}, h("a", {href: "#runs"}, "← All runs")), body);
   async function read() {
-    const [run, {points}, {runs}] = await Promise.all([call("run.get", {run: id}), pages("run.points", {run: id}, "points"), call("run.list", {count: 100})]);
+    const [run, {points}, {runs}] = await Promise.all([call("run.get", {run: id}), pages("run.points", {run: id}, "points"), pages("run.list", {}, "runs", kMostPartners)]);
     if (run.imported) return showImported(body, run, points, runs, opened);
     const charts = new ErrorCharts(errorKeys(points.find((p) => errorKeys(p).length)));
     const straightness = new Straightness(run, points);
@@ -168,7 +175,7 @@ export function openRun(place, id) {
         covers(run))), notices(run.notices) ?? "",
       h("h2", {}, "Five errors"), charts.element,
       h("p", {class: "quiet"}, "Errors are actual − nominal. Blue solid line: forward; orange dashed line: reverse. Bands of the newest four passes: U (95 %) about each point. Bands of all older passes: from the smallest to the largest error, with the mean as a thin line."), pointsTable(points),
-      straightness.element, h("h2", {}, "Angles"), angles(run), new Budget(run).element, actions(run.history) ?? "");
+      straightness.element, h("h2", {}, "Angles"), angles(run, points), new Budget(run).element, actions(run.history) ?? "");
     charts.set(points);
     straightness.draw();
   }

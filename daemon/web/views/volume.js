@@ -3,7 +3,7 @@
 import {change} from "../activation.js";
 import {covers, decimals, field, fixed, h, isNumber, problem, s, select, table, time} from "../dom.js";
 import * as live from "../live.js";
-import {call} from "../rpc.js";
+import {call, pages} from "../rpc.js";
 import {facts} from "./run_detail.js";
 
 const kAxes = "XYZ";
@@ -133,7 +133,7 @@ export function openVolume(place) {
   let turn = 0;
   async function read() {
     const mine = ++turn;
-    const [{volume, generation}, {tables}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis: "volume"})]);
+    const [{volume, generation}, {tables}] = await Promise.all([call("compensation.status"), pages("compensation.list", {axis: "volume"}, "tables")]);
     const now = volume ? activeOf(volume, await grid(volume.generation))
       : [h("p", {class: "notice"}, "No table of the volume is active. To build a table, use: ", h("code", {}, "mdof compensation build --machine"), ". Then activate the table on this page.")];
     if (mine !== turn) return;  // a newer reading is in progress

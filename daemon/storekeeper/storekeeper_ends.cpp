@@ -1,5 +1,7 @@
 // Functions of Storekeeper that store points and ends of runs. If another program locks the
 // database, the points and ends are stored later.
+#include <algorithm>
+
 #include "daemon/paths.h"
 #include "daemon/storekeeper/storage_errors.h"
 #include "daemon/storekeeper/storekeeper.h"
@@ -44,7 +46,9 @@ store::RunEnd renumbered_run_end(store::RunEnd whole, NoticeCode why) {
 
 // The end of a run with a notice. The client has received an error for this end.
 store::RunEnd with_rejection_notice(store::RunEnd whole, const Error& error) {
-  whole.notices.push_back(notice(NoticeCode::end_refused, "", {{"reason", words::text(error)}}));
+  std::string reason = words::text(error);
+  if (reason.ends_with('.')) reason.pop_back();  // the text of the notice continues
+  whole.notices.push_back(notice(NoticeCode::end_refused, "", {{"reason", reason}}));
   return whole;
 }
 
@@ -175,8 +179,11 @@ void Storekeeper::seal(Ending& ending) {
     recordings_.erase(recording);
     if (!sealed) {
       header.state = RunState::failed;
-      header.notices.push_back(
-          notice(NoticeCode::failure, "", {{"words", words::text(sealed.error())}}));
+      // The run may have ended because of the same error.
+      const Notice failure =
+          notice(NoticeCode::failure, "", {{"words", words::text(sealed.error())}});
+      auto& all = header.notices;
+      if (std::find(all.begin(), all.end(), failure) == all.end()) all.push_back(failure);
     } else {
       header.provenance.recording_sha256 = *sealed;
     }

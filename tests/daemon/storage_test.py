@@ -189,6 +189,14 @@ class SmallDisk(Served):
         self.assertIsNone(self.axis(client)["run"])
         os.remove(os.path.join(self.disk, "filler"))
         self.wait_for_state(client, run, "failed")
+        notices = client.call("run.get", run=run)["notices"]
+        lines = [n["text"] for n in notices]
+        self.assertEqual(len(set(lines)), len(lines), lines)
+        refused, = (n["text"] for n in notices if n["code"] == "end_refused")
+        self.assertIn("; to measure the missing points, use: mdof record --resume", refused)
+        self.assertNotIn(".;", refused)
+        resumed = client.call("run.resume", run=run)["run"]
+        client.call("run.stop", run=resumed, abort=True)
 
     def test_a_run_that_a_full_disk_refuses_leaves_no_empty_recording(self):
         client = self.daemon.start()

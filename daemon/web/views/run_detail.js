@@ -127,7 +127,7 @@ function partners(run, runs) {
     isImported(run) ? null : pick("Squareness with", of((r) => r.axis !== run.axis && r.simulated === run.simulated && alike(r)), "square"));
 }
 
-export const kResumable = ["partial", "aborted"];
+export const kResumable = ["partial", "aborted", "failed"];
 
 async function resume(run, place) {
   try {

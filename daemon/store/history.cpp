@@ -11,6 +11,23 @@ namespace {
 constexpr std::string_view kActions =
     "SELECT id, name, subject, row, uid, gid, pid, user, utc FROM deed ";
 
+// The query for the changed table as text, and the kind of the row. The row is a generation.
+struct Changed {
+  std::string_view subject, query;
+  Fact fact;
+};
+constexpr Changed kChanged[] = {
+    {"activation",
+     "SELECT 'table ' || compensation_table || ' of ' || axis FROM activation WHERE generation = ?",
+     Fact::activation},
+    {"deactivation", "SELECT 'table of ' || axis FROM deactivation WHERE generation = ?",
+     Fact::deactivation},
+    {"volumetric_activation",
+     "SELECT coalesce('table ' || volumetric_table, 'table') || ' of the volume' FROM "
+     "volumetric_activation WHERE generation = ?",
+     Fact::volumetric_activation},
+};
+
 HistoryEntry caller_action(const Statement& row) {
   HistoryEntry action;
   action.id = row.integer(0);
@@ -64,10 +81,17 @@ Status Store::add_detail(HistoryEntry& action) {
     if (setting) action.detail = setting_text(*setting);
     return {};
   }
+  for (const Changed& changed : kChanged) {
+    if (action.subject != changed.subject) continue;
+    MDOF_TRY(Statement table, connection_.prepare(std::string(changed.query)));
+    MDOF_TRY(const bool known, table.bind(action.row).step());
+    if (known) action.detail = table.text(0);
+    MDOF_CHECK(check_link(connection_, changed.fact, action.row));
+  }
   MDOF_TRY(Statement reason, connection_.prepare("SELECT text FROM deed_reason WHERE deed = ?"));
   MDOF_TRY(const bool found, reason.bind(action.id).step());
   if (!found) return {};
-  action.detail = reason.text(0);
+  action.detail += (action.detail.empty() ? "" : ": ") + std::string(reason.text(0));
   return check_link(connection_, Fact::action_reason, action.id);
 }
 

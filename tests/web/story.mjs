@@ -149,7 +149,7 @@ async function compensation(page, run) {
   assert.deepEqual(axes.X.runs, [run]);
   const {history} = await daemon.call("history.list", {count: 1});
   assert.equal(history[0].deed, "compensation.activate");
-  assert.equal(history[0].detail, "as the story wants it");
+  assert.equal(history[0].detail, "table 1 of X: as the story wants it");
   await page.getByText("as the story wants it").waitFor();
   await page.getByText("All values with u").waitFor();
   await accessible(page, "Compensation");

@@ -138,7 +138,7 @@ class AxisPanel {
       this.build(runs);
       this.history.replaceChildren(actions.items.length === 0 ? h("p", {}, actions.isAll ? "No table was built or activated yet." : `The newest ${actions.searched} actions concern no table.`)
         : table(`Actions on the tables of all axes, newest first${actions.isAll ? "" : `; only the newest ${actions.items.length}`}`,
-        [["when", "w"], ["action"], ["object"], ["by"], ["reason"]], actions.items.map((d) => [time(d.utc), d.deed.replace("compensation.", ""),
+        [["when", "w"], ["action"], ["object"], ["by"], ["table and reason"]], actions.items.map((d) => [time(d.utc), d.deed.replace("compensation.", ""),
           `${d.of === "compensation_table" || d.of === "volumetric_table" ? "table" : "generation"} ${d.id}`, d.user || `uid ${d.uid}`, d.detail ?? "–"])));
     } catch (error) {
       this.wrong.replaceChildren(problem(error));

@@ -69,6 +69,9 @@ TEST_F(RecordedActions, EachChangeHasItsAction) {
             "compensation.deactivate deactivation " + std::to_string(off->generation) +
                 "; compensation.activate activation " + std::to_string(on.generation) +
                 "; compensation.build compensation_table 1; ");
+  const auto changes = store->list_actions(0, 2).value();
+  EXPECT_EQ(changes[0].detail, "table of X");
+  EXPECT_EQ(changes[1].detail, "table 1 of X");
   EXPECT_EQ(store->count_actions().value(), 5);
   EXPECT_TRUE(store->verify()->empty());
 }
@@ -82,7 +85,7 @@ TEST_F(RecordedActions, AReasonIsReadBackAndAChangeIsDetected) {
     action.detail = "after \"scraping\"";
     ASSERT_TRUE(store->activate(table, "anna", "x", action));
     const auto actions = store->list_actions(0, 2).value();
-    EXPECT_EQ(actions[0].detail, "after \"scraping\"");
+    EXPECT_EQ(actions[0].detail, "table 1 of X: after \"scraping\"");
     EXPECT_EQ(actions[1].detail, "");
     EXPECT_TRUE(store->verify()->empty());
   }

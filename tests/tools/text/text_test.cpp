@@ -46,14 +46,17 @@ TEST(TextTable, UnknownValuesAreADash) {
 }
 
 TEST(RangeBar, ShowsThePositionInTheRange) {
-  EXPECT_EQ(range_bar(0, 200)[21], '#');
-  EXPECT_EQ(range_bar(-99.9, 200)[1], '#');
-  EXPECT_EQ(range_bar(99.9, 200)[41], '#');
-  EXPECT_EQ(range_bar(100, 200).back(), '>');
-  EXPECT_EQ(range_bar(-100, 200).front(), '<');
-  EXPECT_EQ(range_bar(1e300, 200).back(), '>');
-  EXPECT_EQ(range_bar(kNaN, 200).find_first_of("#<>."), std::string::npos);
-  EXPECT_EQ(range_bar(1, 0).find_first_of("#<>."), std::string::npos);
+  EXPECT_EQ(range_bar(0, -100, 100)[21], '#');
+  EXPECT_EQ(range_bar(-99.9, -100, 100)[1], '#');
+  EXPECT_EQ(range_bar(99.9, -100, 100)[41], '#');
+  EXPECT_EQ(range_bar(100, -100, 100).back(), '>');
+  EXPECT_EQ(range_bar(-100, -100, 100).front(), '<');
+  EXPECT_EQ(range_bar(1e300, -100, 100).back(), '>');
+  // A gap probe with a range of 200 um and an offset of 40 um.
+  EXPECT_EQ(range_bar(-130, -159.9, 39.9).find('#'), 7u);
+  EXPECT_EQ(range_bar(41.98, -159.9, 39.9).back(), '>');
+  EXPECT_EQ(range_bar(kNaN, -100, 100).find_first_of("#<>."), std::string::npos);
+  EXPECT_EQ(range_bar(1, 0, 0).find_first_of("#<>."), std::string::npos);
 }
 
 TEST(LiveUpdate, IsReadFromItsNotification) {
@@ -85,6 +88,18 @@ TEST(LiveScreen, PrintsOneLineWithoutATerminal) {
   EXPECT_EQ(line.find('\x1b'), std::string::npos);
   EXPECT_NE(line.find("SIMULATED"), std::string::npos);
   EXPECT_NE(line.find("A 50.000 µm"), std::string::npos);
+}
+
+TEST(LiveScreen, DrawsReadingsInTheRangesOfTheRig) {
+  ProbeRanges ranges;
+  ranges.add("Y", R"({"probes":[{"id":"A","low_um":0,"high_um":1}]})");
+  ranges.add("X", R"({"probes":[{"id":"A","low_um":-159.9,"high_um":39.9}]})");
+  LiveUpdate update = *read_update(kUpdate);
+  ranges.apply(update);
+  EXPECT_EQ(update.probes[0].low_um, -159.9);
+  EXPECT_EQ(update.probes[1].high_um, 100) << "not in the rig: half the range";
+  const std::string shown = LiveScreen(true, 100).next(update);
+  EXPECT_NE(shown.find(">"), std::string::npos) << shown;
 }
 
 TEST(LiveScreen, StatesTheAgeOfStaleReadingsAndTheLateProbe) {

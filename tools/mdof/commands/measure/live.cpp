@@ -52,6 +52,21 @@ Result<rpc::Client> subscribe(const LiveCommand& command) {
   return client;
 }
 
+Result<ProbeRanges> ranges_of(rpc::Client& client) {
+  ProbeRanges ranges;
+  MDOF_TRY(const std::string info, client.call("server.info"));
+  simdjson::dom::parser parser;
+  simdjson::dom::array axes;
+  if (parser.parse(simdjson::padded_string(info))["axes"].get_array().get(axes)) return ranges;
+  for (const auto known : axes) {
+    JsonWriter params;
+    params.begin_object().field("axis", text(known, "axis")).end_object();
+    MDOF_TRY(const std::string rig, client.call("rig.get", params.text()));
+    ranges.add(text(known, "axis"), rig);
+  }
+  return ranges;
+}
+
 // Prints a fault of a device at once. If the screen is redrawn, prints nothing, because the next
 // update shows the fault.
 Status report(const std::string& notification, const LiveCommand& command) {
@@ -94,11 +109,13 @@ Status print_document(rpc::Client& client, const LiveCommand& command) {
 // Prints each update as it arrives: as a JSON object, as text, or on a screen that is redrawn.
 Status print_updates(rpc::Client& client, const LiveCommand& command) {
   const Interrupt interrupt;
+  MDOF_TRY(const ProbeRanges ranges, ranges_of(client));
   LiveScreen screen(out_is_terminal(), terminal_columns());
   for (std::int64_t i = 0; command.count == 0 || i < command.count; ++i) {
-    const auto update = next_update(client, command);
+    auto update = next_update(client, command);
     if (Interrupt::requested()) return {};
     if (!update) return tl::unexpected(update.error());
+    ranges.apply(*update);
     MDOF_CHECK(command.ndjson ? write_line(update->json) : write_commands(screen.next(*update)));
   }
   return {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "schema/base/output/printable.h"
 #include "tools/mdof/stored/json_read.h"
@@ -16,14 +17,16 @@ using simdjson::dom::element;
 using simdjson::dom::object;
 
 constexpr std::size_t kFewestBar = 11, kMostBar = 81;
-constexpr std::size_t kColumnsBesideBar = 43;  // characters in the line of a probe besides its bar
+constexpr std::size_t kColumnsBesideBar = 50;  // characters in the line of a probe besides its bar
 
 void read_probes(const element& value, LiveUpdate& update) {
   array probes;
   if (value.at_key("probes").get_array().get(probes)) return;
-  for (const element p : probes)
+  for (const element p : probes) {
+    const double half_um = number(p, "range_um") / 2;
     update.probes.push_back(
-        {text(p, "id"), text(p, "quality"), number(p, "um"), number(p, "range_um")});
+        {text(p, "id"), text(p, "quality"), number(p, "um"), -half_um, half_um});
+  }
 }
 
 void read_errors(const element& value, LiveUpdate& update) {
@@ -95,10 +98,10 @@ std::size_t bar_width(std::size_t columns) {
 
 std::string block(const LiveUpdate& u, std::size_t columns) {
   const std::size_t width = bar_width(columns);
-  TextTable table({"probe", "reading/µm", "-range/2 ... +range/2", "range/µm", "quality"});
+  TextTable table({"probe", "reading/µm", "low ... high", "low/µm", "high/µm", "quality"});
   for (const auto& p : u.probes)
-    table.add({p.id, fixed(p.um, 3), range_bar(p.um, p.range_um, width), fixed(p.range_um, 0),
-               p.quality});
+    table.add({p.id, fixed(p.um, 3), range_bar(p.um, p.low_um, p.high_um, width),
+               fixed(p.low_um, 0), fixed(p.high_um, 0), p.quality});
   return wrapped(head_line(u), columns, 2) + "\n" + table.text() + packed(errors_of(u), columns) +
          trouble_of(u, columns) + "\n";
 }
@@ -146,11 +149,28 @@ std::optional<TroubleEvent> read_trouble(std::string_view notification) {
   return TroubleEvent{axis, line, simdjson::to_string(value)};
 }
 
-std::string range_bar(double um, double range_um, std::size_t width) {
+void ProbeRanges::add(const std::string& axis, const std::string& rig) {
+  simdjson::dom::parser parser;
+  element root;
+  array probes;
+  if (parser.parse(simdjson::padded_string(rig)).get(root)) return;
+  if (root["probes"].get_array().get(probes)) return;
+  for (const element p : probes)
+    ends_um_[{axis, text(p, "id")}] = {number(p, "low_um"), number(p, "high_um")};
+}
+
+void ProbeRanges::apply(LiveUpdate& update) const {
+  for (auto& probe : update.probes) {
+    const auto ends = ends_um_.find({update.axis, probe.id});
+    if (ends != ends_um_.end()) std::tie(probe.low_um, probe.high_um) = ends->second;
+  }
+}
+
+std::string range_bar(double um, double low_um, double high_um, std::size_t width) {
   std::string bar(width, '.');
   bar[width / 2] = '+';
-  if (!std::isfinite(um) || !(range_um > 0)) return "|" + std::string(width, ' ') + "|";
-  const double share = um / range_um + 0.5;
+  if (!std::isfinite(um) || !(high_um > low_um)) return "|" + std::string(width, ' ') + "|";
+  const double share = (um - low_um) / (high_um - low_um);
   if (share <= 0) return "<" + bar + "|";
   if (share >= 1) return "|" + bar + ">";
   bar[std::min(static_cast<std::size_t>(share * static_cast<double>(width)), width - 1)] = '#';

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mdof::tools {
@@ -13,7 +14,9 @@ namespace mdof::tools {
 struct LiveUpdate {
   struct Probe {
     std::string id, quality;
-    double um = 0, range_um = 0;
+    double um = 0;
+    double low_um = 0,
+           high_um = 0;  // The ends of the range: -range/2 and range/2, or those of the rig.
   };
   std::string axis;
   std::string encoder_quality;
@@ -28,6 +31,18 @@ struct LiveUpdate {
   std::string json;                  // The complete value.
 };
 
+// The ends of the ranges of the probes of all axes, from the replies of rig.get. They differ from
+// -range/2 and range/2 if a probe reads a gap or has an offset.
+class ProbeRanges {
+ public:
+  void add(const std::string& axis, const std::string& rig);
+  void apply(LiveUpdate& update) const;
+
+ private:
+  std::map<std::pair<std::string, std::string>, std::pair<double, double>>
+      ends_um_;  // [axis, probe]
+};
+
 // nullopt: the notification is not a "live.update".
 std::optional<LiveUpdate> read_update(std::string_view notification);
 
@@ -39,10 +54,10 @@ struct TroubleEvent {
 };
 std::optional<TroubleEvent> read_trouble(std::string_view notification);
 
-// Draws a reading in the range of the probe, -range/2 to range/2: "|.....#....+.........|". '#' is
+// Draws a reading in the range of the probe, low to high: "|.....#....+.........|". '#' is
 // the reading, '+' the middle of the range. '<' or '>' at an end shows a reading outside the range.
 // If the reading is unknown, the bar is blank.
-std::string range_bar(double um, double range_um, std::size_t width = 41);
+std::string range_bar(double um, double low_um, double high_um, std::size_t width = 41);
 
 // On a terminal, shows a block of lines for each axis and overwrites the block at each update.
 // Otherwise, appends a text for each update. No line has more than `columns` characters.

@@ -18,14 +18,13 @@ constexpr std::size_t kBytes = 32;
 
 tl::unexpected<Error> cannot_use(const std::filesystem::path& file, const std::string& what,
                                  int number) {
-  return io_error("token_file: " + file.string() + ": " + what + ": " + system_error_text(number));
+  return io_error(file.string() + ": " + what + ": " + system_error_text(number));
 }
 
 Result<std::string> new_token() {
   std::array<unsigned char, kBytes> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    return io_error("token_file: the kernel returned no random numbers: " +
-                    system_error_text(errno));
+    return io_error("the kernel returned no random numbers: " + system_error_text(errno));
   std::string text;
   for (const unsigned char byte : bytes)
     for (const int digit : {byte >> 4, byte & 15}) text += "0123456789abcdef"[digit];
@@ -34,6 +33,8 @@ Result<std::string> new_token() {
 
 Result<std::string> make_token(const std::filesystem::path& file) {
   MDOF_TRY(const std::string token, new_token());
+  std::error_code failed;  // open() reports a folder that cannot be created
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failed);
   const Descriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
   if (fd.get() < 0) return cannot_use(file, "mdofd cannot create this file", errno);
   const std::string line = token + "\n";
@@ -54,11 +55,11 @@ Result<std::string> read_token(const std::filesystem::path& file) {
   struct stat info {};
   if (::fstat(fd.get(), &info) != 0) return cannot_use(file, "mdofd cannot read this file", errno);
   if (!S_ISREG(info.st_mode))
-    return fail(ErrorCode::check, "token_file: " + file.string() +
+    return fail(ErrorCode::check, file.string() +
                                       ": this is not a regular file; remove this file and restart "
                                       "mdofd; mdofd then creates a new token file");
   if ((info.st_mode & 077) != 0)
-    return fail(ErrorCode::check, "token_file: " + file.string() +
+    return fail(ErrorCode::check, file.string() +
                                       ": other users can read this file; remove this file and "
                                       "restart mdofd; mdofd then creates a new token file (mode "
                                       "0600)");
@@ -68,7 +69,7 @@ Result<std::string> read_token(const std::filesystem::path& file) {
   if (text.ends_with('\n')) text.remove_suffix(1);
   if (text.size() != 2 * kBytes ||
       text.find_first_not_of("0123456789abcdef") != std::string_view::npos)
-    return fail(ErrorCode::check, "token_file: " + file.string() +
+    return fail(ErrorCode::check, file.string() +
                                       ": this file does not contain 64 hexadecimal digits; remove "
                                       "this file and restart mdofd; mdofd then creates a new token "
                                       "file");

@@ -84,6 +84,17 @@ TEST_F(TokenFile, IsCreatedOnceAndReadableByItsUserOnly) {
   EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
+TEST_F(TokenFile, IsCreatedTogetherWithItsFolder) {
+  const auto deep = folder_ / "not" / "there" / "http.token";
+  const auto token = load_token(deep);
+  ASSERT_TRUE(token.has_value()) << token.error().message;
+  EXPECT_EQ(read_token(deep).value_or(""), *token);
+  const auto impossible = load_token("/proc/none/http.token");
+  ASSERT_FALSE(impossible.has_value());
+  EXPECT_TRUE(impossible.error().message.starts_with("/proc/none/http.token: "))
+      << impossible.error().message;
+}
+
 TEST_F(TokenFile, IsRejectedIfMalformedOrReadableByOthers) {
   const std::string good(64, 'b');
   write(good + "\n", 0600);

@@ -30,7 +30,7 @@ Status print_token(const TokenCommand& command) {
   if (!token) {
     token.error().message +=
         "; run this command as the user of mdofd, for example: sudo -u mdof mdof token";
-    return tl::unexpected(std::move(token.error()));
+    return in_context("token_file", std::move(token.error()));
   }
   std::fprintf(stderr,
                "Token for %s. Everybody who has this token can change everything on this page:\n",

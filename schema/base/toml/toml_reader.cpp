@@ -324,7 +324,8 @@ Status TomlTable::finish() {
     for (const auto& [key, value] : *node->table) {
       if (node->asked.contains(key.str())) continue;
       std::vector<std::string> known(node->asked.begin(), node->asked.end());
-      known.insert(known.end(), node->queried_keys.begin(), node->queried_keys.end());
+      for (const auto& queried : node->queried_keys)
+        if (!node->asked.contains(queried)) known.push_back(queried);
       const std::string near = nearest_candidate(key.str(), known);
       std::string why = "unknown key";
       if (!near.empty()) {

@@ -23,6 +23,14 @@ TEST(TomlTables, KeyReadByOneOfTheReadersIsKnown) {
       << after({});
 }
 
+TEST(TomlTables, AnUnknownKeyListsEachKnownKeyOnce) {
+  auto root = TomlTable::parse("colour = 1\n", "mdofd.toml").value();
+  EXPECT_FALSE(root.has("delay_us"));
+  root.number("delay_us", 0);
+  EXPECT_TRUE(root.finish().error().message.ends_with("unknown key; known keys: delay_us"))
+      << root.finish().error().message;
+}
+
 TEST(TomlTables, HaveTheSameOrderForEachReader) {
   auto root = TomlTable::parse(kText, "mdofd.toml").value();
   for (int reader = 0; reader < 2; ++reader) {

@@ -22,6 +22,7 @@ constexpr double kWithinNoise = 8;           // times the u of the mean of a sto
 constexpr double kOthersMove = 50;           // times the noise limit of the constant probe
 constexpr double kRestlessNoiseFactor = 30;  // times the usual sd in the stops
 constexpr std::size_t kFewestRestless = 3;   // probes
+constexpr std::size_t kFewestStops = 6;      // with fewer stops, the median of the sd is uncertain
 
 using Stops = std::vector<const MeasuredPoint*>;
 
@@ -126,16 +127,18 @@ void note_clipped_probes(const RunToJudge& run, Notices& out) {
 // a motion of the axis.
 void note_frozen_encoder(const RunToJudge& run, Notices& out) {
   const auto& points = run.sequence.points;
-  if (points.size() < kFewestSame) return;
   const std::size_t probes = run.rig.probes.size();
-  // Usual sd of each probe; 0: its readings are constant in stops.
+  // Usual sd of each probe; 0: its readings are constant in stops. In few stops, one stop with a
+  // false position changes the median too much, so the least sd is used.
   std::vector<double> usual_m(probes);
   for (std::size_t k = 0; k < probes; ++k) {
     std::vector<double> sd_m;
     for (const MeasuredPoint& p : points)
       if (k < p.point.probe_sd_m.size() && std::isfinite(p.point.probe_sd_m[k]))
         sd_m.push_back(p.point.probe_sd_m[k]);
-    usual_m[k] = median_of(sd_m);
+    if (sd_m.empty()) continue;
+    usual_m[k] = points.size() < kFewestStops ? *std::min_element(sd_m.begin(), sd_m.end())
+                                              : median_of(sd_m);
   }
   for (const MeasuredPoint& p : points) {
     std::size_t restless = 0;

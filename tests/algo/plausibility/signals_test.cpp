@@ -194,8 +194,12 @@ TEST(Signals, NeedsThreeProbesAndHalfOfThemAt30TimesSd) {
   EXPECT_EQ(said(with_restless_stop(6, 12, 3, 40), 6).size(), 1u);
   EXPECT_EQ(said(with_restless_stop(7, 12, 3, 40), 7).size(), 0u);
   EXPECT_EQ(said(with_restless_stop(5, 6, 3, 40)).size(), 1u);
-  EXPECT_EQ(said(with_restless_stop(5, 5, 3, 40)).size(),
-            0u);  // too few stops to determine the usual sd
+  // With fewer stops, the least sd is the reference: here two of five stops are restless.
+  Sequence few = with_restless_stop(5, 5, 3, 40);
+  EXPECT_EQ(said(few).size(), 1u);
+  for (std::size_t k = 0; k < 3; ++k) few.points[1].point.probe_sd_m[k] = 40 * kSd_m;
+  EXPECT_EQ(said(few).size(), 2u);
+  EXPECT_EQ(said(with_restless_stop(5, 5, 3, 29)).size(), 0u);
   Sequence stepped = with_restless_stop(5, 12, 3, 40);
   for (std::size_t i = 0; i < 12; ++i)
     if (i != 4) stepped.points[i].point.probe_sd_m[0] = 0;  // an sd of 0 gives no information

@@ -20,8 +20,8 @@ constexpr double kMostRuns = 1e6;
 
 bool has_column(const std::string& text, const char* name) {
   const auto header = parse_csv_header(text, CsvKind::table, "");
-  return header && std::find(header->columns.begin(), header->columns.end(), name) !=
-                       header->columns.end();
+  return header &&
+         std::find(header->columns.begin(), header->columns.end(), name) != header->columns.end();
 }
 
 std::string format_of(const std::string& text) {

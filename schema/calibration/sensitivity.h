@@ -12,8 +12,8 @@
 namespace mdof {
 
 struct SensitivityCalibration {
-  std::string id;            // id of the probe
-  double sensitivity_1 = 1;  // change of the reading / true displacement, by least squares
+  std::string id;              // id of the probe
+  double sensitivity_1 = 1;    // change of the reading / true displacement, by least squares
   double u_sensitivity_1 = 0;  // u of sensitivity_1; for a corrected reading see relative_u()
   // Degrees of freedom of u_sensitivity_1.
   double freedom = std::numeric_limits<double>::infinity();

@@ -17,9 +17,9 @@ namespace mdof::daemon {
 //
 // u is the uncertainty of the difference between the largest and the smallest mean; U is that of a
 // range (algo/uncertainty/statistics/range_interval.h), from trials of all means. Both are NaN if
-// one of these two means is from a single reading or from equal readings only. An uncertainty that the run
-// declares is the same for both approaches of a target. This uncertainty cancels in the difference
-// between the two means of a target.
+// one of these two means is from a single reading or from equal readings only. An uncertainty that
+// the run declares is the same for both approaches of a target. This uncertainty cancels in the
+// difference between the two means of a target.
 StatedFigures positioning_figures(const Run& run);
 // Calculates "EXX_range_um" also if the readings state their approach. This figure can be compared
 // with the figure of a run whose readings do not state the approach.

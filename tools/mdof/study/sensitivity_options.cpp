@@ -181,7 +181,8 @@ void declare_options(CLI::App& command, SensitivityCommand& o) {
                   "Simulation published by Kweon, Liu and Yang: simulation-1 or simulation-2")
       ->type_name("NAME");
   command
-      .add_option("--plan", o.plan, "Plan file of your own study (its keys: share/doc/mdof/sensitivity.md)")
+      .add_option("--plan", o.plan,
+                  "Plan file of your own study (its keys: share/doc/mdof/sensitivity.md)")
       ->type_name("PLAN.toml");
   command
       .add_option("--continue", o.continued,

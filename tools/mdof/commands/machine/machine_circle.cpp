@@ -310,9 +310,10 @@ Status machine_circle(const MachineCircleCommand& o) {
   if (!measured.empty()) {
     MDOF_TRY(const auto csv, drivers::read_csv_table(measured, {"angle_deg"}, {"ccw_um", "cw_um"}));
     if (csv.columns[1].empty() && csv.columns[2].empty())
-      return bad_input(csv.source +
-                       ": has neither a column ccw_um nor a column cw_um; add at least one of them, "
-                       "with the radial deviations in this direction");
+      return bad_input(
+          csv.source +
+          ": has neither a column ccw_um nor a column cw_um; add at least one of them, "
+          "with the radial deviations in this direction");
     MDOF_TRY(algo::CircularPath path, read_path(csv));
     auto circle = evaluated(std::move(path));
     if (!circle) return in_context(csv.source, std::move(circle.error()));

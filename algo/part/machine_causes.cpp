@@ -33,10 +33,10 @@ std::vector<Known> known_errors(const Machine& machine, std::size_t points, Mach
 }
 
 // Follows the commands along the path and keeps the last direction of motion of each axis.
-class Approaches {
+class PathApproaches {
  public:
   // The first point has the approach of the first step.
-  Approaches(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m)
+  PathApproaches(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m)
       : machine_(machine),
         approach_(machine.frames.size(), MachineApproach::mean),
         unknown_(machine.frames.size(), 0) {
@@ -140,7 +140,7 @@ MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Ve
   const std::size_t measured = causes.axes.size();
   for (const ErrorSource& source : machine.sources)
     causes.budget.push_back(new_cause(source.name, at_m.size()));
-  Approaches approaches(machine, at_m);
+  PathApproaches approaches(machine, at_m);
   for (std::size_t p = 0; p < at_m.size(); ++p) {
     const Command command = command_at_place(machine, at_m[p]);
     const auto values = approaches.values_at_next(command);

@@ -18,11 +18,11 @@ constexpr std::size_t kFewestSame = 6, kFewestPlaces = 3;
 constexpr std::size_t kFewestClipped = 3;
 // Largest difference of means of equal numbers, due to rounding.
 constexpr double kExact_m = 1e-14;
-constexpr double kWithinNoise = 8;           // times the u of the mean of a stop
-constexpr double kOthersMove = 50;           // times the noise limit of the constant probe
-constexpr double kRestlessNoiseFactor = 30;  // times the usual sd in the stops
-constexpr std::size_t kFewestRestless = 3;   // probes
-constexpr std::size_t kFewestStops = 6;      // with fewer stops, the median of the sd is uncertain
+constexpr double kWithinNoise = 8;            // times the u of the mean of a stop
+constexpr double kOthersMove = 50;            // times the noise limit of the constant probe
+constexpr double kRestlessNoiseFactor = 30;   // times the usual sd in the stops
+constexpr std::size_t kFewestRestless = 3;    // probes
+constexpr std::size_t kFewestUsualStops = 6;  // with fewer stops, the median of the sd is uncertain
 
 using Stops = std::vector<const MeasuredPoint*>;
 
@@ -137,8 +137,8 @@ void note_frozen_encoder(const RunToJudge& run, Notices& out) {
       if (k < p.point.probe_sd_m.size() && std::isfinite(p.point.probe_sd_m[k]))
         sd_m.push_back(p.point.probe_sd_m[k]);
     if (sd_m.empty()) continue;
-    usual_m[k] = points.size() < kFewestStops ? *std::min_element(sd_m.begin(), sd_m.end())
-                                              : median_of(sd_m);
+    usual_m[k] = points.size() < kFewestUsualStops ? *std::min_element(sd_m.begin(), sd_m.end())
+                                                   : median_of(sd_m);
   }
   for (const MeasuredPoint& p : points) {
     std::size_t restless = 0;

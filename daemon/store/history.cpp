@@ -16,7 +16,7 @@ struct Changed {
   std::string_view subject, query;
   Fact fact;
 };
-constexpr Changed kChanged[] = {
+constexpr Changed kChangedRows[] = {
     {"activation",
      "SELECT 'table ' || compensation_table || ' of ' || axis FROM activation WHERE generation = ?",
      Fact::activation},
@@ -81,7 +81,7 @@ Status Store::add_detail(HistoryEntry& action) {
     if (setting) action.detail = setting_text(*setting);
     return {};
   }
-  for (const Changed& changed : kChanged) {
+  for (const Changed& changed : kChangedRows) {
     if (action.subject != changed.subject) continue;
     MDOF_TRY(Statement table, connection_.prepare(std::string(changed.query)));
     MDOF_TRY(const bool known, table.bind(action.row).step());

@@ -14,7 +14,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kRate_hz = 500, kSpeed_m_s = 10e-3, kTravel_m = 20e-3;
+constexpr double kRate_hz = 500, kPassSpeed_m_s = 10e-3, kTravel_m = 20e-3;
 
 // Three passes in each direction with turns of 0.1 m/s^2. From `at_s` on, the count is too large by
 // `jump_m`, until `until_s`.
@@ -27,7 +27,7 @@ FrameBlock passes(double jump_m, double at_s, double until_s = 1e9) {
     const double t = i / kRate_hz;
     if (x_m > kTravel_m) heading = -1;
     if (x_m < 0) heading = 1;
-    v_m_s = std::clamp(v_m_s + heading * 0.1 / kRate_hz, -kSpeed_m_s, kSpeed_m_s);
+    v_m_s = std::clamp(v_m_s + heading * 0.1 / kRate_hz, -kPassSpeed_m_s, kPassSpeed_m_s);
     x_m += v_m_s / kRate_hz;
     log.time_ns.push_back(std::llround(t * 1e9));
     log.encoder_m.push_back(x_m + 5e-9 * unit(engine) + (t >= at_s && t < until_s ? jump_m : 0));

@@ -15,7 +15,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kInterval_m = 5e-3;
-constexpr int kTargets = 13;
+constexpr int kPlannedTargets = 13;
 
 // The stops of an axis, each with its path from the stop before.
 struct Path {
@@ -45,14 +45,14 @@ struct Path {
 
 // `beyond_m`: distance of the parked axis and of the turns from the end targets.
 Sequence measured(int runs, double beyond_m, bool dwells_at_turns) {
-  const double end_m = (kTargets - 1) * kInterval_m;
+  const double end_m = (kPlannedTargets - 1) * kInterval_m;
   Path path(-beyond_m);
   path.stop(-beyond_m);
   for (int run = 1; run <= runs; ++run) {
-    for (int t = 0; t < kTargets; ++t) path.stop(t * kInterval_m);
+    for (int t = 0; t < kPlannedTargets; ++t) path.stop(t * kInterval_m);
     path.move_to(end_m + beyond_m);
     if (dwells_at_turns) path.stop(end_m + 1.0000001 * beyond_m);
-    for (int t = kTargets - 1; t >= 0; --t) path.stop(t * kInterval_m);
+    for (int t = kPlannedTargets - 1; t >= 0; --t) path.stop(t * kInterval_m);
     path.move_to(-beyond_m);
     if (dwells_at_turns || run == runs) path.stop(-1.0000001 * beyond_m);
   }
@@ -69,7 +69,7 @@ TEST(ParkedAxis, IsNoTarget) {
         if (mm > 1 && dwells) continue;
         const Sequence s = measured(runs, mm * 1e-3, dwells);
         const std::string what = std::to_string(runs) + " " + std::to_string(mm);
-        EXPECT_EQ(s.targets, kTargets) << what;
+        EXPECT_EQ(s.targets, kPlannedTargets) << what;
         EXPECT_EQ(s.points.size(), 26u * static_cast<unsigned>(runs)) << what;
         EXPECT_EQ(s.cycle, Cycle::standard) << what;
         EXPECT_EQ(s.runs, runs) << what;
@@ -84,7 +84,7 @@ TEST(ParkedAxis, IsNoTarget) {
 // at a target. A notice names the target.
 TEST(ParkedAxis, OneIntervalAwayIsReportedAsATarget) {
   const Sequence s = measured(1, kInterval_m, false);
-  EXPECT_EQ(s.targets, kTargets + 1);
+  EXPECT_EQ(s.targets, kPlannedTargets + 1);
   ASSERT_TRUE(test::has(s.notices, NoticeCode::end_target_assumed)) << test::shown(s.notices);
   for (const Notice& n : s.notices) {
     if (n.code != NoticeCode::end_target_assumed) continue;
@@ -102,14 +102,15 @@ TEST(ParkedAxis, AtATargetIsATarget) {
       Path path(first_m);
       path.stop(first_m);
       for (int run = 1; run <= runs; ++run) {
-        for (int t = run > 1 && !pendulum ? 0 : 1; t < kTargets; ++t) path.stop(t * kInterval_m);
+        for (int t = run > 1 && !pendulum ? 0 : 1; t < kPlannedTargets; ++t)
+          path.stop(t * kInterval_m);
         if (!pendulum) path.move_to(61e-3);
-        for (int t = kTargets - (pendulum ? 2 : 1); t > 0; --t) path.stop(t * kInterval_m);
+        for (int t = kPlannedTargets - (pendulum ? 2 : 1); t > 0; --t) path.stop(t * kInterval_m);
         path.stop(first_m);
         if (!pendulum) path.move_to(-1e-3);
       }
       const Sequence s = recognise_sequence(path.stops, {});
-      EXPECT_EQ(s.targets, kTargets) << runs << pendulum;
+      EXPECT_EQ(s.targets, kPlannedTargets) << runs << pendulum;
       EXPECT_EQ(s.points.size(), path.stops.size()) << runs << pendulum << test::shown(s.notices);
       EXPECT_EQ(s.cycle, pendulum ? Cycle::pendulum : Cycle::standard);
     }

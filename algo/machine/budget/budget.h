@@ -22,7 +22,6 @@ struct CauseEffect {
 // An independent random quantity of the trials: a source, a part of the uncertainties of the
 // correlated errors of one body (FrameValues::u_parts), an error of an axis line, or a quantity
 // that several bodies share.
-
 struct BudgetCause {
   std::string name, unit;
   double u = 0;  // standard uncertainty, in `unit`

@@ -207,7 +207,7 @@ class EndToEnd(unittest.TestCase):
         with open(os.path.join(five_probe, "rig_X.toml")) as rig:
             x = self.client.call("run.replay", path=os.path.join(five_probe, "log_X.csv.gz"), rig=rig.read())["run"]
         s = self.client.call("squareness.fit", run_x=x, run_y=y)
-        self.assertAlmostEqual(s["EC0Y_urad"], -s["slope_EYX_urad"] - s["slope_EXY_urad"], 9)
+        self.assertAlmostEqual(s["EC0Y_urad"], -s["slope_EYX_urad"] - s["slope_EXY_urad"] + s["square_tilt_urad"], 9)
         self.assertAlmostEqual(s["u_EC0Y_urad"], math.hypot(s["u_slope_EYX_urad"], s["u_slope_EXY_urad"]), 5)
         self.assertEqual(s["u_EC0Y_urad"], s["u_random_EC0Y_urad"])
         self.assertAlmostEqual(s["U_EC0Y_urad"], s["k"] * s["u_EC0Y_urad"], 9)

@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::uint64_t kIntervalTrials = 2000;  // the error of U is then 2 %
 constexpr std::uint64_t kTrialsPerBlock = 64;    // the shifts of 64 trials fit into the cache
-constexpr double kMostFirstOrderFactor = 3;      // largest U / u for which u is of first order
+// Largest U for which u is of first order, in multiples of u and of k u.
+constexpr double kMostFirstOrderFactor = 3, kMostOfFirstOrder = 1.5;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
@@ -301,7 +302,8 @@ void state_interval(Budget& budget, const RangeTrials& range) {
   budget.U = U;
   // If a shift is larger than the deviations, +shift and -shift cause nearly the same range, and u
   // of first order is nearly 0.
-  budget.u_by_trials = !(kMostFirstOrderFactor * budget.u >= U);
+  const double factor = std::max(kMostFirstOrderFactor, kMostOfFirstOrder * budget.coverage_factor);
+  budget.u_by_trials = !(factor * budget.u >= U);
   if (budget.u_by_trials) budget.u = range.root_mean_square(std::max(0.0, budget.value - U));
   budget.coverage_factor = budget.U / budget.u;
   budget.U_by_trials = true;

@@ -132,8 +132,8 @@ TEST(Datum, SingleSuspectReadingsOmitNoStop) {
   EXPECT_EQ(notices(*run).find("stops_not_placed"), std::string::npos) << notices(*run);
 }
 
-// When the run begins, the encoder has no position yet. The positions beyond the five targets, where
-// the axis is parked and turns, are no targets.
+// When the run begins, the encoder has no position yet. The positions beyond the five targets,
+// where the axis is parked and turns, are no targets.
 TEST(Datum, AFirstScanWithoutPositionFailsNoRun) {
   const LostCountAxis axis(99);
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();

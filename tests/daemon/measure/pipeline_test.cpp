@@ -227,12 +227,16 @@ TEST(Pipeline, ReportsWhyNothingWasMeasured) {
   for (const double mm : {20.0, 0.0}) passing.move_to(mm, 2);
   EXPECT_SAYS(refusal(passing), "no stop found in 4000 scans from -0.9895 to 19.99 mm");
   // 1 kHz and 100 Hz in minutes.
-  for (const auto& [parts, rate] : {std::pair{60, "59999"}, {6, "6000"}}) {
+  struct Case {
+    std::int64_t parts;
+    const char* rate;
+  };
+  for (const Case& of : {Case{60, "59999"}, Case{6, "6000"}}) {
     const auto in_minutes = measured(both_ways(), five_probe_rig(), {}, [&](SampleBlock& block) {
-      for (std::int64_t& t_ns : block.time_ns) t_ns /= parts;
+      for (std::int64_t& t_ns : block.time_ns) t_ns /= of.parts;
     });
     ASSERT_FALSE(in_minutes);
-    EXPECT_SAYS(in_minutes.error().message, "the sample rate is " + std::string(rate) +
+    EXPECT_SAYS(in_minutes.error().message, "the sample rate is " + std::string(of.rate) +
                                                 " Hz: if time_s of the log is in minutes or hours");
   }
   PipelineOptions elsewhere;

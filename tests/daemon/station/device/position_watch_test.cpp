@@ -10,7 +10,7 @@ namespace {
 SampleBlock block(int number, double position_mm, const char* channel = kEncoderChannel) {
   SampleBlock block{"daq", {{"A", Unit::um}, {channel, Unit::mm}}, {}, {{}, {}}, {}, 0};
   for (int i = 0; i < 10; ++i) {
-    block.time_ns.push_back((number * 10 + i) * 10'000'000);
+    block.time_ns.push_back((std::int64_t{10} * number + i) * 10'000'000);
     block.value[0].push_back(1);
     block.value[1].push_back(position_mm);
   }

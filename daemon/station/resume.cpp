@@ -162,8 +162,9 @@ Result<std::int64_t> record_again(const CutOffRun& cut_off, const Storekeeper& k
 }
 
 void Continuation::shift(SampleBlock& block) {
-  if (!shift_ns_)
-    shift_ns_ = std::max<std::int64_t>(0, after_ns_ + kPause_ns - block.time_ns.front());
+  // after_ns_ is the smallest number if the old run has no samples, so it must not be decreased.
+  const std::int64_t begin_ns = block.time_ns.front();
+  if (!shift_ns_) shift_ns_ = std::max(after_ns_ + kPause_ns, begin_ns) - begin_ns;
   for (std::int64_t& time_ns : block.time_ns) time_ns += *shift_ns_;
   if (seen_.insert(block.device).second) block.lost = std::max<std::uint64_t>(1, block.lost);
 }

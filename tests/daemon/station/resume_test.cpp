@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace mdof::daemon {
 namespace {
 
@@ -34,6 +36,14 @@ TEST(Continuation, AClockThatContinuedIsNotShifted) {
   SampleBlock b = block("t7", kEnd_ns + 60'000'000'000);
   continuation.shift(b);
   EXPECT_EQ(b.time_ns.front(), kEnd_ns + 60'000'000'000);
+}
+
+// The old run ended before its first sample, so the recording has no end.
+TEST(Continuation, AnEmptyRecordingShiftsNothing) {
+  Continuation continuation(std::numeric_limits<std::int64_t>::min());
+  SampleBlock b = block("t7", 9'778'038'002'052);
+  continuation.shift(b);
+  EXPECT_EQ(b.time_ns.front(), 9'778'038'002'052);
 }
 
 TEST(Continuation, EachDeviceReportsLostScansOnce) {

@@ -24,11 +24,11 @@ struct MachineCauses {
   std::vector<std::pair<std::string, std::size_t>> unknown_approach;
 };
 
-// `at_m`: path of the tool. The errors of an axis are those of its last direction of motion on this
-// path: positions of the tool in workpiece coordinates, relative to the position of the tool when
-// all commands are 0. command_at_place() calculates the commands from the chain. `with_axes`: true:
-// `budget` contains no effects on measured errors. false: `budget` contains the effects on all
-// errors, as for a machine that is only designed.
+// `at_m`: path of the tool, as positions of the tool in workpiece coordinates, relative to the
+// position of the tool when all commands are 0. command_at_place() calculates the commands from the
+// chain. The errors of an axis are those of its last direction of motion on this path.
+// `with_axes`: true: `budget` contains no effects on measured errors. false: `budget` contains the
+// effects on all errors, as for a machine that is only designed.
 MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m,
                              bool with_axes = true);
 

@@ -14,10 +14,10 @@ namespace mdof::algo {
 
 // Budget of the squareness EC0Y = -slope(EXY) - slope(EYX) + α (Fig. 6), or of EB0Z or EA0Z if one
 // run is along Z (schema/iso230/squareness.h), plus the effect of a tilted square, whose u is
-// neglected (algo/iso230/square_tilt.h). The reference point of the errors is the
-// origin of M. Some quantities are common to both runs: properties of a probe and the surface of a
-// plane that both rigs have (Contributor::common_as). Their contributions to both slopes add with
-// their signs. All other uncertainties of the two rigs are taken as independent.
+// neglected (algo/iso230/square_tilt.h). The reference point of the errors is the origin of M. Some
+// quantities are common to both runs: properties of a probe and the surface of a plane that both
+// rigs have (Contributor::common_as). Their contributions to both slopes add with their signs. All
+// other uncertainties of the two rigs are taken as independent.
 Result<Budget> squareness_budget(const Rig& rig_a, const Run& run_a, const Rig& rig_b,
                                  const Run& run_b, const SquareArtefact& artefact,
                                  const TrialsRequest& request = {});

@@ -70,7 +70,7 @@ void write_title(Html& html, const Report& report) {
               {phrase(Phrase::report_by, language), report.software_version}});
   html.element("p", phrase(Phrase::what_the_report_is, language), "quiet");
   if (language != Language::english)
-    html.element("p", phrase(Phrase::english_texts, language), "quiet");
+    html.element("p", phrase(Phrase::language_note, language), "quiet");
 }
 
 void write_squareness(Html& html, const charts::SquarenessOfPair& pair,

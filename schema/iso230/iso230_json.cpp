@@ -106,10 +106,7 @@ void write_parallelism(JsonWriter& json, const Parallelism& parallelism) {
 
 void write_positioning(JsonWriter& json, const Positioning& p, bool angle) {
   const Figures figures(json, angle);
-  figures("B", p.B)("B_mean", p.B_mean);
-  figures("R_forward", p.R_forward)("R_reverse", p.R_reverse)("R", p.R);
-  figures("E_forward", p.E_forward)("E_reverse", p.E_reverse)("E", p.E)("M", p.M);
-  figures("A_forward", p.A_forward)("A_reverse", p.A_reverse)("A", p.A);
+  for (const PositioningParameter& of : kPositioningParameters) figures(of.name, p.*of.value);
   json.key("targets").begin_array();
   for (const PositioningTarget& t : p.targets) write_target(json, figures, t);
   json.end_array();
@@ -119,10 +116,8 @@ void write_run_positioning_uncertainty(JsonWriter& json, const RunPositioningUnc
                                        bool angle) {
   json.begin_object().field("coverage", 0.95);
   const Figures figures(json, angle);
-  figures("U_B", U.B)("U_B_mean", U.B_mean);
-  figures("U_R_forward", U.R_forward)("U_R_reverse", U.R_reverse)("U_R", U.R);
-  figures("U_E_forward", U.E_forward)("U_E_reverse", U.E_reverse)("U_E", U.E)("U_M", U.M);
-  figures("U_A_forward", kNoFigure)("U_A_reverse", kNoFigure)("U_A", kNoFigure);
+  for (const PositioningParameter& of : kPositioningParameters)
+    figures(std::string("U_") + of.name, U.*of.U);
   json.field("U_A_reason", U.kWhyNotOfA);
   write_covers(json, U.covers, U.not_declared);
   json.field("R_is_of", "these visits").end_object();

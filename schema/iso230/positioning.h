@@ -39,10 +39,8 @@ struct PositioningTarget {
 // parameters that need both approaches, are NaN.
 struct Positioning {
   std::vector<PositioningTarget> targets;  // ascending
-  double B = kNoFigure, B_mean = kNoFigure;
-  double R_forward = kNoFigure, R_reverse = kNoFigure, R = kNoFigure;
-  double E_forward = kNoFigure, E_reverse = kNoFigure, E = kNoFigure, M = kNoFigure;
-  double A_forward = kNoFigure, A_reverse = kNoFigure, A = kNoFigure;
+#define PARAMETER(name, null, meaning) double name = kNoFigure;
+#include "schema/iso230/positioning_parameters.inc"
 };
 
 // Expanded uncertainties (k = 2) of the parameters, m.
@@ -57,20 +55,30 @@ struct PositioningUncertainty {
 
 // Expanded uncertainties (95 %) of the parameters of one error of a run, m or rad. They are
 // propagated from the declared uncertainties of the rig and from the scatter of the run (GUM 5,
-// JCGM 101). NaN: the parameter does not exist.
+// JCGM 101). NaN: the parameter does not exist, or U is unknown (kWhyNotOfA).
+// - U of B, E and M contains the scatter of the visits, so it applies to the axis.
+// - U of R applies to the visits of this run. It does not contain the uncertainty that R, as a
+//   property of the axis, has because the number of visits is small.
 struct RunPositioningUncertainty {
   static constexpr const char* kWhyNotOfA =
       "A contains twice the standard deviation s at each end, and the uncertainty of s cannot be "
       "estimated from so few approaches";
-  // U of B, E and M. U contains the scatter of the visits, so it applies to the axis.
-  double B = kNoFigure, B_mean = kNoFigure;
-  double E_forward = kNoFigure, E_reverse = kNoFigure, E = kNoFigure, M = kNoFigure;
-  // U of R. It applies to the visits of this run. It does not contain the uncertainty that R, as a
-  // property of the axis, has because the number of visits is small.
-  double R_forward = kNoFigure, R_reverse = kNoFigure, R = kNoFigure;
+#define PARAMETER(name, null, meaning) double name = kNoFigure;
+#include "schema/iso230/positioning_parameters.inc"
   bool noise_only = false;
   std::string covers;  // sentence about the contributors of U
   std::vector<std::string> not_declared;
+};
+
+struct PositioningParameter {
+  const char* name;
+  double Positioning::*value;
+  double RunPositioningUncertainty::*U;
+};
+inline constexpr PositioningParameter kPositioningParameters[] = {
+#define PARAMETER(name, null, meaning) \
+  {#name, &Positioning::name, &RunPositioningUncertainty::name},
+#include "schema/iso230/positioning_parameters.inc"
 };
 
 }  // namespace mdof

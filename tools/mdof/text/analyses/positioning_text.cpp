@@ -1,5 +1,6 @@
 #include "tools/mdof/text/analyses/positioning_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/mdof/text/text_table.h"
@@ -7,27 +8,11 @@
 namespace mdof::tools {
 namespace {
 
-using Uncertainty = RunPositioningUncertainty;
-
-struct Parameter {
-  const char* name;
-  double Positioning::*value;
-  double Uncertainty::*U = nullptr;
-};
-constexpr Parameter kParameters[] = {
-    {"B", &Positioning::B, &Uncertainty::B},
-    {"B mean", &Positioning::B_mean, &Uncertainty::B_mean},
-    {"R forward", &Positioning::R_forward, &Uncertainty::R_forward},
-    {"R reverse", &Positioning::R_reverse, &Uncertainty::R_reverse},
-    {"R", &Positioning::R, &Uncertainty::R},
-    {"E forward", &Positioning::E_forward, &Uncertainty::E_forward},
-    {"E reverse", &Positioning::E_reverse, &Uncertainty::E_reverse},
-    {"E", &Positioning::E, &Uncertainty::E},
-    {"M", &Positioning::M, &Uncertainty::M},
-    {"A forward", &Positioning::A_forward},
-    {"A reverse", &Positioning::A_reverse},
-    {"A", &Positioning::A},
-};
+// "R_forward" as "R forward".
+std::string shown_name(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
 
 std::string unit_of(const PositioningColumn& column) {
   return column.angle ? "/µrad" : "/µm";
@@ -46,10 +31,10 @@ std::string parameters_text(const std::vector<PositioningColumn>& columns, std::
     if (column.U) head.emplace_back("U");
   }
   TextTable table(std::move(head));
-  for (const Parameter& parameter : kParameters) {
-    std::vector<std::string> row{parameter.name};
+  for (const PositioningParameter& parameter : kPositioningParameters) {
+    std::vector<std::string> row{shown_name(parameter.name)};
     for (const auto& column : columns) {
-      const double U = column.U && parameter.U != nullptr ? (*column.U).*parameter.U : kNoFigure;
+      const double U = column.U ? (*column.U).*parameter.U : kNoFigure;
       row.push_back(shown(column, column.figures.*parameter.value, U));
       if (column.U) row.push_back(std::isfinite(U) ? shown(column, U, U) : "");
     }

@@ -36,7 +36,7 @@ struct SourceInfo {
 
 // A configured driver. make() must be called on the thread that will own the driver.
 struct DriverSpec {
-  std::string driver, name;
+  std::string driver, name;  // configure_driver() sets both
   // true: samples arrive in real time; false: they arrive as fast as they are read.
   bool live = true;
   bool recorded = true;  // true: the samples are recorded; false: they come from a recording
@@ -58,7 +58,7 @@ struct DriverSpec {
   bool shared = false;  // true: the device serves several drivers of one program at the same time
   std::function<Result<std::unique_ptr<Driver>>()> make;
   // Call it with a driver that make() created.
-  std::function<SourceInfo(const Driver&)> source_info;
+  std::function<SourceInfo(const Driver&)> source_info = [](const Driver&) { return SourceInfo{}; };
 };
 
 }  // namespace mdof::drivers

@@ -214,6 +214,8 @@ Result<DriverSpec> configure_driver(const std::string& driver, TomlTable& table,
   if (const DriverRow* row = find_driver(driver)) {
     MDOF_TRY(DriverSpec spec, row->configure(table, context));
     MDOF_CHECK(check_index(*row, spec.encoder));
+    spec.driver = driver;
+    spec.name = context.name;
     return locked(std::move(spec));
   }
   std::string known;

@@ -127,8 +127,6 @@ Result<Options> read_options(TomlTable& table, const DriverContext& context) {
 Result<DriverSpec> configure_capancdt(TomlTable& table, const DriverContext& context) {
   MDOF_TRY(const Options options, read_options(table, context));
   DriverSpec spec;
-  spec.driver = "capancdt";
-  spec.name = context.name;
   for (const auto& channel : options.channels) {
     spec.channels.push_back(channel.input.id);
     if (channel.input.id == kEncoderChannel) spec.encoder = encoder_origin({channel.input}, false);
@@ -137,7 +135,6 @@ Result<DriverSpec> configure_capancdt(TomlTable& table, const DriverContext& con
   spec.make = [options]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<capancdt::Capancdt>(options);
   };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
   return spec;
 }
 

@@ -92,8 +92,6 @@ Result<DriverSpec> configure_csv_stream(TomlTable& table, const DriverContext& c
   const CsvStreamOptions options = read_options(table, context);
   MDOF_CHECK(table.finish());
   DriverSpec spec;
-  spec.driver = "csv_stream";
-  spec.name = context.name;
   spec.identity = [options] { return identity(options); };
   spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<CsvStream>(name, options);

@@ -143,8 +143,6 @@ Result<Settings> read_labjack_t7(TomlTable& table, const DriverContext& context)
 Result<DriverSpec> configure_labjack_t7(TomlTable& table, const DriverContext& context) {
   MDOF_TRY(const Settings settings, read_labjack_t7(table, context));
   DriverSpec spec;
-  spec.driver = "labjack_t7";
-  spec.name = context.name;
   for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
   spec.encoder = settings.encoder;
   spec.further_encoders = settings.further_encoders;
@@ -152,7 +150,6 @@ Result<DriverSpec> configure_labjack_t7(TomlTable& table, const DriverContext& c
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<LabjackT7>(settings);
   };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
   return spec;
 }
 

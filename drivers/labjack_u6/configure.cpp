@@ -148,14 +148,11 @@ Result<Settings> read_labjack_u6(TomlTable& table, const DriverContext& context)
 Result<DriverSpec> configure_labjack_u6(TomlTable& table, const DriverContext& context) {
   MDOF_TRY(const Settings settings, read_labjack_u6(table, context));
   DriverSpec spec;
-  spec.driver = "labjack_u6";
-  spec.name = context.name;
   for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
   spec.encoder = settings.encoder;
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<LabjackU6>(settings);
   };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
   return spec;
 }
 

@@ -118,15 +118,12 @@ Result<Settings> read_linux_comedi(TomlTable& table, const DriverContext& contex
 Result<DriverSpec> configure_linux_comedi(TomlTable& table, const DriverContext& context) {
   MDOF_TRY(const Settings settings, read_linux_comedi(table, context));
   DriverSpec spec;
-  spec.driver = "linux_comedi";
-  spec.name = context.name;
   for (const InputSetting& input : settings.inputs) spec.channels.push_back(input.channel.id);
   spec.encoder = settings.encoder;
   spec.identity = [device = settings.device] { return identity_of_path(device); };
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<LinuxComedi>(settings);
   };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
   return spec;
 }
 

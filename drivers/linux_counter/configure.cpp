@@ -27,14 +27,11 @@ Result<DriverSpec> configure_linux_counter(TomlTable& table, const DriverContext
   MDOF_CHECK(table.finish());
   for (const auto& channel : options.channels) MDOF_CHECK(check_um_per_count(channel));
   DriverSpec spec;
-  spec.driver = "linux_counter";
-  spec.name = context.name;
   spec.channels = ids_of(options.channels);
   spec.encoder = encoder_origin(options.channels, true);
   spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
     return make_linux_counter(name, options);
   };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
   return spec;
 }
 

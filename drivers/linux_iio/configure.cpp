@@ -57,14 +57,11 @@ Result<DriverSpec> configure_linux_iio(TomlTable& table, const DriverContext& co
       return no_such_input(channel, inputs);
   }
   DriverSpec spec;
-  spec.driver = "linux_iio";
-  spec.name = context.name;
   spec.channels = ids_of(options.channels);
   spec.encoder = encoder_origin(options.channels, false);
   spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
     return make_linux_iio(name, options);
   };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
   return spec;
 }
 

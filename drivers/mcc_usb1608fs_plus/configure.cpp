@@ -59,14 +59,11 @@ Result<Settings> read_mcc_usb1608fs_plus(TomlTable& table, const DriverContext& 
 Result<DriverSpec> configure_mcc_usb1608fs_plus(TomlTable& table, const DriverContext& context) {
   MDOF_TRY(const Settings settings, read_mcc_usb1608fs_plus(table, context));
   DriverSpec spec;
-  spec.driver = "mcc_usb1608fs_plus";
-  spec.name = context.name;
   for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
   spec.encoder = settings.encoder;
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<MccUsb1608fsPlus>(settings);
   };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
   return spec;
 }
 

@@ -108,8 +108,6 @@ Result<DriverSpec> configure_modbus(TomlTable& table, const DriverContext& conte
   MDOF_CHECK(read_uses(table, context.rig, settings));
   MDOF_CHECK(table.finish());
   DriverSpec spec;
-  spec.driver = "modbus";
-  spec.name = context.name;
   for (const auto& channel : settings.channels) spec.channels.push_back(channel.id);
   spec.encoder = settings.encoder;
   spec.identity = [settings] { return identity(settings); };
@@ -117,7 +115,6 @@ Result<DriverSpec> configure_modbus(TomlTable& table, const DriverContext& conte
   spec.make = [name = context.name, settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<ModbusDriver>(name, settings);
   };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
   return spec;
 }
 

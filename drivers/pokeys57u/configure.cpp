@@ -99,14 +99,11 @@ Result<DriverSpec> configure_pokeys57u(TomlTable& table, const DriverContext& co
     settings.inputs.push_back(std::move(input));
   }
   DriverSpec spec;
-  spec.driver = "pokeys57u";
-  spec.name = context.name;
   spec.channels = ids_of(channels);
   spec.encoder = encoder_origin(channels, counts);
   spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<PoKeys57u>(settings);
   };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
   return spec;
 }
 

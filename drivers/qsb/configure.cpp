@@ -53,8 +53,6 @@ Result<DriverSpec> configure_qsb(TomlTable& table, const DriverContext& context)
   }
   options.channel = channels[0];
   DriverSpec spec;
-  spec.driver = "qsb";
-  spec.name = context.name;
   spec.channels = {options.channel.id};
   spec.encoder = encoder_origin(channels, true);
   spec.identity = [at = options.address, port = options.port] {
@@ -63,7 +61,6 @@ Result<DriverSpec> configure_qsb(TomlTable& table, const DriverContext& context)
   spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
     return std::make_unique<Qsb>(name, options);
   };
-  spec.source_info = [](const Driver&) { return SourceInfo{}; };
   return spec;
 }
 

@@ -18,8 +18,6 @@ SourceInfo info_of(const Driver& driver) {
 
 DriverSpec log_driver(const std::string& name, const std::string& path) {
   DriverSpec spec;
-  spec.driver = "replay";
-  spec.name = name;
   spec.live = false;
   spec.recorded = false;
   spec.source_path = std::filesystem::absolute(path).string();

@@ -1,5 +1,6 @@
 #include "drivers/labjack/input_keys.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -25,6 +26,8 @@ int range_of(double range_v) {
   return -1;
 }
 
+namespace {
+
 Result<int> negative_of(const std::string& device, const ChannelInput& channel, int ain,
                         const std::string& negative) {
   const std::string partner = "AIN" + std::to_string(ain + 1);
@@ -34,6 +37,40 @@ Result<int> negative_of(const std::string& device, const ChannelInput& channel, 
       " can only measure the voltage between an even AIN and the next AIN; give " +
       (ain % 2 == 0 ? "negative = \"" + partner + "\" with " + channel.input
                     : "negative = \"" + channel.input + "\" with AIN" + std::to_string(ain - 1)));
+}
+
+Status check_counter(const ChannelInput& channel, const InputKeys& keys) {
+  if (!keys.negative.empty() || keys.range_v > 0)
+    return bad_input(channel.where + ": " + channel.input +
+                     " is a counter; the keys \"negative\" and \"range_v\" apply to an AIN only; "
+                     "remove these keys");
+  return check_um_per_count(channel);
+}
+
+}  // namespace
+
+Result<InputUse> input_use(const std::string& device, const ChannelInput& channel,
+                           const InputKeys& keys, int ains,
+                           const std::vector<std::string>& counters) {
+  std::vector<std::string> known;
+  for (int n = 0; n < ains; ++n) known.push_back("AIN" + std::to_string(n));
+  known.insert(known.end(), counters.begin(), counters.end());
+  const auto found = std::find(known.begin(), known.end(), channel.input);
+  if (found == known.end()) return no_such_input(channel, known);
+  const auto at = static_cast<int>(found - known.begin());
+  if (at >= ains) {
+    MDOF_CHECK(check_counter(channel, keys));
+    return InputUse{.counter = at - ains};
+  }
+  if (channel.um_per_count != 0 || keys.most_counts_per_s > 0)
+    return bad_input(channel.where + ": " + channel.input +
+                     " gives volts, not counts; remove um_per_count and most_counts_per_s (the "
+                     "scale is um_per_V in the rig)");
+  InputUse use{.ain = at};
+  if (!keys.negative.empty()) {
+    MDOF_TRY(use.negative, negative_of(device, channel, at, keys.negative));
+  }
+  return use;
 }
 
 Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<InputUse>& uses) {

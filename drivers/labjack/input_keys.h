@@ -21,15 +21,18 @@ InputKeys read_input_keys(TomlTable& channel);
 int range_of(double range_v);
 inline constexpr const char* kRangesText = "must be 10, 1, 0.1 or 0.01";
 
-// Returns the negative input of a differential input. The number `ain` must be even, and the
-// negative input must be the next input; the device has no other pairs.
-Result<int> negative_of(const std::string& device, const ChannelInput& channel, int ain,
-                        const std::string& negative);
-
 struct InputUse {
   int ain = -1;       // -1: a counter
   int negative = -1;  // -1: single-ended
+  int counter = -1;   // index of the counter; -1: an AIN
 };
+// Returns the input that the channel names. `device`: "T7", for messages; `ains`: number of
+// analogue inputs. Errors: the device has no such input; a key does not apply to this kind of
+// input; the negative input of a differential input is not the next input of an even AIN (the
+// device has no other pairs).
+Result<InputUse> input_use(const std::string& device, const ChannelInput& channel,
+                           const InputKeys& keys, int ains,
+                           const std::vector<std::string>& counters);
 // Errors: the negative input of one channel is also the input of another channel; one axis has two
 // counters.
 Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<InputUse>& uses);

@@ -57,54 +57,25 @@ void read_rate(TomlTable& table, Settings& settings) {
                      std::to_string(words) + " samples (1 for an analogue input, 2 for a counter)");
 }
 
-std::string counter_name(int line) {
-  return "FIO" + std::to_string(line);
-}
-
 std::vector<std::string> counters() {
   std::vector<std::string> names;
-  for (const int line : kCounterLines) names.push_back(counter_name(line));
+  for (const int line : kCounterLines) names.push_back("FIO" + std::to_string(line));
   return names;
 }
 
-std::vector<std::string> known_inputs() {
-  std::vector<std::string> names;
-  for (int n = 0; n < kAins; ++n) names.push_back("AIN" + std::to_string(n));
-  for (const std::string& counter : counters()) names.push_back(counter);
-  return names;
-}
-
-Result<Input> counter_of(const ChannelInput& channel, const labjack::InputKeys& keys, int line) {
-  if (!keys.negative.empty() || keys.range_v > 0)
-    return bad_input(channel.where + ": " + channel.input +
-                     " is a counter; the keys \"negative\" and \"range_v\" apply to an AIN only; "
-                     "remove these keys");
-  MDOF_CHECK(check_um_per_count(channel));
+Input input_of(const ChannelInput& channel, const labjack::InputKeys& keys,
+               const labjack::InputUse& use, int gain) {
   Input input;
-  input.channel = {channel.id, Unit::um};
-  input.fio = line;
+  input.channel = {channel.id, use.ain < 0 ? Unit::um : Unit::volt};
+  input.ain = use.ain;
+  input.differential = use.negative >= 0;
+  if (use.ain >= 0) {
+    input.gain = keys.range_v > 0 ? std::max(labjack::range_of(keys.range_v), 0) : gain;
+    return input;
+  }
+  input.fio = kCounterLines[use.counter];
   input.um_per_count = channel.um_per_count;
   input.most_counts_per_s = keys.most_counts_per_s > 0 ? keys.most_counts_per_s : kMostCounts_per_s;
-  return input;
-}
-
-Result<Input> input_of(const ChannelInput& channel, const labjack::InputKeys& keys, int gain) {
-  for (const int line : kCounterLines)
-    if (channel.input == counter_name(line)) return counter_of(channel, keys, line);
-  const std::vector<std::string> known = known_inputs();
-  const auto at = std::find(known.begin(), known.end(), channel.input);
-  if (at == known.end()) return no_such_input(channel, known);
-  if (channel.um_per_count != 0 || keys.most_counts_per_s > 0)
-    return bad_input(channel.where + ": " + channel.input +
-                     " gives volts, not counts; remove um_per_count and most_counts_per_s (the "
-                     "scale is um_per_V in the rig)");
-  Input input;
-  input.channel = {channel.id, Unit::volt};
-  input.ain = static_cast<int>(at - known.begin());
-  input.gain = keys.range_v > 0 ? std::max(labjack::range_of(keys.range_v), 0) : gain;
-  if (keys.negative.empty()) return input;
-  MDOF_CHECK(labjack::negative_of("U6", channel, input.ain, keys.negative));
-  input.differential = true;
   return input;
 }
 
@@ -118,9 +89,9 @@ Status read_inputs(TomlTable& table, const DriverContext& context, Settings& set
            }));
   settings.encoder = encoder_origin(channels, is_at_counter(channels, counters()));
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    MDOF_TRY(const Input input, input_of(channels[i], keys[i], gain));
-    inputs.push_back(input);
-    uses.push_back({input.ain, input.differential ? input.ain + 1 : -1});
+    MDOF_TRY(const auto use, labjack::input_use("U6", channels[i], keys[i], kAins, counters()));
+    inputs.push_back(input_of(channels[i], keys[i], use, gain));
+    uses.push_back(use);
   }
   MDOF_CHECK(labjack::check_uses(channels, uses));
   const bool analogue =

@@ -57,7 +57,7 @@ LabjackU6::LabjackU6(Settings settings)
       clock_(1e9 / scan_clock_.rate_hz) {
   for (const Input& input : settings_.inputs) channels_.push_back(input.channel);
   if (const Input* counter = counter_of(settings_))
-    guard_ = labjack::CountGuard(counter->most_counts_per_s);
+    counter_ = labjack::Counter(counter->most_counts_per_s);
 }
 
 LabjackU6::~LabjackU6() {
@@ -65,15 +65,12 @@ LabjackU6::~LabjackU6() {
 }
 
 DeviceInfo LabjackU6::info() const {
-  return {settings_.name,      "labjack_u6",
-          description_,        channels_,
-          scan_clock_.rate_hz, false,
-          clock_.state(),      zero_lost_ ? kZeroLost : guard_.sure() ? "" : labjack::kCountsLost};
+  return {settings_.name,      "labjack_u6", description_,   channels_,
+          scan_clock_.rate_hz, false,        clock_.state(), counter_.invalid_reason(kZeroLost)};
 }
 
 void LabjackU6::trust_count() {
-  zero_lost_ = false;
-  guard_.restart();
+  counter_.trust();
 }
 
 std::string LabjackU6::place() const {
@@ -100,7 +97,7 @@ void LabjackU6::close() {
   returned_ = 0;
   broken_ = {};
   clock_.reset();
-  guard_.interrupt();
+  counter_.interrupt();
   reopened_ = last_time_ns_ != 0;
 }
 
@@ -128,14 +125,13 @@ Status LabjackU6::start() {
 Status LabjackU6::start_or_keep_counter() {
   const Input* counter = counter_of(settings_);
   if (!counter) return {};
-  if (counted_) {
+  if (counter_.used()) {
     MDOF_TRY(const bool runs, counter_runs(*handle_, counter->fio));
+    counter_.resume_count(runs);
     if (runs) return {};
-    zero_lost_ = true;
   }
   MDOF_CHECK(start_counter(*handle_, counter->fio));
-  counted_ = true;
-  count_.reset();
+  counter_.resume_count(false);
   return {};
 }
 
@@ -221,11 +217,10 @@ void LabjackU6::append(SampleBlock& block, const Scan& scan) {
       continue;
     }
     const auto raw = static_cast<std::uint32_t>(scan.words[word++]) << 16 | first;
-    const std::int64_t count = count_(raw);
-    const bool sure =
-        guard_.take(count, static_cast<double>(scan.index) / scan_clock_.rate_hz) && !zero_lost_;
+    const std::int64_t count =
+        counter_.take(raw, static_cast<double>(scan.index) / scan_clock_.rate_hz);
     block.value[c].push_back(static_cast<double>(count) * input.um_per_count);
-    block.quality[c].push_back(sure ? Quality::good : Quality::suspect);
+    block.quality[c].push_back(counter_.sure() ? Quality::good : Quality::suspect);
   }
 }
 

@@ -14,9 +14,8 @@
 #include <vector>
 
 #include "drivers/clock/device_clock.h"
-#include "drivers/counter/unwrap.h"
 #include "drivers/driver.h"
-#include "drivers/labjack/count_guard.h"
+#include "drivers/labjack/counter.h"
 #include "drivers/labjack_u6/settings.h"
 
 namespace mdof::drivers::labjack_u6 {
@@ -69,10 +68,7 @@ class LabjackU6 final : public Driver {
   std::size_t returned_ = 0;  // number of scans in scans_ that were returned
   Status broken_;             // the error that ended the stream
 
-  Unwrap count_{32, true};
-  bool counted_ = false;           // whether this object has started the counter
-  bool zero_lost_ = false;         // whether the zero of the counter is lost
-  labjack::CountGuard guard_;      // checks the rate of the counter
+  labjack::Counter counter_;
   std::int64_t last_time_ns_ = 0;  // time of the last returned scan
   bool reopened_ = false;          // true: the device was opened again after the last returned scan
 };

@@ -6,6 +6,8 @@
 #include <functional>
 #include <thread>
 
+#include "drivers/clock/monotonic.h"
+
 namespace mdof::drivers {
 
 struct Clock {
@@ -15,11 +17,7 @@ struct Clock {
 
 inline Clock steady_clock() {
   using std::chrono::nanoseconds;
-  return {[] {
-            const auto since = std::chrono::steady_clock::now().time_since_epoch();
-            return std::int64_t{std::chrono::duration_cast<nanoseconds>(since).count()};
-          },
-          [](std::int64_t ns) { std::this_thread::sleep_for(nanoseconds(ns)); }};
+  return {monotonic_ns, [](std::int64_t ns) { std::this_thread::sleep_for(nanoseconds(ns)); }};
 }
 
 }  // namespace mdof::drivers

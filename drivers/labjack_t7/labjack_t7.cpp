@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "drivers/clock/monotonic.h"
 #include "drivers/labjack_t7/setup.h"
 #include "drivers/scan_block.h"
 
@@ -16,10 +17,6 @@ using std::chrono::steady_clock;
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr double kEnable_s = 2;  // longest duration of writing STREAM_ENABLE
 constexpr const char* kZeroLost = "the LabJack T7 lost power, and its counter restarted at 0";
-
-std::int64_t now_ns() {
-  return std::chrono::nanoseconds(steady_clock::now().time_since_epoch()).count();
-}
 
 std::size_t words_per_scan(const Settings& settings) {
   return scan_list(settings.inputs).size();
@@ -108,13 +105,11 @@ void LabjackT7::close() {
   stream_.reset();
   reader_ = {};
   line_ = ScanNumbering(words_per_scan(settings_));
-  scans_.clear();
-  returned_ = 0;
-  broken_ = {};
+  received_.clear();
   clock_.reset();
   for (auto& counter : counters_) counter.interrupt();
   start_ticks_.reset();
-  reopened_ = last_time_ns_ != 0;
+  loss_.close();
 }
 
 Status LabjackT7::start() {
@@ -147,7 +142,7 @@ Status LabjackT7::start_clock() {
   MDOF_TRY(const std::uint32_t ticks, registers_->u32(reg::core_timer));
   enabled_ticks_ = core_(ticks);
   MDOF_CHECK(registers_->write(reg::stream_enable, 1));
-  last_packet_ns_ = now_ns();
+  last_packet_ns_ = monotonic_ns();
   return {};
 }
 
@@ -169,20 +164,9 @@ Status LabjackT7::read_start_stamp() {
 Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
   if (!stream_) return io_error(place() + " is not open; call open() before read()");
-  if (returned_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
-  fill_block(block);
+  MDOF_CHECK(received_.next(place(), [&] { return receive(timeout); }));
+  received_.fill(block, [&](const Scan& scan) { append(block, scan); });
   return ReadState::more;
-}
-
-// Scans that were received before an error are returned before the error.
-Status LabjackT7::next_scans(milliseconds timeout) {
-  scans_.clear();
-  returned_ = 0;
-  if (!broken_) return broken_;
-  auto received = receive(timeout);
-  if (received) return {};
-  broken_ = in_context(place(), std::move(received.error()));
-  return scans_.empty() ? broken_ : Status{};
 }
 
 // Returns when scans have arrived, or after `timeout`.
@@ -191,7 +175,7 @@ Status LabjackT7::receive(milliseconds timeout) {
   do {
     const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
     MDOF_TRY(const std::size_t n, stream_->read(buffer_, std::max(left, milliseconds(0))));
-    const std::int64_t received_ns = now_ns();
+    const std::int64_t received_ns = monotonic_ns();
     reader_.append({buffer_.data(), n});
     MDOF_CHECK(take_packets(received_ns));
     const double packet_ns = 1e9 / rate_hz_ * static_cast<double>(settings_.samples_per_packet);
@@ -199,7 +183,7 @@ Status LabjackT7::receive(milliseconds timeout) {
       return io_error("no packet for 2 s on port " + std::to_string(settings_.stream.port) +
                       "; check the power and the network of the T7, and end any other program that "
                       "uses the T7");
-  } while (scans_.empty() && steady_clock::now() < until);
+  } while (received_.scans().empty() && steady_clock::now() < until);
   return {};
 }
 
@@ -209,10 +193,11 @@ Status LabjackT7::take_packets(std::int64_t received_ns) {
     MDOF_TRY(const bool complete, reader_.next(packet));
     if (!complete) return {};
     last_packet_ns_ = received_ns;
-    const std::size_t before = scans_.size();
+    const std::size_t before = received_.scans().size();
     if (!start_ticks_) MDOF_CHECK(read_start_stamp());
-    MDOF_CHECK(line_.take(packet, scans_));
-    if (scans_.size() > before) clock_.add(ticks_of(scans_.back().index), received_ns);
+    MDOF_CHECK(line_.take(packet, received_.scans()));
+    if (received_.scans().size() > before)
+      clock_.add(ticks_of(received_.scans().back().index), received_ns);
   }
 }
 
@@ -220,23 +205,10 @@ std::int64_t LabjackT7::ticks_of(std::uint64_t scan) const {
   return *start_ticks_ + std::llround(static_cast<double>(scan) * ticks_per_scan_);
 }
 
-// A block ends before lost scans. The next block then contains their number in `lost`.
-void LabjackT7::fill_block(SampleBlock& block) {
-  reserve_scans(block, scans_.size() - returned_);
-  while (returned_ < scans_.size()) {
-    const Scan& scan = scans_[returned_];
-    if (scan.lost > 0 && block.scans() > 0) return;
-    append(block, scan);
-    ++returned_;
-  }
-}
-
 void LabjackT7::append(SampleBlock& block, const Scan& scan) {
   const std::int64_t time_ns = clock_.host_ns(ticks_of(scan.index));
-  block.lost += scan.lost + (reopened_ ? lost_while_closed(time_ns) : 0);
+  block.lost += scan.lost + loss_.take(time_ns, rate_hz_);
   block.time_ns.push_back(time_ns);
-  last_time_ns_ = time_ns;
-  reopened_ = false;
   std::size_t word = 0;
   for (std::size_t c = 0; c < settings_.inputs.size(); ++c) {
     const std::uint16_t first = scan.words[word++];
@@ -261,12 +233,6 @@ void LabjackT7::append_count(SampleBlock& block, std::size_t channel, std::uint3
   block.value[channel].push_back(static_cast<double>(count) *
                                  settings_.inputs[channel].um_per_count);
   block.quality[channel].push_back(counter.sure() ? Quality::good : Quality::suspect);
-}
-
-// Returns the number of scans that the device would have taken since the last returned scan.
-std::uint64_t LabjackT7::lost_while_closed(std::int64_t time_ns) const {
-  const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
-  return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));
 }
 
 }  // namespace mdof::drivers::labjack_t7

@@ -21,8 +21,10 @@
 #include "drivers/driver.h"
 #include "drivers/io/byte_stream.h"
 #include "drivers/labjack/counter.h"
+#include "drivers/labjack/received_scans.h"
 #include "drivers/labjack_t7/registers.h"
 #include "drivers/labjack_t7/settings.h"
+#include "drivers/loss_while_closed.h"
 
 namespace mdof::drivers::labjack_t7 {
 
@@ -50,15 +52,12 @@ class LabjackT7 final : public Driver {
   Status start_counters();
   Status start_clock();
   Status read_start_stamp();
-  Status next_scans(std::chrono::milliseconds timeout);
   Status receive(std::chrono::milliseconds timeout);
   Status take_packets(std::int64_t received_ns);
   std::int64_t ticks_of(std::uint64_t scan) const;
-  void fill_block(SampleBlock& block);
   void append(SampleBlock& block, const Scan& scan);
   void append_ain(SampleBlock& block, std::size_t channel, std::uint16_t raw) const;
   void append_count(SampleBlock& block, std::size_t channel, std::uint32_t raw, double time_s);
-  std::uint64_t lost_while_closed(std::int64_t time_ns) const;
   std::string place() const;
 
   Settings settings_;
@@ -77,14 +76,11 @@ class LabjackT7 final : public Driver {
   std::optional<std::int64_t> start_ticks_;  // CORE_TIMER at scan 0; empty before the first packet
   // Host time at which the last packet arrived; before the first packet, the time of the start.
   std::int64_t last_packet_ns_ = 0;
-  std::vector<Scan> scans_;   // scans that were received
-  Status broken_;             // the error that ended the stream
-  std::size_t returned_ = 0;  // number of scans in scans_ that were returned
+  labjack::ReceivedScans received_;
   std::vector<char> buffer_;
 
   std::vector<labjack::Counter> counters_;  // one for each input; not used for an AIN
-  std::int64_t last_time_ns_ = 0;           // time of the last returned scan
-  bool reopened_ = false;  // true: the device was opened again after the last returned scan
+  LossWhileClosed loss_;
 };
 
 }  // namespace mdof::drivers::labjack_t7

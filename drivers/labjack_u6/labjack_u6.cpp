@@ -89,16 +89,14 @@ Status LabjackU6::open() {
 
 // Stops the stream, so that other programs can use the device. Errors are ignored.
 void LabjackU6::close() {
-  if (handle_ && stream_ && broken_) (void)ask(*handle_, stream_stop());
+  if (handle_ && stream_ && !received_.has_error()) (void)ask(*handle_, stream_stop());
   stream_.reset();
   handle_.reset();
   line_ = ScanNumbering(list_.size());
-  scans_.clear();
-  returned_ = 0;
-  broken_ = {};
+  received_.clear();
   clock_.reset();
   counter_.interrupt();
-  reopened_ = last_time_ns_ != 0;
+  loss_.close();
 }
 
 Status LabjackU6::start() {
@@ -138,20 +136,9 @@ Status LabjackU6::start_or_keep_counter() {
 Result<ReadState> LabjackU6::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
   if (!stream_) return io_error(place() + " is not open; call open() before read()");
-  if (returned_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
-  fill_block(block);
+  MDOF_CHECK(received_.next(place(), [&] { return receive(timeout); }));
+  received_.fill(block, [&](const Scan& scan) { append(block, scan); });
   return ReadState::more;
-}
-
-// Scans that were received before an error are returned before the error.
-Status LabjackU6::next_scans(milliseconds timeout) {
-  scans_.clear();
-  returned_ = 0;
-  if (!broken_) return broken_;
-  auto received = receive(timeout);
-  if (received) return {};
-  broken_ = in_context(place(), std::move(received.error()));
-  return scans_.empty() ? broken_ : Status{};
 }
 
 // Returns when scans have arrived, or after `timeout`.
@@ -164,7 +151,7 @@ Status LabjackU6::receive(milliseconds timeout) {
     if (chunk.any) MDOF_CHECK(take(chunk));
     if (static_cast<double>(monotonic_ns() - last_chunk_ns_) * 1e-9 > kSilence_s + packet_s)
       return silence_error();
-  } while (scans_.empty() && steady_clock::now() < until);
+  } while (received_.scans().empty() && steady_clock::now() < until);
   return {};
 }
 
@@ -179,33 +166,21 @@ Status LabjackU6::silence_error() {
 
 Status LabjackU6::take(const usb::InStream::Chunk& chunk) {
   last_chunk_ns_ = chunk.received_ns;
-  const std::size_t before = scans_.size(), size = stream_bytes(samples_);
+  const std::size_t before = received_.scans().size(), size = stream_bytes(samples_);
   Status taken;
   for (std::size_t at = 0; taken && at < chunk.bytes.size(); at += size) {
     const auto packet = decode(chunk.bytes.substr(at, size), samples_);
-    taken = packet ? line_.take(*packet, scans_) : tl::unexpected(packet.error());
+    taken = packet ? line_.take(*packet, received_.scans()) : tl::unexpected(packet.error());
   }
-  if (scans_.size() > before)
-    clock_.add(static_cast<std::int64_t>(scans_.back().index), chunk.received_ns);
+  if (received_.scans().size() > before)
+    clock_.add(static_cast<std::int64_t>(received_.scans().back().index), chunk.received_ns);
   return taken;
-}
-
-// A block ends before lost scans. The next block then contains their number in `lost`.
-void LabjackU6::fill_block(SampleBlock& block) {
-  while (returned_ < scans_.size()) {
-    const Scan& scan = scans_[returned_];
-    if (scan.lost > 0 && block.scans() > 0) return;
-    append(block, scan);
-    ++returned_;
-  }
 }
 
 void LabjackU6::append(SampleBlock& block, const Scan& scan) {
   const std::int64_t time_ns = clock_.host_ns(static_cast<std::int64_t>(scan.index));
-  block.lost += scan.lost + (reopened_ ? lost_while_closed(time_ns) : 0);
+  block.lost += scan.lost + loss_.take(time_ns, scan_clock_.rate_hz);
   block.time_ns.push_back(time_ns);
-  last_time_ns_ = time_ns;
-  reopened_ = false;
   std::size_t word = 0;
   for (std::size_t c = 0; c < settings_.inputs.size(); ++c) {
     const Input& input = settings_.inputs[c];
@@ -222,12 +197,6 @@ void LabjackU6::append(SampleBlock& block, const Scan& scan) {
     block.value[c].push_back(static_cast<double>(count) * input.um_per_count);
     block.quality[c].push_back(counter_.sure() ? Quality::good : Quality::suspect);
   }
-}
-
-// Returns the number of scans that the device would have taken since the last returned scan.
-std::uint64_t LabjackU6::lost_while_closed(std::int64_t time_ns) const {
-  const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * scan_clock_.rate_hz;
-  return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));
 }
 
 std::vector<Entry> scan_list(const std::vector<Input>& inputs) {

@@ -16,7 +16,9 @@
 #include "drivers/clock/device_clock.h"
 #include "drivers/driver.h"
 #include "drivers/labjack/counter.h"
+#include "drivers/labjack/received_scans.h"
 #include "drivers/labjack_u6/settings.h"
+#include "drivers/loss_while_closed.h"
 
 namespace mdof::drivers::labjack_u6 {
 
@@ -41,13 +43,10 @@ class LabjackU6 final : public Driver {
   void close();
   Status start();
   Status start_or_keep_counter();
-  Status next_scans(std::chrono::milliseconds timeout);
   Status receive(std::chrono::milliseconds timeout);
   Status silence_error();
   Status take(const usb::InStream::Chunk& chunk);
-  void fill_block(SampleBlock& block);
   void append(SampleBlock& block, const Scan& scan);
-  std::uint64_t lost_while_closed(std::int64_t time_ns) const;
   std::string place() const;
 
   Settings settings_;
@@ -64,13 +63,10 @@ class LabjackU6 final : public Driver {
   DeviceClock clock_;  // a tick is a scan
   // Host time at which the last transfer arrived; before the first transfer, the time of the start.
   std::int64_t last_chunk_ns_ = 0;
-  std::vector<Scan> scans_;   // scans that were received
-  std::size_t returned_ = 0;  // number of scans in scans_ that were returned
-  Status broken_;             // the error that ended the stream
+  labjack::ReceivedScans received_;
 
   labjack::Counter counter_;
-  std::int64_t last_time_ns_ = 0;  // time of the last returned scan
-  bool reopened_ = false;          // true: the device was opened again after the last returned scan
+  LossWhileClosed loss_;
 };
 
 }  // namespace mdof::drivers::labjack_u6

@@ -1,8 +1,6 @@
 #include "drivers/linux_comedi/linux_comedi.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "drivers/clock/monotonic.h"
 #include "drivers/scan_block.h"
@@ -64,7 +62,7 @@ void LinuxComedi::close() {
   first_ = 0;
   broken_ = {};
   clock_.reset();
-  reopened_ = last_time_ns_ != 0;
+  loss_.close();
 }
 
 Status LinuxComedi::start() {
@@ -135,8 +133,7 @@ void LinuxComedi::fill_block(SampleBlock& block) {
 
 void LinuxComedi::append(SampleBlock& block, std::size_t scan) {
   const std::int64_t time_ns = clock_.host_ns(static_cast<std::int64_t>(first_ + scan));
-  if (std::exchange(reopened_, false)) block.lost += lost_while_closed(time_ns);
-  last_time_ns_ = time_ns;
+  block.lost += loss_.take(time_ns, rate_hz_);
   block.time_ns.push_back(time_ns);
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     const std::uint32_t code = codes_[scan * channels_.size() + c];
@@ -145,12 +142,6 @@ void LinuxComedi::append(SampleBlock& block, std::size_t scan) {
     block.quality[c].push_back(at_rail(code, conversion.greatest_code) ? Quality::over_range
                                                                        : Quality::good);
   }
-}
-
-// Returns the number of scans that the board would have taken since the last returned scan.
-std::uint64_t LinuxComedi::lost_while_closed(std::int64_t time_ns) const {
-  const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
-  return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));
 }
 
 }  // namespace mdof::drivers::linux_comedi

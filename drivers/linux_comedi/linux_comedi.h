@@ -17,6 +17,7 @@
 #include "drivers/clock/device_clock.h"
 #include "drivers/driver.h"
 #include "drivers/linux_comedi/setup.h"
+#include "drivers/loss_while_closed.h"
 
 namespace mdof::drivers::linux_comedi {
 
@@ -40,7 +41,6 @@ class LinuxComedi final : public Driver {
   Status check(StreamState stream);
   void fill_block(SampleBlock& block);
   void append(SampleBlock& block, std::size_t scan);
-  std::uint64_t lost_while_closed(std::int64_t time_ns) const;
   std::string place() const;
 
   Settings settings_;
@@ -57,8 +57,7 @@ class LinuxComedi final : public Driver {
   std::int64_t received_ns_ = 0;
   Status broken_;  // the error that ended the stream
 
-  std::int64_t last_time_ns_ = 0;  // time of the last returned scan
-  bool reopened_ = false;          // true: the board was opened again after the last returned scan
+  LossWhileClosed loss_;
 };
 
 }  // namespace mdof::drivers::linux_comedi

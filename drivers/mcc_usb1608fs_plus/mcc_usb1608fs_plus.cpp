@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "drivers/clock/monotonic.h"
 #include "drivers/scan_block.h"
@@ -76,7 +75,7 @@ void MccUsb1608fsPlus::close() {
   words_.clear();
   first_ = confirmed_ = 0;
   clock_.reset();
-  reopened_ = last_time_ns_ != 0;
+  loss_.close();
 }
 
 Status MccUsb1608fsPlus::start() {
@@ -167,9 +166,7 @@ void MccUsb1608fsPlus::fill_block(SampleBlock& block) {
   const std::size_t n = channels_.size();
   for (std::size_t scan = 0; scan < confirmed_; ++scan) {
     const std::int64_t time_ns = clock_.host_ns(static_cast<std::int64_t>(first_ + scan));
-    if (reopened_) block.lost += lost_while_closed(time_ns);
-    reopened_ = false;
-    last_time_ns_ = time_ns;
+    block.lost += loss_.take(time_ns, rate_hz_);
     block.time_ns.push_back(time_ns);
     for (std::size_t c = 0; c < n; ++c) {
       const std::uint16_t raw = words_[scan * n + word_[c]];
@@ -180,12 +177,6 @@ void MccUsb1608fsPlus::fill_block(SampleBlock& block) {
   }
   words_.erase(words_.begin(), words_.begin() + static_cast<std::ptrdiff_t>(confirmed_ * n));
   first_ += std::exchange(confirmed_, 0);
-}
-
-// Returns the number of scans that the device would have taken since the last returned scan.
-std::uint64_t MccUsb1608fsPlus::lost_while_closed(std::int64_t time_ns) const {
-  const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
-  return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));
 }
 
 }  // namespace mdof::drivers::mcc_usb1608fs_plus

@@ -17,6 +17,7 @@
 
 #include "drivers/clock/device_clock.h"
 #include "drivers/driver.h"
+#include "drivers/loss_while_closed.h"
 #include "drivers/mcc_usb1608fs_plus/settings.h"
 
 namespace mdof::drivers::mcc_usb1608fs_plus {
@@ -42,7 +43,6 @@ class MccUsb1608fsPlus final : public Driver {
   Status take_chunk(Time until);
   Status check_status();
   void fill_block(SampleBlock& block);
-  std::uint64_t lost_while_closed(std::int64_t time_ns) const;
   std::string place() const;
 
   Settings settings_;
@@ -65,8 +65,7 @@ class MccUsb1608fsPlus final : public Driver {
   // Host time at which the last transfer arrived; before the first transfer, the time of the start.
   std::int64_t last_chunk_ns_ = 0;
 
-  std::int64_t last_time_ns_ = 0;  // time of the last returned scan
-  bool reopened_ = false;          // true: the device was opened again after the last returned scan
+  LossWhileClosed loss_;
 };
 
 }  // namespace mdof::drivers::mcc_usb1608fs_plus

@@ -1,5 +1,6 @@
 #include "drivers/csv/csv_rows.h"
 
+#include <algorithm>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -27,6 +28,10 @@ class Translator {
     text_ += text;
     for (std::size_t i = kCsvMargin; i < text_.size(); ++i) {
       char& c = text_[i];
+      if (c == '#' && text_[i - 1] == '\n') {  // a comment between the rows contains no numbers
+        i = std::min(text_.find('\n', i), text_.size() - 1);
+        continue;
+      }
       commas_ = commas_ || c == ',';
       points_ = points_ || c == '.';
       c = c == separator_ ? ',' : c == ',' ? '.' : c;

@@ -123,6 +123,18 @@ TEST_F(CsvLogTest, ReadsSemicolonsTabsAndDecimalCommas) {
     }
 }
 
+TEST_F(CsvLogTest, ACommentBetweenRowsDoesNotDecideOnTheDecimalSign) {
+  std::string text = localised(log_text(3000), ';');
+  text.insert(text.find("\n0,") + 1, "# parked at 1.5 mm\n");
+  CsvLog log(file(text));
+  const Replay found = replay(log);
+  ASSERT_EQ(found.error, "");
+  EXPECT_EQ(found.rows(), 3000U);
+  ASSERT_EQ(found.notices.size(), 2U);
+  EXPECT_EQ(found.notices[0].code, NoticeCode::log_line_skipped);
+  EXPECT_EQ(found.notices[1].code, NoticeCode::log_decimal_commas);
+}
+
 TEST_F(CsvLogTest, RefusesCommasBesidePoints) {
   std::string text = localised(log_text(3000), ';');
   text.replace(text.rfind(','), 1, ".");  // in the last row

@@ -103,32 +103,29 @@ Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, con
   return effect;
 }
 
-// Adds the u of the errors of bodies at point `p`. If an error is correlated with an earlier error,
-// the correlated part of its u is added to the cause of the earlier error. So the causes are
-// independent.
-void add_parts(const std::vector<Known>& known, const std::vector<ErrorDerivative>& all,
-               const std::vector<FrameValues>& values, std::size_t p, MachineCauses& causes) {
-  for (const Known& one : known)
-    for (const ErrorDerivative& d : all)
-      if (!one.of_line && !d.of_line && d.frame == one.frame)
-        causes.axes[one.cause].u_m[p] +=
-            d.d.head<3>() * values[one.frame].u_parts(static_cast<Eigen::Index>(d.k),
-                                                      static_cast<Eigen::Index>(one.k));
+std::vector<Eigen::Vector3d>& common_part(PartCause& cause, std::size_t number) {
+  for (CommonPart& part : cause.common)
+    if (part.number == number) return part.u_m;
+  cause.common.push_back(
+      {number, std::vector<Eigen::Vector3d>(cause.u_m.size(), Eigen::Vector3d::Zero())});
+  return cause.common.back().u_m;
 }
 
-// Adds the u of the quantities that several bodies share, at point `p`: one cause for each
-// quantity, from the index `first` on.
-void add_shared(const Machine& machine, const std::vector<ErrorDerivative>& all,
-                const std::vector<FrameValues>& values, std::size_t p, std::size_t points,
-                std::size_t first, MachineCauses& causes) {
-  for (const ErrorDerivative& d : all) {
-    const auto& shared = values[d.frame].shared;
-    for (std::size_t s = 0; s < shared.size() && !d.of_line; ++s) {
-      if (causes.axes.size() <= first + s)
-        causes.axes.push_back(new_cause(machine.frames[d.frame].covariance.shared[s].name, points));
-      causes.axes[first + s].u_m[p] += d.d.head<3>() * shared[s][d.k];
-    }
+// Adds the u of the error `one` of a body at point `p`. `d`: derivative by this error. If the
+// errors of the body are correlated, or other bodies share a quantity, u consists of common parts.
+void add_u_of_body(const Machine& machine, const Known& one, const Eigen::Vector3d& d,
+                   const std::vector<FrameValues>& values, std::size_t p, PartCause& cause) {
+  const FrameValues& v = values[one.frame];
+  const auto row = static_cast<Eigen::Index>(one.k);
+  if (machine.frames[one.frame].covariance.position.empty()) {
+    cause.u_m[p] += d * v.u_parts(row, row);
+    return;
   }
+  for (Eigen::Index q = 0; q <= row; ++q)
+    common_part(cause, one.frame * kBodyErrors + static_cast<std::size_t>(q))[p] +=
+        d * v.u_parts(row, q);
+  for (std::size_t s = 0; s < v.shared.size(); ++s)
+    common_part(cause, values.size() * kBodyErrors + s)[p] += d * v.shared[s][one.k];
 }
 
 }  // namespace
@@ -137,7 +134,6 @@ MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Ve
                              bool with_axes) {
   MachineCauses causes;
   const std::vector<Known> known = known_errors(machine, at_m.size(), causes);
-  const std::size_t measured = causes.axes.size();
   for (const ErrorSource& source : machine.sources)
     causes.budget.push_back(new_cause(source.name, at_m.size()));
   PathApproaches approaches(machine, at_m);
@@ -149,12 +145,14 @@ MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Ve
       for (const ErrorDerivative& d : all) {
         if (d.frame != one.frame || d.k != one.k || d.of_line != one.of_line) continue;
         const FrameValues& v = values[one.frame];
-        causes.axes[one.cause].value_m[p] +=
-            d.d.head<3>() * (one.of_line ? v.location : v.error)[one.k];
-        if (one.of_line) causes.axes[one.cause].u_m[p] += d.d.head<3>() * v.u_location[one.k];
+        PartCause& cause = causes.axes[one.cause];
+        const Eigen::Vector3d place = d.d.head<3>();
+        cause.value_m[p] += place * (one.of_line ? v.location : v.error)[one.k];
+        if (one.of_line)
+          cause.u_m[p] += place * v.u_location[one.k];
+        else
+          add_u_of_body(machine, one, place, values, p, cause);
       }
-    add_parts(known, all, values, p, causes);
-    add_shared(machine, all, values, p, at_m.size(), measured, causes);
     for (std::size_t s = 0; s < machine.sources.size(); ++s)
       causes.budget[s].u_m[p] =
           effect_of(machine, machine.sources[s], command, all, with_axes) * machine.sources[s].u;

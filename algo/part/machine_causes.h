@@ -12,7 +12,8 @@
 namespace mdof::algo {
 
 struct MachineCauses {
-  // One cause for each known error ("EYX", "EC0Y") and for each quantity that axes share.
+  // One cause for each known error ("EYX", "EC0Y"), with its own u. Correlated errors have common
+  // parts.
   std::vector<PartCause> axes;
   // One cause for each error source. It contains the effect of the source on errors that were not
   // measured.

@@ -10,19 +10,31 @@
 
 namespace mdof::algo {
 
-// One cause of the error at the points of a path: error = value + xi u. xi is a random number with
-// variance 1. xi is the same for the whole path, because the uncertainty of, for example, a
-// squareness or a scale is the same at all points.
+// A part of the uncertainty of a cause: the effect of one standard uncertainty of a quantity that
+// other causes can also contain. The same `number` is the same quantity in all causes.
+struct CommonPart {
+  std::size_t number = 0;
+  std::vector<Eigen::Vector3d> u_m;
+};
+
+// One cause of the error at the points of a path: error = value + xi u + the sum of eta u over the
+// common parts. xi and eta are random numbers with variance 1; xi belongs to the cause, eta to the
+// number of the part. They are the same for the whole path, because the uncertainty of, for
+// example, a squareness or a scale is the same at all points.
 struct PartCause {
   std::size_t layer = 0;
   std::string name;
   std::vector<Eigen::Vector3d> value_m, u_m;
+  std::vector<CommonPart> common{};
 };
 
 // Returns a cause with error 0 and u 0 at all points.
 inline PartCause new_cause(const std::string& name, std::size_t points) {
-  return {0, name, std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero()),
-          std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero())};
+  return {0,
+          name,
+          std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero()),
+          std::vector<Eigen::Vector3d>(points, Eigen::Vector3d::Zero()),
+          {}};
 }
 
 struct PartPath {
@@ -40,7 +52,7 @@ struct PartShare {
 struct PartError {
   double p95_m = 0, U_p95_m = 0, max_m = 0, U_max_m = 0;
   // Index of the point with the largest expected square of the error, that is |sum of the values|²
-  // + the sum of all |u|². If no cause has a u, it is the point with the largest error.
+  // + u². If no cause has a u, it is the point with the largest error.
   std::size_t worst = 0;
   std::vector<PartShare> layers, causes;
 };
@@ -50,9 +62,9 @@ struct PartTrials {
   std::size_t shares = 2000, errors = 400;
 };
 
-// Calculates U for 95 % by the Monte Carlo method with random xi: 95 % of the trials differ from
-// the estimate by at most U. If a cause has a known u and an unknown value (a budget), its expected
-// mean square is the estimate.
+// Calculates U for 95 % by the Monte Carlo method with random xi and eta: 95 % of the trials differ
+// from the estimate by at most U. If a cause has a known u and an unknown value (a budget), its
+// expected mean square is the estimate.
 PartError part_error(const PartPath& path, const std::vector<PartCause>& causes, std::size_t layers,
                      const PartTrials& trials = {});
 

@@ -197,6 +197,19 @@ MachineFrame frame_of(const ChainAxis& axis) {
   return frame;
 }
 
+// Error: the axis and an axis above it in the file state the same angle. Both values would count.
+void check_squareness(TomlTable& table, const Machine& machine, const MachineFrame& frame) {
+  for (const MachineFrame& other : machine.frames)
+    for (std::size_t k = 3; k < kBodyErrors; ++k)
+      if (&other != &frame && other.kind == FrameKind::linear && frame.kind == FrameKind::linear &&
+          other.location[k].value && frame.location[k].value)
+        table.reject(with_unit(location_name(frame, k), k),
+                     "the axis " + other.id + " already has " + location_name(other, k) + ", and " +
+                         location_name(other, k) + " and " + location_name(frame, k) +
+                         " are the same angle between the axes " + other.id + " and " + frame.id +
+                         " (with opposite signs); give only one of them");
+}
+
 void read_axes(TomlTable& root, Machine& machine) {
   machine.frames = nominal_machine(machine.chain).frames;
   std::string read;
@@ -210,6 +223,7 @@ void read_axes(TomlTable& root, Machine& machine) {
       table.reject("id", "axis " + id + " is given twice");
     } else {
       read_axis(table, *frame);
+      check_squareness(table, machine, *frame);
       read += id;
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "schema/sample.h"
 
@@ -11,11 +12,15 @@ namespace {
 
 constexpr double kRoughest = 4;
 // Smallest number of values that has three second differences over two steps.
-constexpr std::size_t kLeastRoughnessValues = 7;
-constexpr std::size_t kFew = 5;  // with fewer values the scatter of the curvature is unknown
+constexpr double kLeastRoughnessValues = 7;
+constexpr double kFew = 5;  // with fewer values the scatter of the curvature is unknown
 constexpr double kFewValuesRatio = 2;
 // Weight of the mean square of all second differences; a nearby second difference has weight 1.
 constexpr double kOverallWeight = 6;
+// A second difference over a distance much shorter than an interval shows the noise and short
+// waves, not the curvature over the interval. This is the shortest distance, as a share of the
+// interval.
+constexpr double kLeastSpanShare = 0.5;
 
 struct Finite {
   std::vector<double> x, y, u;
@@ -46,28 +51,48 @@ double square_at(const Finite& f, std::size_t i, std::size_t step) {
   return curvature * curvature - noise;
 }
 
+double span(const Finite& f, std::size_t i, std::size_t step) {
+  return f.x[i + step] - f.x[i - step];
+}
+
 struct SquareSum {
   double sum = 0, count = 0;
   double mean() const { return count > 0 ? std::max(0.0, sum / count) : 0; }
 };
 
 // Sums the squares at the positions first ... last that have at least `step` values on both sides.
-SquareSum squares(const Finite& f, std::size_t first, std::size_t last, std::size_t step) {
+// The distance of these values is at least `least_span`.
+SquareSum squares(const Finite& f, std::size_t first, std::size_t last, std::size_t step,
+                  double least_span) {
   SquareSum all;
   for (std::size_t i = std::max(first, step); i <= last && i + step < f.x.size(); ++i) {
+    if (span(f, i, step) < least_span) continue;
     all.sum += square_at(f, i, step);
     all.count += 1;
   }
   return all;
 }
 
-// The ratio R of the curvature at half a step to the curvature at one step.
-double curvature_ratio(const Finite& f) {
-  if (f.x.size() < kLeastRoughnessValues) return f.x.size() < kFew ? kRoughest : kFewValuesRatio;
-  const double one = squares(f, 0, f.x.size() - 1, 1).mean(),
-               two = squares(f, 0, f.x.size() - 1, 2).mean();
-  const double q = two > 0 ? std::clamp(std::sqrt(one / two), 1.0, kRoughest) : kRoughest;
-  return std::max(2 * std::sqrt(q) / (1 + std::sqrt(q)), q * q / kRoughest);
+// The second differences over at least `least_span`.
+struct Roughness {
+  double ratio = 0;       // R: the curvature at half a step / the curvature at one step
+  double everywhere = 0;  // mean square of the curvature
+};
+
+Roughness roughness(const Finite& f, double least_span) {
+  const SquareSum one = squares(f, 0, f.x.size() - 1, 1, least_span);
+  const double values = one.count + 2;
+  if (values < kLeastRoughnessValues)
+    return {values < kFew ? kRoughest : kFewValuesRatio, one.mean()};
+  const double two = squares(f, 0, f.x.size() - 1, 2, least_span).mean();
+  const double q = two > 0 ? std::clamp(std::sqrt(one.mean() / two), 1.0, kRoughest) : kRoughest;
+  return {std::max(2 * std::sqrt(q) / (1 + std::sqrt(q)), q * q / kRoughest), one.mean()};
+}
+
+double shortest_span(const Finite& f) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i + 1 < f.x.size(); ++i) shortest = std::min(shortest, span(f, i, 1));
+  return shortest;
 }
 
 }  // namespace
@@ -77,13 +102,17 @@ std::vector<double> curvatures(const std::vector<double>& position_m,
   std::vector<double> all(std::max<std::size_t>(position_m.size(), 1) - 1, kNaN);
   const Finite f = finite_of(position_m, values, u);
   if (f.x.size() < 3) return all;
-  const double factor = curvature_ratio(f), everywhere = squares(f, 0, f.x.size() - 1, 1).mean();
+  const Roughness of_all = roughness(f, 0);
+  const double shortest = shortest_span(f);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto above = std::upper_bound(f.x.begin(), f.x.end(), position_m[i]) - f.x.begin();
     const auto right = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1));
-    const SquareSum near = squares(f, right < 2 ? 0 : right - 2, right + 1, 1);
-    all[i] = factor * std::sqrt(std::max(0.0, kOverallWeight * everywhere + near.sum) /
-                                (kOverallWeight + near.count));
+    const std::size_t end = std::min(right, f.x.size() - 1);
+    const double least_span = kLeastSpanShare * (f.x[end] - f.x[end - 1]);
+    const Roughness rough = least_span > shortest ? roughness(f, least_span) : of_all;
+    const SquareSum near = squares(f, right < 2 ? 0 : right - 2, right + 1, 1, least_span);
+    all[i] = rough.ratio * std::sqrt(std::max(0.0, kOverallWeight * rough.everywhere + near.sum) /
+                                     (kOverallWeight + near.count));
   }
   return all;
 }

@@ -18,13 +18,16 @@ namespace mdof::algo {
 // second differences (weight 6). The contribution of noise to the squares is subtracted; `u` is
 // this noise, which is independent from target to target.
 //
+// For each interval, only second differences over at least half of its length count: the second
+// differences of targets that are close to each other contain mostly noise.
+//
 // R is the ratio of the curvature at half a step to the curvature at one step. q is the ratio of
 // the curvature from neighbouring targets to the curvature from every second target (root mean
 // squares), limited to 1 ... 4.
 // - q up to 2.2: R = 2√q/(1 + √q), which holds for a wave of any length and is 1 for a parabola
 // - q above 2.2: R = q²/4, because waves may be shorter than the targets can show
-// - five or six values: R = 2
-// - fewer than five values: R = 4
+// - three or four second differences (five or six values): R = 2
+// - fewer second differences: R = 4
 //
 // Values that are NaN are left out. With fewer than three values all curvatures are NaN.
 std::vector<double> curvatures(const std::vector<double>& position_m,

@@ -208,6 +208,32 @@ TEST(BetweenTargets, InterpolationUIsZeroAtTargetsAndNeverReducesU) {
             0);  // the last value applies beyond the end
 }
 
+// The second differences of the five near targets contain only noise. They must not hide the
+// curvature over the long interval.
+TEST(BetweenTargets, NearTargetsDoNotHideTheCurvatureOfALongInterval) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise(0, 1e-9);
+  CompensationTable table;
+  table.position_m = {0, 1e-3, 2e-3, 3e-3, 4e-3, 60e-3};
+  const auto parabola = [](double x) { return 0.5 * 1e-3 * x * x; };
+  for (int t = 0; t < 200; ++t) {
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      table.forward[k].clear();
+      for (const double x : table.position_m)
+        table.forward[k].push_back(parabola(x) + noise(random));
+      table.reverse[k] = table.forward[k];
+      table.u_forward[k] = table.u_reverse[k] = std::vector<double>(6, 1e-9);
+    }
+    add_curvatures(table);
+    const TableValue value = table_at(table, 32e-3, TableSide::forward);
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      const double off = std::abs(value.error[k] - parabola(32e-3));
+      EXPECT_LT(off, value.u[k]);
+      EXPECT_GT(off, value.u[k] / 8);  // R = 4, because the interval has two second differences
+    }
+  }
+}
+
 // Noise is not curvature. The contribution of the noise to the second differences is subtracted.
 TEST(BetweenTargets, NoiseIsSubtractedFromCurvature) {
   std::mt19937_64 random(3);

@@ -276,6 +276,21 @@ struct SideValue {
   double error = kNaN, u = kNaN, u_interpolation = kNaN;
 };
 
+// Beyond the target `end`, the first or last one with a value, this value is held. Returns the
+// standard uncertainty of the change of the error from there to `at`: the slope of the end interval
+// and its curvature.
+double u_beyond_end(const std::vector<double>& x, const std::vector<double>& y, std::size_t end,
+                    double at, double curvature) {
+  const double distance = std::abs(at - x[end]);
+  const bool is_first = at < x[end];
+  std::size_t next = is_first ? end + 1 : end - 1;  // wraps below 0
+  while (next < x.size() && !std::isfinite(y[next])) is_first ? ++next : --next;
+  if (distance == 0 || next >= x.size()) return 0;
+  const double interval = std::abs(x[next] - x[end]);
+  const double bent = 0.5 * distance * (interval + distance) * curvature;
+  return std::hypot(distance * (y[next] - y[end]) / interval, std::isfinite(bent) ? bent : 0);
+}
+
 SideValue value_of(const CompensationTable& table, const Side& side, std::size_t k, double at,
                    const Place& place) {
   const auto& x = table.position_m;
@@ -283,14 +298,16 @@ SideValue value_of(const CompensationTable& table, const Side& side, std::size_t
   const Neighbours near = neighbours(x, y, at, place);
   if (!std::isfinite(y[near.below])) return {};
   SideValue value{interpolate(x, y, at, place), 0, 0};
-  const double curvature = near.below == near.above    ? 0
+  const double curvature = at == x[near.below] || x.size() == 1 ? 0
                            : side.curvature[k].empty() ? curvatures(x, y, side.u[k])[place.below]
                                                        : side.curvature[k][place.below];
   const double u_below = side.u[k][near.below], u_above = side.u[k][near.above];
   value.u = near.below == near.above ? u_below
                                      : u_below + (u_above - u_below) * (at - x[near.below]) /
                                                      (x[near.above] - x[near.below]);
-  value.u_interpolation = 0.5 * (at - x[near.below]) * (x[near.above] - at) * curvature;
+  value.u_interpolation = near.below == near.above
+                              ? u_beyond_end(x, y, near.below, at, curvature)
+                              : 0.5 * (at - x[near.below]) * (x[near.above] - at) * curvature;
   return value;
 }
 

@@ -122,6 +122,31 @@ TEST(TableAt, UIsContinuousAtTargets) {
           << target_m;
 }
 
+// The errors of the axis are a straight line, but a table holds its end values. A position within
+// 2 % of the end interval beyond an end counts as measured there.
+TEST(TableAt, UBeyondAnEndContainsTheSlope) {
+  CompensationTable table = table_with_u();
+  table.forward[0] = {1e-6, 2e-6, 5e-6};
+  for (const auto& [at_m, off_m] :
+       {std::pair(-0.2e-3, 0.02e-6), {0.0, 0.0}, {40e-3, 0.0}, {40.6e-3, 0.06e-6}}) {
+    const TableValue value = table_at(table, at_m, TableSide::forward);
+    EXPECT_TRUE(value.inside) << at_m;
+    EXPECT_NEAR(value.u_interpolation[0], off_m, 1e-15) << at_m;
+    EXPECT_NEAR(
+        value.u[0],
+        std::hypot(off_m, table_at(table, at_m < 1e-3 ? 0 : 40e-3, TableSide::forward).u[0]),
+        1e-15);
+  }
+  table.forward[0] = {kNaN, 2e-6, 5e-6};
+  EXPECT_NEAR(table_at(table, 9e-3, TableSide::forward).u_interpolation[0], 0.1e-6, 1e-15);
+  // A parabola is below its tangent and above the extended chord.
+  table.position_m = {0, 10e-3, 20e-3};
+  table.forward[0] = {0, 1e-6, 4e-6};                                      // x²/100 m
+  const double chord = 0.02e-6, bent = 0.5 * 0.2e-3 * 10.2e-3 * 4 * 0.02;  // R = 4
+  EXPECT_NEAR(table_at(table, -0.2e-3, TableSide::forward).u_interpolation[0],
+              std::hypot(chord, bent), 1e-12);  // the noise is subtracted
+}
+
 // Variance of (1 - s) a + s b by GUM 5.2.2.
 TEST(TableAt, UIsSufficientForAnyCorrelation) {
   CompensationTable table = table_with_u();

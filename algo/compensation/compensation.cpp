@@ -233,6 +233,20 @@ Result<CompensationTable> build_table(const std::vector<Run>& measured,
   return std::move(of.table);
 }
 
+Status join_approaches(const std::vector<Run>& runs, const TableOptions& options,
+                       CompensationTable& table) {
+  MDOF_TRY(const MeanTable of, mean_table(runs, options));
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    for (std::size_t i = 0; i < table.position_m.size(); ++i) {
+      double &f = table.forward[k][i], &r = table.reverse[k][i];
+      f = !std::isfinite(r) ? f : std::isfinite(f) ? (f + r) / 2 : r;
+      r = table.u_reverse[k][i] = kNaN;
+    }
+  table.u_forward = table_uncertainty({of.table.axis, of.table.sides}, of.points, of.grid,
+                                      Approach::both, references_of(of.table, options));
+  return {};
+}
+
 Result<Notices> uneven_visit_notices(const std::vector<Run>& runs) {
   if (runs.empty()) return Notices();
   const RunHeader& header = runs.front().header;
@@ -311,6 +325,17 @@ SideValue value_of(const CompensationTable& table, const Side& side, std::size_t
   return value;
 }
 
+// The part of the variance of the mean of both approaches that is not in (u_f² + u_r²)/4: the
+// angles of both approaches have the same reference, the mean at the first target. The variance of
+// this reference is that of half the difference of the approaches, which is the value at the first
+// target. There the mean is exactly 0.
+double shared_reference(const CompensationTable& table, std::size_t k, const Place& place) {
+  if (!error_names(table.axis)[k].angle) return 0;
+  const double f = table.u_forward[k].front(), r = table.u_reverse[k].front();
+  if (!std::isfinite(f) || !std::isfinite(r)) return 0;
+  return (place.below == 0 ? place.share - 0.5 : 0.5) * (f * f + r * r) / 2;
+}
+
 }  // namespace
 
 TableValue table_at(const CompensationTable& table, double position_m, TableSide side) {
@@ -335,7 +360,8 @@ TableValue table_at(const CompensationTable& table, double position_m, TableSide
     if (std::isfinite(f.error) && std::isfinite(r.error)) {
       value.error[k] = 0.5 * (f.error + r.error);
       value.u_interpolation[k] = 0.5 * (f.u_interpolation + r.u_interpolation);
-      u_random = 0.5 * std::sqrt(f.u * f.u + r.u * r.u);
+      u_random = std::sqrt(
+          std::max(0.0, 0.25 * (f.u * f.u + r.u * r.u) + shared_reference(table, k, place)));
     } else {
       const SideValue& one = std::isfinite(f.error) ? f : r;
       value.error[k] = one.error;

@@ -32,6 +32,11 @@ struct TableOptions {
   std::optional<double> angles_zero_m = std::nullopt;
 };
 Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options);
+// Replaces the values of both approaches by their means, with the u of the means. The means become
+// the values of the approach forward; the approach reverse has no values. `table`: the result of
+// build_table() for these runs and options.
+Status join_approaches(const std::vector<Run>& runs, const TableOptions& options,
+                       CompensationTable& table);
 // A table without u, and the points and means from which it was calculated.
 struct MeanTable {
   CompensationTable table;
@@ -57,7 +62,8 @@ Result<Notices> uneven_visit_notices(const std::vector<Run>& runs);
 struct TableValue {
   Errors5 error{};  // named errors; NaN: the table has no value
   Errors5 u{};
-  Errors5 u_interpolation{};  // part of u; 0 at the targets and where an end value is held
+  // Part of u; 0 at the targets. Where an end value is held, it contains the slope of the errors.
+  Errors5 u_interpolation{};
   // true: the position is within the measured positions of this approach. For the mean, it is
   // within the measured positions of both approaches. false: the end value is held, or the value is
   // from the other approach.

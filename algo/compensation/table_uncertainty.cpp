@@ -190,24 +190,28 @@ SeriesOfErrors table_uncertainty(
     const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
     const std::vector<TargetMean>& grid, Approach approach,
     const std::array<std::vector<Reference>, kErrorCount>& references) {
-  const Approach back = approach == Approach::forward ? Approach::reverse : Approach::forward;
-  const ApproachVariances own = approach_variances(moving, points, grid, approach);
+  const bool is_mean = approach == Approach::both;
+  const Approach first = is_mean ? Approach::forward : approach;
+  const Approach back = first == Approach::forward ? Approach::reverse : Approach::forward;
+  const ApproachVariances own = approach_variances(moving, points, grid, first);
   const ApproachVariances other = approach_variances(moving, points, grid, back);
+  // Weight of the approach `first` in the mean of both approaches at a target.
+  const auto share = [&](std::size_t j) { return !own.has[j] ? 0 : other.has[j] ? 0.5 : 1.0; };
   const Errors5 apart = half_difference(moving, points);
   const MissingVisitEffects shared(moving, points, grid, own.u_visit);
   SeriesOfErrors u;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     u[k].assign(grid.size(), kNaN);
-    const auto own_shifts = shared.of(approach, k), other_shifts = shared.of(back, k);
+    const auto own_shifts = shared.of(first, k), other_shifts = shared.of(back, k);
     for (std::size_t i = 0; i < grid.size(); ++i) {
-      if (!own.has[i]) continue;
+      if (!own.has[i] && !(is_mean && other.has[i])) continue;
+      const double by_first = is_mean ? share(i) : 1;
       const Reference& reference = references[k][i];
       std::vector<double> by_own, by_other;  // weights of the means of each approach in this value
       double variance = 0, referred = 0;
       for (std::size_t j = 0; j < grid.size(); ++j) {
-        const double of_own = !own.has[j] ? 0 : other.has[j] ? 0.5 : 1;
-        by_own.push_back((i == j ? 1.0 : 0.0) - reference[j] * of_own);
-        by_other.push_back(-reference[j] * (1 - of_own));
+        by_own.push_back((i == j ? by_first : 0) - reference[j] * share(j));
+        by_other.push_back((i == j ? 1 - by_first : 0) - reference[j] * (1 - share(j)));
         variance += by_own[j] * by_own[j] * own.variance[j][k] +
                     by_other[j] * by_other[j] * other.variance[j][k];
         referred += reference[j];
@@ -221,8 +225,11 @@ SeriesOfErrors table_uncertainty(
       const bool is_referred = referred > 0.5;
       if (shared.has_levels())
         variance += is_referred ? 0 : shared.run_level(k) * shared.run_level(k);
+      else if (is_referred)  // half of the difference of the passes cancels in the mean of both
+        variance += by_first == 0.5 ? 0 : apart[k];
       else
-        variance += is_referred ? apart[k] : own.shift[k];
+        variance +=
+            by_first * by_first * own.shift[k] + (1 - by_first) * (1 - by_first) * other.shift[k];
       u[k][i] = std::sqrt(variance);
     }
   }

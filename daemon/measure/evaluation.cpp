@@ -198,6 +198,7 @@ Result<CompensationTable> means_by_target(const Run& run) {
   options.stated = run.header.stated;
   MDOF_TRY(CompensationTable table, algo::build_table({run}, options));
   MDOF_CHECK(algo::add_declared_uncertainty(table, {rig}, {run}, options));
+  MDOF_CHECK(algo::join_approaches({run}, options, table));
   add_not_declared(table, rig.undeclared_uncertainties());
   return table;
 }

@@ -147,6 +147,18 @@ TEST(TableAt, UBeyondAnEndContainsTheSlope) {
               std::hypot(chord, bent), 1e-12);  // the noise is subtracted
 }
 
+// Each visit has the variance v. An angle is the mean of one approach minus the mean of both
+// approaches at the first target. The mean of both approaches then has the variance v, and it is
+// exactly 0 at the first target (GUM 5.2.2).
+TEST(TableAt, MeanOfAnglesContainsTheirCommonReference) {
+  CompensationTable table = table_by_hand();
+  const double v = 4e-16;
+  for (auto* u : {&table.u_forward, &table.u_reverse})
+    (*u)[2] = {std::sqrt(v / 2), std::sqrt(1.5 * v), std::sqrt(1.5 * v)};
+  for (const auto& [at_m, variance] : {std::pair(0.0, 0.0), {10e-3, v}, {25e-3, v}, {40e-3, v}})
+    EXPECT_NEAR(table_at(table, at_m, TableSide::mean).u[2], std::sqrt(variance), 1e-15) << at_m;
+}
+
 // Variance of (1 - s) a + s b by GUM 5.2.2.
 TEST(TableAt, UIsSufficientForAnyCorrelation) {
   CompensationTable table = table_with_u();

@@ -92,6 +92,30 @@ TEST(TableUncertaintyByHand, MatchesForValuesReferredToTheStart) {
             later(kMeanVarianceReverse)});
 }
 
+// The mean of both directions has a quarter of the variance of both means. Half of the difference
+// of the directions cancels. As measured, the means contain a quarter of the variances of both
+// levels.
+TEST(TableUncertaintyByHand, MatchesForMeansOfBothDirections) {
+  const double mean = (kMeanVarianceForward + kMeanVarianceReverse) / 4,
+               level = (kLevelForward + kLevelReverse) / 4;
+  expect_u(expected_series_u(table_visits(), Approach::both,
+                             std::vector<Reference>(3, Reference{1, 0, 0})),
+           {0, 2 * mean, 2 * mean});
+  expect_u(
+      expected_series_u(table_visits(), Approach::both, std::vector<Reference>(3, as_measured(3))),
+      {mean + level, mean + level, mean + level});
+  // The variance of a fitted line of three values is 5/6, 1/3 and 5/6 of that of one value.
+  const std::vector<double> x = {0, 1, 2};
+  expect_u(expected_series_u(table_visits(), Approach::both,
+                             {line_at(x, 0), line_at(x, 1), line_at(x, 2)}),
+           {mean / 6, mean * 2 / 3, mean / 6});
+  auto forward_only = table_visits();
+  std::erase_if(forward_only, [](const MeasuredPoint& p) { return p.point.direction < 0; });
+  expect_u(expected_series_u(forward_only, Approach::both,
+                             std::vector<Reference>(3, Reference{1, 0, 0})),
+           {0, 2 * kMeanVarianceForward, 2 * kMeanVarianceForward});
+}
+
 // Each visit is entered twice. The sum of squares doubles and the degrees of
 // freedom are 12 - 3 - 1, so the variance of a visit is half as large; the mean of four visits has
 // a quarter of it. The variance of the half difference of the directions is unchanged.

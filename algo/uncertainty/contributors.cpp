@@ -274,7 +274,13 @@ class List {
               probe_off.tilt_turns = turns;
             });
           };
-          return std::vector<PointShifts>{about(0), about(kQuarterTurn)};
+          // A probe that is turned by an angle reads 1/cos of the displacement. Root mean square of
+          // this relative change for angles about two axes.
+          const double cosine = std::sqrt(2.0) * size * size;
+          return std::vector<PointShifts>{about(0), about(kQuarterTurn),
+                                          by_one_probe(b, k, [&](std::size_t j) {
+                                            return cosine * b.run.points[j].point.probe_m[k];
+                                          })};
         });
   }
 

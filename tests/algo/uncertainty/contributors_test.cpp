@@ -185,16 +185,20 @@ TEST(Contributors, RejectsRunsWithoutPointsOrWithWrongAngles) {
 
 // Probe B measures a plane with the pitch p; the reading of B is s. If B is tilted by c along the
 // motion, its measured spot moves by c s, and its reading changes by p c s. A tilt across the
-// motion has no effect.
+// motion has no such effect. Both tilts lengthen the path of the probe to the plane: the reading is
+// s / cos c, so it changes by s c²/2. For normally distributed tilts with the standard deviation u
+// about two axes, the root mean square of (c1² + c2²)/2 is √2 u².
 TEST(Contributors, DirectionHasPartsAlongAndAcrossTheSlope) {
   const Rig rig = rig_x_with("B", "u_direction_mrad = 5");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   synthetic.truth = [](double d) { return Errors5{0, 1e-3 * d, 0, 0.05 * d, 0}; };
   const auto run = synthetic.measure();
   const auto parts = of(rig, run)[0].parts();
-  ASSERT_EQ(parts.size(), 2u);
+  ASSERT_EQ(parts.size(), 3u);
   for (std::size_t j = 0; j < run.points.size(); ++j) {
     const double d = run.points[j].target_m, s = run.points[j].point.probe_m[1];
+    EXPECT_NEAR(std::abs(parts[2][j][kEx]) * 2 * kL_m, std::sqrt(2.0) * 25e-6 * std::abs(s),
+                1e-3 * 25e-6 * std::abs(s));
     const double first = std::abs(parts[0][j][kEx]) * 2 * kL_m,
                  second = std::abs(parts[1][j][kEx]) * 2 * kL_m;
     const double expected = 0.05 * d * 5e-3 * s;

@@ -12,6 +12,10 @@
 
 namespace mdof {
 
+// Limits of coordinates, heights and pixel sizes. Larger values do not occur on parts; usually
+// their unit is wrong.
+inline constexpr double kFarthest_m = 1e3, kLargestPixel_m = 0.1;
+
 struct MapPoints {
   std::vector<double> x_m, y_m, z_m;  // z: SurfaceMap::kMissing if there is no height
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "schema/base/number/number.h"
+#include "schema/base/number/number_text.h"
 #include "schema/base/trimmed.h"
 #include "schema/units.h"
 
@@ -229,9 +230,15 @@ Status MapTextReader::add(const std::array<double, 3>& xyz) {
   if (line_groups_.empty() ||
       line_groups_.back().second + (point - line_groups_.back().first) != line_)
     line_groups_.emplace_back(point, line_);
-  points_.x_m.push_back(in_m(xyz[0], xy_m_));
-  points_.y_m.push_back(in_m(xyz[1], xy_m_));
-  points_.z_m.push_back(in_m(xyz[2], z_m_));
+  const std::array<double, 3> at_m = {
+      {in_m(xyz[0], xy_m_), in_m(xyz[1], xy_m_), in_m(xyz[2], z_m_)}};
+  for (const double x_m : at_m)
+    if (std::abs(x_m) > kFarthest_m)
+      return bad_input(place(line_) + plain_number(x_m, 3) +
+                       " m is too large for a map (limit 1000 m); check the value and its unit");
+  points_.x_m.push_back(at_m[0]);
+  points_.y_m.push_back(at_m[1]);
+  points_.z_m.push_back(at_m[2]);
   return {};
 }
 

@@ -5,7 +5,9 @@
 #include <map>
 
 #include "schema/base/number/number.h"
+#include "schema/base/number/number_text.h"
 #include "schema/base/trimmed.h"
+#include "schema/form/map_grid.h"
 #include "schema/form/surface_files.h"
 
 namespace mdof {
@@ -108,6 +110,10 @@ class SdfReader {
     std::size_t line = 0;
     MDOF_TRY(const double x, number(name, line));
     if (!(x > 0)) return bad_input(place(line) + name + " must be above 0 (unit: metre)");
+    if (name != "Zscale" && x > kLargestPixel_m)
+      return bad_input(place(line) + name + " = " + plain_number(x) +
+                       " m is too large for a pixel (limit " + plain_number(kLargestPixel_m) +
+                       " m); state the distance of the points in metres");
     return x;
   }
 
@@ -131,6 +137,10 @@ class SdfReader {
           return bad_input(place(line_) +
                            "the file has more heights than NumPoints times NumProfiles = " +
                            std::to_string(wanted));
+        if (std::abs(z * z_scale) > kFarthest_m)
+          return bad_input(place(line_) + std::string(word.substr(0, 40)) +
+                           " times Zscale is above 1000 m; check the height and Zscale (unit: "
+                           "metre)");
         map.z_m.push_back(z * z_scale);
       }
     if (map.z_m.size() == wanted) return {};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "schema/base/number/number_text.h"
+#include "schema/form/map_grid.h"
 #include "schema/form/surface_files.h"
 
 namespace mdof {
@@ -105,6 +107,10 @@ Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& sou
     return bad_input(source +
                      ": the lateral resolution is 0, so the size of a pixel is unknown; "
                      "calibrate the resolution in MetroPro, or export x, y and z");
+  if (map.dx_m > kLargestPixel_m)
+    return bad_input(source + ": the lateral resolution is " + plain_number(map.dx_m) +
+                     " m, above the limit of " + plain_number(kLargestPixel_m) +
+                     " m; the file is damaged");
   map.x0_m = header.i16(kOrgX) * map.dx_m;
   map.y0_m = header.i16(kOrgY) * map.dy_m;
   MDOF_TRY(const double scale_m, height_of_a_count(header, source));
@@ -112,6 +118,10 @@ Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& sou
   for (std::size_t k = 0; k < map.z_m.size(); ++k) {
     const auto phase = static_cast<std::int32_t>(header.u32(begin + 4 * k));
     map.z_m[k] = phase >= kNoPhase ? SurfaceMap::kMissing : phase * scale_m;
+    if (std::abs(map.z_m[k]) > kFarthest_m)
+      return bad_input(source +
+                       ": a height is above 1000 m; the wavelength, the scale factor or the phase "
+                       "is wrong, or the file is damaged");
   }
   if (map.measured() == 0) return bad_input(source + ": no pixel has a phase");
   return map;

@@ -100,6 +100,8 @@ TEST(HeightMapCsv, ErrorsNameTheLine) {
       {head + "0,0,1\n1,0,2\n# again\n0,0,3\n", "map.csv:5: a second height"},
       {head + "0,0,1\n0,0,1\n", "same position"},
       {head + "0,0,nan\n1,0,\n", "no pixel has a height"},
+      {head + "0,0,1\n1,0,1e308\n", "map.csv:3: 1e+302 m is too large"},
+      {head + "0,0,1\n-2e6,0,1\n", "map.csv:3: -2e+03 m is too large"},
       {head + "0,0,1\n1,0,2\n2.3,0,2\n3,0,1\n4,0,1\n", "grid"}};
   for (const auto& [text, message] : bad)
     EXPECT_NE(error_of(text).find(message), std::string::npos) << text << "\n" << error_of(text);
@@ -197,6 +199,12 @@ TEST(Sdf, ReadsBadPointsAndOtherDialects) {
             std::string::npos);
   EXPECT_NE(error("aISO-1.0\n" + header + "*\n1 2 x 4 5 6\n").find("s.sdf:12: \"x\""),
             std::string::npos);
+  EXPECT_NE(
+      error("aISO-1.0\n" + header + "*\n1 2 3 4 5 1e12\n").find("s.sdf:12: 1e12 times Zscale"),
+      std::string::npos);
+  EXPECT_NE(error("aISO-1.0\nNumPoints = 1\nNumProfiles = 1\nXscale = 0.66\n*\n1\n")
+                .find("s.sdf:4: Xscale = 0.66 m is too large"),
+            std::string::npos);
   EXPECT_NE(error("aISO-1.0\nNumPoints = 0\n*\n1\n").find("s.sdf:2: NumPoints"), std::string::npos);
   EXPECT_NE(error("aISO-1.0\nNumPoints = 9\n*\n1\n").find("no NumProfiles"), std::string::npos);
 }
@@ -244,6 +252,12 @@ TEST(ZygoDat, ConvertsPhaseToHeights) {
     EXPECT_NEAR(map->y_m(1), 21e-3, 1e-9);
   }
   EXPECT_NEAR(parse_zygo_dat(zygo(1, 1, {1000, 0}), "z")->at(0, 0), -1000 * 256e-9 / 32768, 1e-15);
+  std::string in_um = zygo(1, 0, {1, 2});  // 1.0f as the lateral resolution
+  in_um[184] = 0x3f;
+  in_um[185] = static_cast<char>(0x80);
+  in_um[186] = in_um[187] = 0;
+  EXPECT_NE(parse_zygo_dat(in_um, "z").error().message.find("lateral resolution is 1 m"),
+            std::string::npos);
   EXPECT_FALSE(parse_zygo_dat(zygo(3, 0, {1, 2}), "z"));
   EXPECT_FALSE(parse_zygo_dat(zygo(1, 0, {}), "z"));
   const std::string whole = zygo(1, 0, {1, 2, 3, 4});

@@ -15,12 +15,9 @@ namespace {
 constexpr std::array<const char*, 3> kColumns = {{"x_mm", "y_mm", "z_um"}};
 constexpr std::size_t kMostLine = 64 * 1024;  // bytes
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
-
-// Reads a cell that contains only a number. An empty cell or nan is a missing value.
-bool read_cell(std::string_view cell, double& x) {
+// Reads a cell that contains only a number with a decimal point. An empty cell or nan is a missing
+// value.
+bool read_number(std::string_view cell, double& x) {
   cell = trimmed(cell);
   if (cell.empty()) {
     x = SurfaceMap::kMissing;
@@ -34,6 +31,18 @@ bool read_cell(std::string_view cell, double& x) {
     return true;
   }
   return false;
+}
+
+// Stores the first three fields of a line. Returns the number of its fields.
+std::size_t split(std::string_view text, const char* separators,
+                  std::array<std::string_view, 3>& fields) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find_first_not_of(separators); at != text.npos; ++count) {
+    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+    if (count < 3) fields[count] = text.substr(at, end - at);
+    at = text.find_first_not_of(separators, end);
+  }
+  return count;
 }
 
 std::string shown(std::string_view cell) {
@@ -118,7 +127,9 @@ Status MapTextReader::feed(std::string_view piece) {
 Status MapTextReader::line(std::string_view text) {
   ++line_;
   if (line_ == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  text = trimmed(text);
+  // Tabs at the ends of a line separate empty columns.
+  if (separator_ == '\t' && text.ends_with('\r')) text.remove_suffix(1);
+  if (separator_ != '\t' || trimmed(text).empty()) text = trimmed(text);
   if (text.empty() || text.front() == '#') return {};
   switch (form_) {
     case Form::csv:
@@ -148,9 +159,11 @@ Status MapTextReader::first_line(std::string_view text) {
 
 Status MapTextReader::header(std::string_view text) {
   form_ = Form::csv;
+  for (const char c : {'\t', ';'})
+    if (text.find(c) != text.npos) separator_ = c;
   std::vector<std::string> names;
   for (std::string_view rest = text;;) {
-    const std::size_t comma = rest.find(',');
+    const std::size_t comma = rest.find(separator_);
     std::string_view name = trimmed(rest.substr(0, comma));
     if (name.size() > 1 && name.front() == '"' && name.back() == '"')
       name = name.substr(1, name.size() - 2);
@@ -186,7 +199,7 @@ Status MapTextReader::csv_row(std::string_view text) {
   std::array<double, 3> xyz{};
   std::size_t column = 0;
   for (std::string_view rest = text;; ++column) {
-    const std::size_t comma = rest.find(',');
+    const std::size_t comma = rest.find(separator_);
     const std::string_view cell = rest.substr(0, comma);
     for (std::size_t k = 0; k < 3; ++k)
       if (column_[k] == column && !read_cell(cell, xyz[k])) return bad_cell(column, cell);
@@ -201,21 +214,33 @@ Status MapTextReader::csv_row(std::string_view text) {
 
 Status MapTextReader::xyz_row(std::string_view text) {
   std::array<double, 3> xyz{};
-  std::size_t column = 0;
-  const auto is_between = [](char c) { return is_blank(c) || c == ',' || c == ';'; };
-  while (!text.empty()) {
-    std::size_t size = 0;
-    while (size < text.size() && !is_between(text[size])) ++size;
-    if (column < 3 && !read_cell(text.substr(0, size), xyz[column]))
-      return bad_cell(column, text.substr(0, size));
-    ++column;
-    while (size < text.size() && is_between(text[size])) ++size;
-    text.remove_prefix(size);
+  std::array<std::string_view, 3> field;
+  const auto has_outer_comma = [](std::string_view f) {
+    return f.starts_with(',') || f.ends_with(',');
+  };
+  separator_ = ';';  // or blanks
+  std::size_t count = split(text, " \t;", field);
+  if (count != 3 || std::any_of(field.begin(), field.end(), has_outer_comma)) {
+    separator_ = ',';
+    count = split(text, " \t;,", field);
   }
-  if (column != 3)
-    return bad_input(place(line_) + "the line has " + std::to_string(column) +
+  for (std::size_t k = 0; k < std::min<std::size_t>(count, 3); ++k)
+    if (!read_cell(field[k], xyz[k])) return bad_cell(k, field[k]);
+  if (count != 3)
+    return bad_input(place(line_) + "the line has " + std::to_string(count) +
                      " numbers; in a map without a header, each row has three numbers: x y z");
   return add(xyz);
+}
+
+bool MapTextReader::read_cell(std::string_view cell, double& x) {
+  if (separator_ == ',') return read_number(cell, x);
+  has_decimal_point_ = has_decimal_point_ || cell.find('.') != cell.npos;
+  const std::size_t comma = cell.find(',');
+  if (comma == cell.npos) return read_number(cell, x);
+  has_decimal_comma_ = true;
+  std::string number(cell);
+  number[comma] = '.';
+  return read_number(number, x);
 }
 
 Status MapTextReader::add(const std::array<double, 3>& xyz) {
@@ -223,6 +248,10 @@ Status MapTextReader::add(const std::array<double, 3>& xyz) {
     return bad_input(
         place(line_) +
         "the line has no position (x or y is empty or nan); add the value or delete the line");
+  if (has_decimal_comma_ && has_decimal_point_)
+    return bad_input(place(line_) +
+                     "the map has numbers with decimal commas and numbers with decimal points; use "
+                     "one of them");
   const std::size_t point = points_.z_m.size();
   if (point == kMostPixels)
     return bad_input(place(line_) + "the map has more than " + std::to_string(kMostPixels) +

@@ -26,7 +26,8 @@ struct XyzUnits {
 Result<XyzUnits> xyz_units(const std::string& text);
 
 // Reads one file in pieces of any size. The rows may be in any order. The columns of a file with a
-// header may be in any order; other columns are ignored. A height is missing if its pixel has no
+// header may be in any order; other columns are ignored. If semicolons, tabs or (in XYZ) blanks
+// separate the columns, numbers may have decimal commas. A height is missing if its pixel has no
 // row, or if z is empty or nan. Lines that begin with # are ignored. Errors state file and line.
 // Without `units`, an XYZ file has the units of the CSV format, and a notice states this
 // assumption.
@@ -49,6 +50,7 @@ class MapTextReader {
   Status header(std::string_view text);
   Status csv_row(std::string_view text);
   Status xyz_row(std::string_view text);
+  bool read_cell(std::string_view cell, double& x);
   Status add(const std::array<double, 3>& xyz);
   void reserve_points(std::size_t bytes_read);
   std::string place(std::size_t line) const;
@@ -60,6 +62,9 @@ class MapTextReader {
   Form form_ = Form::unknown;
   std::array<std::size_t, 3> column_{{0, 1, 2}};  // columns of x, y, z
   std::size_t columns_ = 3;
+  // Another separator than the comma: numbers may have decimal commas.
+  char separator_ = ',';
+  bool has_decimal_comma_ = false, has_decimal_point_ = false;
   double xy_m_ = 1e-3, z_m_ = 1e-6;
   std::string rest_;  // start of a line that is completed in the next piece
   std::size_t line_ = 0;

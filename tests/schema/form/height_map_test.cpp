@@ -101,7 +101,7 @@ TEST(HeightMapCsv, ErrorsNameTheLine) {
       {head + "0,0,1\n0,0,1\n", "same position"},
       {head + "0,0,nan\n1,0,\n", "no pixel has a height"},
       {head + "0,0,1\n1,0,1e308\n", "map.csv:3: 1e+302 m is too large"},
-      {head + "0,0,1\n-2e6,0,1\n", "map.csv:3: -2e+03 m is too large"},
+      {head + "0,0,1\n-2e6,0,1\n", "map.csv:3: -2000 m is too large"},
       {head + "0,0,1\n1,0,2\n2.3,0,2\n3,0,1\n4,0,1\n", "grid"}};
   for (const auto& [text, message] : bad)
     EXPECT_NE(error_of(text).find(message), std::string::npos) << text << "\n" << error_of(text);
@@ -109,6 +109,27 @@ TEST(HeightMapCsv, ErrorsNameTheLine) {
   for (int i = 0; i < 5000; ++i)
     scattered += std::to_string(std::sin(i) * 100) + "," + std::to_string(std::cos(3 * i)) + ",1\n";
   EXPECT_NE(error_of(scattered).find("grid"), std::string::npos) << error_of(scattered);
+}
+
+TEST(HeightMapCsv, AcceptsDecimalCommas) {
+  for (const std::string text :
+       {"x_mm;y_mm;z_um\n0,5;0;1,25\n1,5;0;\n0,5;2;-3\n",
+        "x_mm\ty_mm\tz_um\r\n0,5\t0\t1,25\r\n1,5\t0\t\r\n0,5\t2\t-3\r\n",
+        "0,5;0;1,25\n1,5;0;nan\n0,5;2;-3\n", "0,5 0 1,25\n1,5 0 nan\n0,5 2 -3\n",
+        "0.5, 0, 1.25\n1.5, 0, nan\n0.5 ,2 ,-3\n"}) {
+    const auto map = read(text);
+    ASSERT_TRUE(map) << text << map.error().message;
+    EXPECT_EQ(map->x_m(1), 1.5e-3) << text;
+    EXPECT_EQ(map->at(0, 0), 1.25e-6) << text;
+    EXPECT_TRUE(std::isnan(map->at(1, 0))) << text;
+    EXPECT_EQ(map->at(0, 1), -3e-6) << text;
+  }
+  for (const char* text : {"x_mm;y_mm;z_um\n0,5;0;1.25\n1,5;0;2\n", "0 0 1.5\n1 0 1,5\n"})
+    EXPECT_NE(error_of(text).find("decimal commas and numbers with decimal points"),
+              std::string::npos)
+        << error_of(text);
+  EXPECT_NE(error_of("x_mm;y_mm;z_um\n0;0;1.250,5\n").find("column 3"), std::string::npos);
+  EXPECT_NE(error_of("0,5,0,1,25\n").find("the line has 5 numbers"), std::string::npos);
 }
 
 TEST(HeightMapXyz, AcceptsUnitsAndBlanks) {

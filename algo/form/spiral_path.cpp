@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "algo/form/turn_spectrum.h"
 #include "schema/base/number/number_text.h"
 #include "schema/base/random.h"
 #include "schema/units.h"
@@ -24,6 +25,8 @@ constexpr double kContactDifference_m = 1e-9;  // a higher place counts only if 
 constexpr double kBetweenPixels = 4;  // assumed ratio of the largest curvature between pixels to
                                       // the largest curvature at pixels
 constexpr int kFewestPlaces = 64, kMostPlaces = 2000;
+constexpr int kCircles = 8;
+constexpr std::size_t kMostCirclePoints = std::size_t{1} << 17;
 
 // Eq. 9: cubic over s in [0, L], from the heights and slopes at both ends.
 double hermite(double s, double L, double z0, double slope0, double z1, double slope1) {
@@ -78,12 +81,19 @@ double highest(const Height& height, double r, int places) {
 }  // namespace
 
 SpiralPath::SpiralPath(const SurfaceMap& map, const SpiralRequest& request)
-    : request_(request), surface_(map, request.extend_pixels, Extension::line) {
+    : request_(request),
+      surface_(std::make_shared<const Surface>(map, request.extend_pixels, Extension::line)) {
   const double r = request.tool_radius_m;
   has_sharp_valleys_ = r > 0 && kBetweenPixels * r * sharpest_valley_per_m(map) > 1;
   const double to_a_pixel = 4 * r / std::min(map.dx_m, map.dy_m);
   places_ = static_cast<int>(std::clamp(to_a_pixel, 1.0 * kFewestPlaces, 1.0 * kMostPlaces));
-  const std::size_t n = request.points_per_turn;
+  set_angles();
+}
+
+void SpiralPath::set_angles() {
+  const std::size_t n = request_.points_per_turn;
+  cos_.clear();
+  sin_.clear();
   for (std::size_t k = 0; k < n; ++k) {
     const double turns = static_cast<double>(k) / static_cast<double>(n);
     cos_.push_back(sine_of_turns(turns + 0.25));
@@ -121,12 +131,12 @@ double SpiralPath::rho_m(std::size_t index) const {
 }
 
 bool SpiralPath::at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part) const {
-  if (surface_.at(x_m, y_m, 0, point)) {
+  if (surface_->at(x_m, y_m, 0, point)) {
     on_part = OnPart::measured;
     return true;
   }
   on_part = OnPart::extended;
-  return request_.extend_pixels > 0 && surface_.at(x_m, y_m, request_.extend_pixels, point);
+  return request_.extend_pixels > 0 && surface_->at(x_m, y_m, request_.extend_pixels, point);
 }
 
 // Calculates z, the height of the tool's lowest point, in the plane of rho and z. The circle of the
@@ -262,6 +272,36 @@ Result<SpiralCounts> SpiralPath::each(const std::function<Status(const PathPoint
     --k;
   }
   return counts;
+}
+
+std::vector<double> SpiralPath::circle(double radius_m, std::size_t points) const {
+  SpiralPath turn = *this;
+  turn.request_.outer_radius_m = radius_m;
+  turn.request_.feed_m = 0;
+  turn.request_.points_per_turn = points;
+  turn.points_ = 2 * points;  // a gap at the end of the circle ends in the second turn
+  turn.set_angles();
+  std::vector<double> z_m;
+  static_cast<void>(turn.each([&](const PathPoint& point) {  // only `take` could fail
+    if (z_m.size() < points) z_m.push_back(point.z_m);
+    return Status();
+  }));
+  return z_m;
+}
+
+std::size_t SpiralPath::surface_undulations(double pixel_m, double share) const {
+  const double radius_m = request_.outer_radius_m;
+  const double wanted = 2 * 2 * std::numbers::pi * radius_m / pixel_m;
+  std::size_t points = 4;
+  while (points < kMostCirclePoints && static_cast<double>(points) < wanted) points *= 2;
+  if (static_cast<double>(request_.points_per_turn) >= wanted || request_.points_per_turn >= points)
+    return 0;
+  TurnSpectrum spectrum(points, -1);
+  for (int k = 1; k <= kCircles; ++k) {
+    for (const double z_m : circle(radius_m * k / kCircles, points)) spectrum.add(z_m);
+    spectrum.finish();  // the next circle does not continue this circle
+  }
+  return spectrum.undulations(share);
 }
 
 MapMiddle middle_of(const SurfaceMap& map) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "algo/form/surface.h"
@@ -46,6 +47,11 @@ class SpiralPath {
   // Calls `take` for each point, from the outermost point inwards. Stops if `take` returns an
   // error, and returns this error.
   Result<SpiralCounts> each(const std::function<Status(const PathPoint&)>& take) const;
+  // The highest harmonic of a turn whose amplitude is at least `share` times the largest amplitude
+  // (TurnSpectrum::undulations()), evaluated on circles with two or more points for each pixel of
+  // size `pixel_m`. 0: no motion, or the path has as many points. Points of the path that are too
+  // far apart would show these undulations as longer ones.
+  std::size_t surface_undulations(double pixel_m, double share) const;
 
  private:
   struct Touch {
@@ -55,6 +61,9 @@ class SpiralPath {
   };
   struct Gap;
   SpiralPath(const SurfaceMap& map, const SpiralRequest& request);
+  void set_angles();
+  // Heights of the tool at equally spaced angles of a circle about the centre.
+  std::vector<double> circle(double radius_m, std::size_t points) const;
   double rho_m(std::size_t index) const;
   bool touch(std::size_t index, Touch& found) const;
   bool contact(double rho_m, double cos, double sin, Touch& found) const;
@@ -66,7 +75,7 @@ class SpiralPath {
   void find_touch_before(std::size_t first, Gap& gap) const;
 
   SpiralRequest request_;
-  Surface surface_;
+  std::shared_ptr<const Surface> surface_;  // copies of this path share the surface
   bool has_sharp_valleys_ = false;  // the surface may be curved more than the tool somewhere
   int places_ = 0;  // number of places over the tool's width where a contact is searched
   std::size_t points_ = 0;

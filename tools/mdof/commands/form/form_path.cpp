@@ -17,6 +17,7 @@
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/form/map_file.h"
+#include "tools/mdof/commands/form/path_motion.h"
 #include "tools/mdof/commands/form/path_writer.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -38,7 +39,10 @@ struct FormPathCommand {
 struct FoundPath {
   algo::SpiralRequest request;
   algo::SpiralCounts counts;
-  std::size_t undulations = 0;
+  // NaN: the path has less than one turn.
+  double undulations = 0;
+  // Undulations of the surface that the points of the path do not show; 0: there are none.
+  std::size_t hidden_undulations = 0;
   double frequency_hz = 0, stroke_m = 0, stroke_on_part_m = 0, acceleration_m_s2 = 0,
          duration_s = 0;
   std::optional<algo::MotionAboveBand> left_out;
@@ -56,25 +60,6 @@ CLI::Validator whole_number_in(double least, double most) {
       },
       "");
 }
-
-// The extreme positions of a path, and its largest acceleration from second differences.
-class Motion {
- public:
-  void add(double z_m) {
-    least_ = std::min(least_, z_m);
-    most_ = std::max(most_, z_m);
-    if (count_ >= 2) change_ = std::max(change_, std::abs(z_m - 2 * last_ + before_));
-    before_ = last_;
-    last_ = z_m;
-    ++count_;
-  }
-  double stroke_m() const { return most_ - least_; }
-  double acceleration_m_s2(double step_s) const { return change_ / (step_s * step_s); }
-
- private:
-  double least_ = 1e300, most_ = -1e300, last_ = 0, before_ = 0, change_ = 0;
-  std::size_t count_ = 0;
-};
 
 // The distance from the centre to the farthest measured pixel. Error: the map does not show that
 // the part ends there.
@@ -159,19 +144,24 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   }));
   MDOF_CHECK(writer.finish());
   spectrum.finish();
-  found.undulations = spectrum.undulations(o.undulation_share);
-  found.frequency_hz = static_cast<double>(found.undulations) * per_s;
+  found.undulations = spectrum.turns() > 0
+                          ? static_cast<double>(spectrum.undulations(o.undulation_share))
+                          : std::nan("");
+  if (const std::size_t finer =
+          path.surface_undulations(std::min(map.dx_m, map.dy_m), o.undulation_share);
+      2 * finer > found.request.points_per_turn) {
+    found.hidden_undulations = finer;
+    found.undulations = static_cast<double>(finer);
+  }
+  found.frequency_hz = found.undulations * per_s;
   found.stroke_m = motion.stroke_m();
   found.stroke_on_part_m = on_part.stroke_m();
   found.acceleration_m_s2 = motion.acceleration_m_s2(rates.t_s(1));
   found.duration_s = rates.t_s(found.counts.points - 1);
-  if (o.bandwidth_hz) found.left_out = spectrum.left_out();
+  if (o.bandwidth_hz && spectrum.turns() > 0 && found.hidden_undulations == 0)
+    found.left_out = spectrum.left_out();
   if (spectrum.turns() == 0)
     warn(o.out + ": the path has less than one turn, so the undulations are unknown");
-  if (found.counts.too_sharp > 0)
-    warn(o.map + ": at " + std::to_string(found.counts.too_sharp) +
-         " points the tool radius is too large to reach the surface; the tool leaves material at "
-         "these points");
   return found;
 }
 
@@ -181,6 +171,19 @@ std::optional<algo::FeedRoughness> feed_roughness_if_closed(const FoundPath& fou
   const algo::SpiralRequest& request = found.request;
   if (!(request.feed_m < 2 * request.tool_radius_m)) return {};
   return algo::feed_roughness(request.tool_radius_m, request.feed_m);
+}
+
+void warn_of_differences_from_surface(const FoundPath& found, const FormPathCommand& o) {
+  if (found.counts.too_sharp > 0)
+    warn(o.map + ": at " + std::to_string(found.counts.too_sharp) +
+         " points the tool radius is too large to reach the surface; the tool leaves material at "
+         "these points");
+  if (found.hidden_undulations > 0)
+    warn(o.map + ": the surface has " + std::to_string(found.hidden_undulations) +
+         " undulations per turn, which the path with " +
+         std::to_string(found.request.points_per_turn) +
+         " points per turn does not follow; use --points-per-rev " +
+         std::to_string(4 * found.hidden_undulations) + " or more");
 }
 
 // Limits for notices. If a part is long and narrow, the spiral is beside the part for most of each
@@ -213,7 +216,7 @@ Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
 std::string path_json(const FoundPath& found, const FormPathCommand& o) {
   JsonWriter json;
   json.begin_object()
-      .field("undulations", static_cast<std::uint64_t>(found.undulations))
+      .field("undulations", found.undulations)
       .field("frequency_hz", found.frequency_hz)
       .field("stroke_um", to_um(found.stroke_m))
       .field("points", static_cast<std::uint64_t>(found.counts.points))
@@ -246,6 +249,7 @@ std::string path_json(const FoundPath& found, const FormPathCommand& o) {
     json.field("Ra_nm", rough ? rough->Ra_m * 1e9 : std::nan(""))
         .field("Rt_nm", rough ? rough->Rt_m * 1e9 : std::nan(""));
   }
+  json.field("hidden_undulations", static_cast<std::uint64_t>(found.hidden_undulations));
   write_notices(json, "notices", notices_of(found, o), words::text);
   json.field("out", o.out).end_object();
   return json.take();
@@ -261,9 +265,12 @@ std::string path_text(const FoundPath& found, const FormPathCommand& o) {
                      std::to_string(found.counts.measured) + ", extended " +
                      std::to_string(found.counts.extended) + ", bridged " +
                      std::to_string(found.counts.bridged) + "\n";
-  text += std::to_string(found.undulations) + " undulations per turn, " +
-          plain_number(found.frequency_hz) + " Hz; stroke " + in_um(found.stroke_m) +
-          " µm; acceleration up to " + plain_number(found.acceleration_m_s2) + " m/s²\n";
+  text += (std::isnan(found.undulations)
+               ? "undulations unknown"
+               : plain_number(found.undulations, 9) + " undulations per turn, " +
+                     plain_number(found.frequency_hz) + " Hz") +
+          "; stroke " + in_um(found.stroke_m) + " µm; acceleration up to " +
+          plain_number(found.acceleration_m_s2) + " m/s²\n";
   if (found.left_out)
     text += "a low-pass filter of " + plain_number(*o.bandwidth_hz) +
             " Hz removes from the path: PV " + in_um(found.left_out->pv) + " µm, RMS " +
@@ -278,8 +285,14 @@ Status form_path(const FormPathCommand& o) {
   MDOF_CHECK(check_out(o.out, {o.map}));
   MDOF_TRY(const SurfaceMap map, load_map(o.map, o.maps));
   MDOF_TRY(const FoundPath found, write_path(o, map));
+  warn_of_differences_from_surface(found, o);
   show_notices(notices_of(found, o), true);
   MDOF_CHECK(o.json ? write_line(path_json(found, o)) : write_out(path_text(found, o)));
+  if (o.bandwidth_hz && std::isnan(found.frequency_hz))
+    return fail(ErrorCode::check,
+                o.map +
+                    ": the path has less than one turn, so its frequency is unknown and cannot "
+                    "be compared with --bandwidth-hz; reduce --feed-mm-min");
   if (o.bandwidth_hz && found.frequency_hz > *o.bandwidth_hz)
     return fail(ErrorCode::check, o.map + ": the path needs a servo bandwidth of " +
                                       plain_number(found.frequency_hz) +

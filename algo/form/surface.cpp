@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace mdof::algo {
 namespace {
@@ -184,6 +185,39 @@ bool Surface::at(double x_m, double y_m, std::size_t rings, SurfacePoint& point)
   point.slope_x = (wy.value[2] * (z10 - z00) + wy.value[3] * (z11 - z01)) / dx_m_;
   point.slope_y = (wx.value[2] * (z01 - z00) + wx.value[3] * (z11 - z10)) / dy_m_;
   return true;
+}
+
+double overshoot_m(const SurfaceMap& map, double x_centre_m, double y_centre_m, double radius_m) {
+  // A sine of six pixels leaves the range by 1.24 times the height that its curvature explains.
+  constexpr double kShortWaves = 1.25;
+  double largest = 0;
+  // z[-2 step] ... z[3 step] are six pixels of a row or column. NaN if one of them is missing.
+  const auto between = [](const double* z, std::ptrdiff_t step, double t) {
+    const double u = 1 - t, first = z[0], last = z[step];
+    const double slope0 = (z[-2 * step] - 8 * z[-step] + 8 * last - z[2 * step]) / 12,
+                 slope1 = (z[-step] - 8 * first + 8 * z[2 * step] - z[3 * step]) / 12;
+    const double bend0 = z[-step] - 2 * first + last, bend1 = first - 2 * last + z[2 * step];
+    const double curve = t * u * ((1 - 2 * t) * (first - last) + u * slope0 - t * slope1);
+    const double height = u * first + t * last + curve;
+    const double beyond =
+        curve > 0 ? height - std::max(first, last) : std::min(first, last) - height;
+    const double bend = curve > 0 ? std::min(-bend0, -bend1) : std::min(bend0, bend1);
+    return beyond - kShortWaves * std::max(0.0, bend) * t * u / 2;
+  };
+  const auto nx = static_cast<std::ptrdiff_t>(map.nx), ny = static_cast<std::ptrdiff_t>(map.ny);
+  for (std::ptrdiff_t j = 0; j < ny; ++j)
+    for (std::ptrdiff_t i = 0; i < nx; ++i) {
+      const double x = map.x_m(static_cast<std::size_t>(i)) - x_centre_m,
+                   y = map.y_m(static_cast<std::size_t>(j)) - y_centre_m;
+      if (x * x + y * y > radius_m * radius_m) continue;
+      const double* const z = map.z_m.data() + j * nx + i;
+      for (const auto& [at, count, step] : {std::tuple(i, nx, std::ptrdiff_t{1}), {j, ny, nx}}) {
+        if (at < 2 || at + 3 >= count || !(1.25 * between(z, step, 0.5) > largest)) continue;
+        for (const double t : {0.35, 0.5, 0.65})
+          if (const double beyond = between(z, step, t); beyond > largest) largest = beyond;
+      }
+    }
+  return largest;
 }
 
 }  // namespace mdof::algo

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "algo/form/spiral_path.h"
+#include "algo/form/surface.h"
 #include "algo/form/turn_spectrum.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
@@ -46,6 +47,7 @@ struct FoundPath {
   double frequency_hz = 0, stroke_m = 0, stroke_on_part_m = 0, acceleration_m_s2 = 0,
          duration_s = 0;
   std::optional<algo::MotionAboveBand> left_out;
+  double overshoot_m = 0;   // of interpolated heights beside steps of the map
   double centre_off_m = 0;  // distance of the mean pixel from an assumed centre; 0: not notable
 };
 
@@ -162,6 +164,8 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
     found.left_out = spectrum.left_out();
   if (spectrum.turns() == 0)
     warn(o.out + ": the path has less than one turn, so the undulations are unknown");
+  found.overshoot_m = algo::overshoot_m(map, found.request.x_centre_m, found.request.y_centre_m,
+                                        found.request.outer_radius_m);
   return found;
 }
 
@@ -173,11 +177,20 @@ std::optional<algo::FeedRoughness> feed_roughness_if_closed(const FoundPath& fou
   return algo::feed_roughness(request.tool_radius_m, request.feed_m);
 }
 
+constexpr double kNotableOvershoot = 0.01;  // relative to the stroke on the part
+
 void warn_of_differences_from_surface(const FoundPath& found, const FormPathCommand& o) {
   if (found.counts.too_sharp > 0)
     warn(o.map + ": at " + std::to_string(found.counts.too_sharp) +
          " points the tool radius is too large to reach the surface; the tool leaves material at "
          "these points");
+  if (found.overshoot_m > kNotableOvershoot * found.stroke_on_part_m)
+    warn(o.map +
+         ": the heights of neighbouring pixels step, and beside these steps the path "
+         "overshoots by up to " +
+         in_um(found.overshoot_m) +
+         " um, although on_part is 1 there; remove false steps (phase jumps, spikes) from the map; "
+         "if the step is real, measure it with smaller pixels");
   if (found.hidden_undulations > 0)
     warn(o.map + ": the surface has " + std::to_string(found.hidden_undulations) +
          " undulations per turn, which the path with " +
@@ -249,7 +262,9 @@ std::string path_json(const FoundPath& found, const FormPathCommand& o) {
     json.field("Ra_nm", rough ? rough->Ra_m * 1e9 : std::nan(""))
         .field("Rt_nm", rough ? rough->Rt_m * 1e9 : std::nan(""));
   }
-  json.field("hidden_undulations", static_cast<std::uint64_t>(found.hidden_undulations));
+  json.field("overshoot_um", to_um(found.overshoot_m))
+      .field("hidden_undulations", static_cast<std::uint64_t>(found.hidden_undulations))
+      .field("points_too_sharp", static_cast<std::uint64_t>(found.counts.too_sharp));
   write_notices(json, "notices", notices_of(found, o), words::text);
   json.field("out", o.out).end_object();
   return json.take();

@@ -333,7 +333,9 @@ Action declare_form_path(CLI::App& command) {
       .add_option("--out", o->out,
                   "Write the tool path to this file: CSV with the columns "
                   "t_s,rho_mm,theta_deg,z_um,on_part (1: measured, 2: extended, 0: bridged), or "
-                  "G-code if the file name ends in .ngc, .nc, .gcode or .tap")
+                  "G-code if the file name ends in .ngc, .nc, .gcode or .tap. theta and C are "
+                  "angles on the part from +X towards +Y: seen from +z, the part turns clockwise "
+                  "under the tool")
       ->required()
       ->type_name("FILE");
   command

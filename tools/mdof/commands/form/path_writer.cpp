@@ -55,7 +55,8 @@ Status PathWriter::begin() {
     text_ = "t_s,rho_mm,theta_deg,z_um,on_part\n";
   } else {
     text_ =
-        "(mdof form path: X is the radius in mm, C turns with the spindle, Z towards +z)\n"
+        "(mdof form path: X is the radius in mm, Z points towards +z)\n"
+        "(C is the angle on the part from +X towards +Y: seen from +z, the part turns clockwise)\n"
         "(bring the tool to Z of the first move before this program)\n"
         "G21 G90\n";
   }

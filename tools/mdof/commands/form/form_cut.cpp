@@ -12,6 +12,7 @@
 #include "tools/mdof/commands/form/map_file.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -44,6 +45,7 @@ std::string cut_json(const algo::CuttingResult& found, const FormCutCommand& o) 
     json.begin_object()
         .field("pv_um", to_um(error.pv_m))
         .field("rms_um", to_um(error.rms_m))
+        .field("mean_um", to_um(error.mean_m))
         .end_object();
   json.end_array();
   write_optional(json, "repeatable_rms_um", found.repeatable_rms_m);
@@ -71,10 +73,17 @@ std::string cut_json(const algo::CuttingResult& found, const FormCutCommand& o) 
 }
 
 std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) {
-  TextTable table({"pass", "PV/µm", "RMS/µm"});
+  TextTable table({"pass", "PV/µm", "RMS/µm", "mean/µm"});
   for (std::size_t k = 0; k < found.error.size(); ++k)
-    table.add({std::to_string(k + 1), in_um(found.error[k].pv_m), in_um(found.error[k].rms_m)});
-  std::string text = "error = CUT - WANTED (measured - nominal)\n" + table.text();
+    table.add({std::to_string(k + 1), in_um(found.error[k].pv_m), in_um(found.error[k].rms_m),
+               in_um(found.error[k].mean_m)});
+  std::string text =
+      "error = CUT - WANTED (measured - nominal); RMS is about the mean\n" + table.text() +
+      wrapped(
+          "The next path also corrects the mean and the tilt of the error. If the instrument "
+          "does not measure them relative to the machine, remove them from the maps.",
+          terminal_columns()) +
+      "\n";
   if (found.factor)
     text += "optimal gain " + fixed(*found.factor, 4) +
             ": the next path corrects this part of the mean error of the passes\n";

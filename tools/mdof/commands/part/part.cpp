@@ -58,6 +58,16 @@ void clear_unknown_figures(FoundPart& found) {
       forget(share.U_share);
     }
   for (algo::PartShare& left : found.left.layers) forget(left.rms_m);
+  // Only the u of a compensated layer remains.
+  for (std::size_t k = 0; k < found.part.layers.size(); ++k) {
+    if (!found.part.layers[k].plan.compensated) continue;
+    for (double* x : {&found.error.p95_m, &found.error.max_m, &found.error.layers[k].rms_m,
+                      &found.error.layers[k].share})
+      forget(*x);
+    for (std::size_t c = 0; c < found.part.causes.size(); ++c)
+      if (found.part.causes[c].layer == k)
+        for (double* x : {&found.error.causes[c].rms_m, &found.error.causes[c].share}) forget(*x);
+  }
 }
 
 void write_share(JsonWriter& json, const algo::PartShare& share) {

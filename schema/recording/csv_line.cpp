@@ -93,6 +93,21 @@ bool is_missing_value(std::string_view field) {
   return field.empty() || (field.size() == 3 && is(0, 'n') && is(1, 'a') && is(2, 'n'));
 }
 
+Result<bool> is_between_rows(std::string_view line, const CsvHeader& header) {
+  line = trimmed(line);
+  if (header.has_text_columns() || line.empty()) return false;
+  if (line[0] == '#') return true;
+  if (header.time_column < 0) return false;
+  const std::vector<std::string_view> fields = split(line, false);
+  const std::string& time = header.columns[static_cast<std::size_t>(header.time_column)];
+  if (std::find(fields.begin(), fields.end(), time) == fields.end()) return false;
+  if (std::equal(fields.begin(), fields.end(), header.columns.begin(), header.columns.end()))
+    return true;
+  return bad_input(
+      "this header has other columns than the header at the start of the file; split the file "
+      "before this line");
+}
+
 CsvLine parse_csv_line(std::string_view line, const CsvHeader& header) {
   CsvLine result;
   line = trimmed(line);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/base/result.h"
 #include "schema/recording/probe_log.h"
 
 namespace mdof {
@@ -27,6 +28,10 @@ struct CsvLine {
 // Whether a field means a missing value: the field is empty, or is nan in a form that some program
 // writes. The field must have no outer spaces.
 bool is_missing_value(std::string_view field);
+
+// Whether a line between the rows contains no row: a comment, or the header of the file again.
+// Error: another header, because the columns of the following rows are different.
+Result<bool> is_between_rows(std::string_view line, const CsvHeader& header);
 
 // `line`: without its line end. Spaces around a field, and one '+' before a number, are accepted.
 CsvLine parse_csv_line(std::string_view line, const CsvHeader& header);

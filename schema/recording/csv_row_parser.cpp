@@ -203,7 +203,10 @@ std::size_t CsvRowParser::read_times(std::size_t rows, std::size_t stride) {
 // Parses the line at begin_. The line may have any form.
 Status CsvRowParser::parse_one_line() {
   const std::size_t end = text_.find('\n', begin_);
-  const CsvLine line = parse_csv_line(text_.substr(begin_, end - begin_), header_);
+  const std::string_view text = text_.substr(begin_, end - begin_);
+  const Result<bool> between = is_between_rows(text, header_);
+  if (!between) return bad_input(where(line_) + between.error().message);
+  const CsvLine line = *between ? CsvLine() : parse_csv_line(text, header_);
   if (line.state == CsvLine::State::fatal) return bad_input(where(line_) + line.reason);
   if (line.state == CsvLine::State::blank) {
     MDOF_CHECK(count_blank_line(end + 1 - begin_));
@@ -212,7 +215,7 @@ Status CsvRowParser::parse_one_line() {
     if (block_ends_) return {};  // the line is parsed again after the block was returned
     if (line.state == CsvLine::State::bad) {
       MDOF_CHECK(report_bad(line_, line.reason));
-    } else {
+    } else if (!*between) {
       MDOF_CHECK(store(line));
     }
   }

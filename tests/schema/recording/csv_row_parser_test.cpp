@@ -103,6 +103,30 @@ TEST(CsvRowParser, ReadsColumnsInAnyOrder) {
   EXPECT_EQ(p.column(2), std::vector<double>{7.75});
 }
 
+// Some programs write a comment at each stop, and the header again after each pause.
+TEST(CsvRowParser, CommentsAndTheSameHeaderBetweenRowsAreNoLoss) {
+  const Parsed p = parse(kHeader + "0,1,2\n# stop 1\n1,1,3\n" + kHeader + "2,1,4\n #,,\n3,1,5\n");
+  ASSERT_EQ(p.error, "");
+  EXPECT_EQ(p.column(1), (std::vector<double>{2, 3, 4, 5}));
+  EXPECT_TRUE(p.bad_lines.empty());
+  for (const SampleBlock& block : p.blocks) EXPECT_EQ(block.lost, 0u);
+}
+
+// With the columns of the first header, the readings of two probes would be exchanged.
+TEST(CsvRowParser, AnotherHeaderBetweenRowsIsAnError) {
+  const std::string header = "time_s,encoder_mm,A_um,B_um\n", row = "0,1,2,3\n";
+  for (const char* other : {"time_s,encoder_mm,B_um,A_um\n", "time_s,encoder_mm,A_um\n"})
+    expect_contains(parse(header + row + other + "1,1,3,2\n").error,
+                    {"x.csv:3: ", "other columns", "split the file"});
+}
+
+TEST(CsvRowParser, AHeaderInQuotesOrBelowOtherLinesNamesTheRemedy) {
+  expect_contains(parse("\"time_s\",\"encoder_mm\",\"A_um\"\n0,1,2\n").error,
+                  {"x.csv:1: ", "save the file without quotes"});
+  expect_contains(parse("Measured by PC 4\n" + kHeader + "0,1,2\n").error,
+                  {"x.csv:1: no column time_s", "delete it or begin it with #"});
+}
+
 TEST(CsvRowParser, RoundsTimesToTheNearestNanosecond) {
   const Parsed p = parse(kHeader +
                          "-1.5,0,0\n-0.0000000014,0,0\n0.0000000005,0,0\n1.0000000004,0,0\n"

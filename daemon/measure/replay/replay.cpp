@@ -87,11 +87,14 @@ std::string stated(std::string_view key, const std::vector<std::string>& comment
   return "";
 }
 
-// A CSV log may state its start as mdof export does: "started: 2026-11-20T10:11:12.345Z".
+// A CSV log may state its start as mdof export does: "started: 2026-11-20T10:11:12.345Z". The
+// result is in whole seconds, which shows that it is not the time of an evaluation.
 std::string stated_start(const std::vector<std::string>& comments) {
-  const std::string start = stated("started:", comments);
+  std::string start = stated("started:", comments);
   const bool utc = start.size() > 11 && start[10] == 'T' && start.back() == 'Z';
-  return utc && is_date(std::string_view(start).substr(0, 10)) ? start : "";
+  if (!utc || !is_date(std::string_view(start).substr(0, 10))) return "";
+  start.back() = ':';  // without seconds: "2026-11-20T10:11Z"
+  return (start + "00").substr(0, kWholeSeconds - 1) + "Z";
 }
 
 template <class Measuring>

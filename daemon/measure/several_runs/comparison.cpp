@@ -93,11 +93,9 @@ std::pair<double, double> travel_of(const Run& run) {
   return ends;
 }
 
-// Whether started_utc is the time of the measurement. Otherwise started_utc is the time of the
-// evaluation.
+// Whether started_utc is the time of the measurement.
 bool has_time(const RunHeader& header) {
-  const std::string& kind = header.provenance.recording_kind;
-  return kind == "live" || kind == "recording";
+  return !is_imported(header) && header.start_known();
 }
 
 // Notices about differences that influence the figures. Also a notice if the run "after" was

@@ -133,11 +133,9 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
   leave_out(chosen.left_out, again, "a newer run of the same recording exists");
   std::sort(chosen.runs.begin(), chosen.runs.end(), earlier);
   choose_kind(chosen, mixed);
-  constexpr std::size_t kDay = 10;  // of the rig; a longer text may be the time of the evaluation
-  const auto undated =
-      std::count_if(chosen.runs.begin(), chosen.runs.end(), [](const RunHeader& run) {
-        return run.provenance.recording_kind == "csv" && run.started_utc.size() > kDay;
-      });
+  const auto undated = std::count_if(
+      chosen.runs.begin(), chosen.runs.end(),
+      [](const RunHeader& run) { return !run.start_known() && !is_date(run.started_utc); });
   if (undated > 1)
     chosen.notices.push_back(notice(NoticeCode::order_of_evaluation, "", {{"runs", undated}}));
   return chosen;

@@ -45,7 +45,7 @@ sys_days last_day(const std::string& began, const std::vector<MeasuredPoint>& po
 std::optional<Days> recorded_days(const ReportRun& run) {
   const RunHeader& header = run.results.run.header;
   const std::string first = header.started_utc.substr(0, 10);
-  if (header.provenance.recording_kind == "csv" || !is_date(first)) return std::nullopt;
+  if (!header.start_known() || !is_date(first)) return std::nullopt;
   return Days{first, text_of(last_day(header.started_utc, run.results.run.points))};
 }
 
@@ -61,6 +61,7 @@ Status use_stated_date(Report& report, sys_seconds now) {
     if (is_imported(header)) continue;
     const auto recorded = recorded_days(run);
     if (!recorded) {
+      if (is_date(header.started_utc)) header.started_utc = date;  // replaces the date of the rig
       std::erase_if(header.notices, [](const Notice& each) {
         return each.code == NoticeCode::calibration_overdue ||
                each.code == NoticeCode::calibrated_after_measurement ||

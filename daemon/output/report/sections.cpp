@@ -10,6 +10,7 @@
 #include "schema/axis.h"
 #include "schema/imported/series.h"
 #include "schema/recording/run_options.h"
+#include "schema/rig/report_facts.h"
 #include "schema/units.h"
 
 namespace mdof::report {
@@ -144,10 +145,10 @@ void write_conditions(Html& html, const ReportRun& run, Language language) {
   if (run.superseded_by)
     state += ", " + phrase(Phrase::superseded, language, {std::to_string(*run.superseded_by)});
   if (is_imported(h)) return html.facts(conditions_of_imported(run.results.run, state, language));
-  // A CSV log does not state when the measurement started; the report then states the time of the
-  // evaluation.
-  const bool is_evaluation = h.provenance.recording_kind == "csv";
-  html.facts({{of(is_evaluation ? Phrase::evaluated : Phrase::started), h.started_utc},
+  const Phrase time = h.start_known()          ? Phrase::started
+                      : is_date(h.started_utc) ? Phrase::stated_day
+                                               : Phrase::evaluated;
+  html.facts({{of(time), h.started_utc},
               {of(Phrase::state), state},
               {of(Phrase::temperature), temperature_of(h, language)},
               {of(Phrase::declared_temperature), declared_temperature(run.rig, language)},

@@ -245,14 +245,20 @@ Result<ActiveVolumetric> Store::active_volumetric() {
 }
 
 // The tables at the start, and the tables that were activated between the start and the last stop.
-Result<std::vector<std::int64_t>> Store::active_during(std::int64_t run) {
+// If the start is not known, the run has the day that the rig states (and was measured before it
+// was stored), or the time of its evaluation.
+Result<std::vector<std::int64_t>> Store::active_during(std::int64_t run, bool start_known) {
   MDOF_TRY(
       Statement row,
       connection_.prepare(
-          "WITH measured AS (SELECT axis, started_utc AS start, strftime('%Y-%m-%dT%H:%M:%fZ', "
+          "WITH measured AS (SELECT axis, started_utc AS start, CASE WHEN ?2 THEN "
+          "strftime('%Y-%m-%dT%H:%M:%fZ', "
           "started_utc, ((SELECT max(end_ns) - min(begin_ns) FROM point WHERE id BETWEEN (?1 << "
           "32) "
-          "AND (?1 << 32) + 4294967295) / 1e9) || ' seconds') AS stop FROM run WHERE id = ?1) "
+          "AND (?1 << 32) + 4294967295) / 1e9) || ' seconds') "
+          "WHEN length(started_utc) = 10 THEN min(date(started_utc, '+1 day'), coalesce((SELECT "
+          "max(utc) FROM deed WHERE name = 'run.replay' AND row = ?1), '9')) "
+          "ELSE started_utc END AS stop FROM run WHERE id = ?1) "
           "SELECT * FROM (SELECT compensation_table FROM activation, measured WHERE "
           "activation.axis = measured.axis AND activated_utc <= start AND generation > (SELECT "
           "coalesce(max(generation), 0) FROM deactivation WHERE deactivation.axis = measured.axis "
@@ -263,7 +269,7 @@ Result<std::vector<std::int64_t>> Store::active_during(std::int64_t run) {
           "measured.axis AND activated_utc > start AND activated_utc <= stop "
           "UNION SELECT volumetric_table FROM volumetric_activation, measured WHERE "
           "activated_utc > start AND activated_utc <= stop ORDER BY 1"));
-  row.bind(run);
+  row.bind(run).bind(std::int64_t{start_known});
   std::vector<std::int64_t> tables;
   for (;;) {
     MDOF_TRY(const bool found, row.step());

@@ -51,14 +51,14 @@ std::optional<std::int64_t> continued_run(const RunHeader& run) {
   return goes_on ? run.supersedes : std::nullopt;
 }
 
-// The tables that a controller may have applied while this run was recorded. Only a recording
-// states when it was measured.
+// The tables that a controller may have applied while this run was recorded.
 Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64_t id) {
   std::vector<std::int64_t> applied;
   for (std::optional<std::int64_t> part = id; part;) {
     MDOF_TRY(const RunHeader run, store.run_header(*part));
-    if (run.provenance.recording_kind != "recording") break;
-    MDOF_TRY(const std::vector<std::int64_t> active, store.active_during(*part));
+    const std::string& kind = run.provenance.recording_kind;
+    if (kind != "recording" && kind != "csv") break;
+    MDOF_TRY(const std::vector<std::int64_t> active, store.active_during(*part, run.start_known()));
     for (const std::int64_t table : active) {
       MDOF_TRY(const bool volumetric, store.is_volumetric(table));
       if (volumetric) {
@@ -98,9 +98,14 @@ Result<Notices> source_run_notices(store::Store& store, const std::vector<std::i
     if (by)
       found.push_back(notice(NoticeCode::made_from_superseded, "", {{"run", run}, {"by", *by}}));
     MDOF_TRY(const std::vector<std::int64_t> tables, applied_tables(store, run));
+    if (tables.empty()) continue;
+    MDOF_TRY(const RunHeader header, store.run_header(run));
     for (const std::int64_t table : tables)
       found.push_back(
-          notice(NoticeCode::measured_with_table, "", {{"run", run}, {"table", table}}));
+          header.start_known()
+              ? notice(NoticeCode::measured_with_table, "", {{"run", run}, {"table", table}})
+              : notice(NoticeCode::undated_with_table, "",
+                       {{"run", run}, {"table", table}, {"date", header.started_utc}}));
   }
   return found;
 }

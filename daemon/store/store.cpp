@@ -64,6 +64,10 @@ Result<Connection> open_reader(const fs::path& file, int busy_timeout_ms) {
 Status check_schema_is_current(Connection& connection) {
   MDOF_TRY(const std::int64_t version, connection.integer("PRAGMA user_version"));
   if (version == known_version()) return {};
+  if (version == 0)
+    return bad_input(connection.file().string() +
+                     ": the database is empty. A copy of a database that mdofd is using lacks the "
+                     "entries in its file -wal; copy it with: sqlite3 DATABASE \".backup 'COPY'\"");
   return bad_input(connection.file().string() + ": has schema version " + std::to_string(version) +
                    ", but this program needs version " + std::to_string(known_version()) +
                    "; to update the database, start mdofd or store a run");

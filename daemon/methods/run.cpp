@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "daemon/measure/budgets.h"
+#include "daemon/measure/configuration/sources.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/imported/imported_run.h"
 #include "daemon/measure/imported/positioning_figures.h"
@@ -151,8 +152,20 @@ Status check_probes_free(const Methods& m, const Station& station) {
   return {};
 }
 
+// Error: two devices provide one channel. The columns of a script are known only when it runs.
+Status check_open_sources(const Station& station) {
+  std::vector<ChannelSource> sources;
+  for (const DeviceStatus& device : station.devices()) {
+    sources.push_back({device.info.name, {}});
+    for (const Channel& channel : device.info.channels)
+      sources.back().channels.push_back(channel.id);
+  }
+  return check_no_channel_twice(station.config().rig, sources);
+}
+
 void begin_run(const Methods& m, Station& station, RunRequest request, Reply reply) {
   if (auto free = check_probes_free(m, station); !free) return reply(tl::unexpected(free.error()));
+  if (auto once = check_open_sources(station); !once) return reply(tl::unexpected(once.error()));
   // If the run is resumed, request.notices contains some of these notices already.
   append_new(request.notices, present_troubles(station));
   append_new(request.notices, unsettled_clock_notices(station));

@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -176,6 +177,24 @@ class RunState(unittest.TestCase):
                 f.write(config)
             self.assertGreater(daemon.start().call("run.resume", run=run)["run"], run)
             daemon.stop()
+
+    def test_a_channel_of_two_scripts_starts_no_run(self):
+        """The columns of a script are known only when it runs. Readings of two sources must not be mixed."""
+        rig = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../data/devices/rig_X.toml")
+        config = f'[[axis]]\nrig = "{rig}"\n'
+        with tempfile.TemporaryDirectory() as folder:
+            for name, columns in (("one", "encoder_mm,A_um,B_um,C_um"), ("two", "A_um,D_um,E_um")):
+                with open(f"{folder}/{name}.py", "w") as script:
+                    script.write(f'import time\nprint("{columns}", flush=True)\n'
+                                 f'while True:\n    print("{",".join("0" * len(columns.split(",")))}", flush=True)\n    time.sleep(0.05)\n')
+                config += f'[[axis.device]]\ndriver = "csv_stream"\nname = "{name}"\ncommand = ["python3", "{folder}/{name}.py"]\n'
+            daemon = Daemon(MDOFD, folder, config)
+            self.addCleanup(daemon.stop)
+            client = daemon.start()
+            while not all(device["scans"] for device in client.call("device.list")["devices"]):
+                time.sleep(0.02)
+            with self.assertRaisesRegex(RpcError, 'channel "A" comes from two devices, "one" and "two"; remove the channel'):
+                client.call("run.start", axis="X")
 
     def test_a_free_run_stopped_is_what_was_asked_for(self):
         watcher = self.watcher()

@@ -4,11 +4,11 @@
 #include <sys/un.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "daemon/measure/configuration/same_device.h"
 #include "daemon/measure/configuration/slow_channels.h"
+#include "daemon/measure/configuration/sources.h"
 #include "daemon/measure/forward_model.h"
 #include "daemon/measure/replay/replay.h"
 #include "daemon/paths.h"
@@ -202,7 +202,7 @@ Status check_rates(const TomlTable& table, const AxisConfig& axis, const Config&
 // Exactly one device of an axis must provide each channel of the rig. A replay or a simulated
 // device must be the only device of the axis.
 Status check_together(TomlTable& table, const AxisConfig& axis) {
-  std::map<std::string, std::string> source;
+  std::vector<ChannelSource> sources;
   for (const auto& device : axis.devices) {
     if (axis.devices.size() > 1 && (!device.live || device.simulated)) {
       table.reject("device", "\"" + device.name +
@@ -210,24 +210,15 @@ Status check_together(TomlTable& table, const AxisConfig& axis) {
                                  "allowed on this axis; remove the other devices of the axis");
       return {};
     }
-    for (const auto& channel : device.channels) {
-      const auto [other, fresh] = source.emplace(channel, device.name);
-      if (!fresh) {
-        table.reject("device", "channel \"" + channel + "\" comes from two devices, \"" +
-                                   other->second + "\" and \"" + device.name +
-                                   "\"; remove the channel from one of the two");
-      }
-    }
+    sources.push_back({device.name, device.channels});
   }
+  const auto reject = [&](const Status& checked) {
+    if (!checked) table.reject("device", checked.error().message);
+  };
+  reject(check_no_channel_twice(axis.rig, sources));
   const auto unknown = [](const auto& device) { return device.channels.empty(); };
   if (std::any_of(axis.devices.begin(), axis.devices.end(), unknown)) return {};
-  std::vector<std::string> needed = {kEncoderChannel};
-  for (const Probe& probe : axis.rig.probes) needed.push_back(probe.id);
-  for (const auto& channel : needed) {
-    if (!source.contains(channel))
-      table.reject("device", "no device provides channel \"" + channel + "\" of " +
-                                 axis.rig.source + "; add this channel to a device");
-  }
+  reject(check_all_channels(axis.rig, sources));
   return {};
 }
 

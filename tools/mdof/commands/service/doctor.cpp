@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "daemon/measure/configuration/sources.h"
 #include "daemon/rpc/line/client.h"
 #include "daemon/words/error_text.h"
 #include "drivers/registry.h"
@@ -38,15 +39,20 @@ bool on_usb(const drivers::DriverSpec& device) {
   return row && row->node && std::holds_alternative<drivers::UsbDevice>(*row->node);
 }
 
-Diagnosis diagnose(const drivers::DriverSpec& device) {
-  const DeviceFinding found = probe_device(device, kProbe_s, Interrupt::requested);
+Diagnosis diagnose(const drivers::DriverSpec& device, const DeviceFinding& found) {
   const std::string what = "device " + device.name + " (" + device.driver + ")";
   if (!found.error.empty()) return {Level::bad, what + ": " + found.error, ""};
   for (const auto& channel : found.channels) {
-    if (channel.values == 0)
-      return {Level::bad,
-              what + ": channel " + channel.id +
-                  " gives no usable value (worst quality: " + channel.worst + ")",
+    // Some sources have suspect times when they are opened.
+    if (channel.values == 0 ||
+        (channel.unusable > 0 && channel.worst != to_string(Quality::suspect)))
+      return {channel.values == 0 ? Level::bad : Level::doubtful,
+              what + ": channel " + channel.id + " gives " +
+                  (channel.values == 0
+                       ? "no usable value"
+                       : std::to_string(channel.unusable) + " of " + std::to_string(found.scans) +
+                             " values that are not usable") +
+                  " (worst quality: " + channel.worst + ")",
               "check the sensor and its wiring; show the values of the device with: mdof device "
               "monitor " +
                   device.name};
@@ -55,6 +61,23 @@ Diagnosis diagnose(const drivers::DriverSpec& device) {
       found.lost > 0 ? Level::doubtful : Level::good,
       what + ": " + std::to_string(found.scans) + " scans, " + std::to_string(found.lost) + " lost",
       found.lost > 0 ? "reduce the rate of the device, or the load of this computer" : ""};
+}
+
+// Whether the open devices of the axis provide each channel of its rig once. The columns of a
+// script are known only when it runs. Devices that failed are reported on their own.
+void add_sources(const daemon::AxisConfig& axis, const std::vector<DeviceFinding>& found,
+                 std::vector<Diagnosis>& all) {
+  std::vector<daemon::ChannelSource> sources;
+  for (const DeviceFinding& device : found) {
+    if (!device.error.empty()) return;
+    sources.push_back({device.name, {}});
+    for (const auto& channel : device.channels) sources.back().channels.push_back(channel.id);
+  }
+  for (const auto check : {daemon::check_no_channel_twice, daemon::check_all_channels})
+    if (const Status checked = check(axis.rig, sources); !checked)
+      all.push_back({Level::bad,
+                     std::string("axis ") + letter(axis.rig.axis) + ": " + checked.error().message,
+                     "correct the key \"channel\" of the devices, or the columns of the script"});
 }
 
 // The diagnosis of a device from the state that mdofd reports.
@@ -103,9 +126,15 @@ std::vector<Diagnosis> try_devices(const daemon::Config& config, const std::stri
   std::vector<Diagnosis> all = {
       {Level::good, "no mdofd answers at " + path.string() + ", so mdof opens the devices", ""}};
   const Interrupt interrupt;
-  for (const auto& axis : config.axes)
-    for (const auto& device : axis.devices)
-      if (device.live && !device.is_declared_elsewhere) all.push_back(diagnose(device));
+  for (const auto& axis : config.axes) {
+    std::vector<DeviceFinding> found;
+    for (const auto& device : axis.devices) {
+      if (!device.live || device.is_declared_elsewhere) continue;
+      found.push_back(probe_device(device, kProbe_s, Interrupt::requested));
+      all.push_back(diagnose(device, found.back()));
+    }
+    if (found.size() == axis.devices.size()) add_sources(axis, found, all);
+  }
   return all;
 }
 

@@ -14,7 +14,6 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kSlotsPerWindow = 4;
 constexpr double kAutoTolerance_m = 2e-6;
 // For noise with the standard deviation σ, the range of the medians of three readings over a window
 // is at most about 5 σ.
@@ -143,11 +142,8 @@ void DwellDetector::learn_period(const FrameBlock& frames) {
   std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
                    steps.end());
   period_ns_ = std::max<std::int64_t>(1, steps[steps.size() / 2]);
-  const auto quarter_ns = static_cast<std::int64_t>(options_.window_s * 1e9) /
-                          static_cast<std::int64_t>(kSlotsPerWindow);
-  slot_ns_ = std::max<std::int64_t>(quarter_ns, kMinScansPerSlot * period_ns_);
-  hole_ns_ =
-      std::max(static_cast<std::int64_t>(options_.window_s * 1e9), kHolePeriods * period_ns_);
+  slot_ns_ = std::max<std::int64_t>(shortest_slot_ns(), kMinScansPerSlot * period_ns_);
+  hole_ns_ = std::max(window_ns(), kHolePeriods * period_ns_);
   origin_ns_ = last_ns_ = frames.time_ns.front();
   summary_.period_s = ns_to_s(period_ns_);
 }

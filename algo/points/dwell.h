@@ -106,8 +106,9 @@ class DwellDetector {
  private:
   static constexpr std::size_t kMinScans = 5;  // fewest scans of a dwell, and of a probe in it
   static constexpr int kGapPeriods = 3;
+  static constexpr std::size_t kSlotsPerWindow = 4;
 
-  // The time step of the detection: a quarter of window_s.
+  // The time step of the detection: a quarter of window_s, or longer in a slow log.
   struct Slot {
     std::int64_t index = 0;
     std::size_t first_row = 0, rows = 0;  // in buffer_
@@ -130,7 +131,13 @@ class DwellDetector {
   void add_rows(std::size_t to);
   void close_slot(std::vector<Point>& out);
   double window_range() const;
-  bool window_still() const { return slots_.size() == 4 && window_range() <= summary_.tolerance_m; }
+  bool window_still() const {
+    return slots_.size() == kSlotsPerWindow && window_range() <= summary_.tolerance_m;
+  }
+  std::int64_t window_ns() const { return static_cast<std::int64_t>(options_.window_s * 1e9); }
+  std::int64_t shortest_slot_ns() const {
+    return window_ns() / static_cast<std::int64_t>(kSlotsPerWindow);
+  }
   void pass_hole();
   void examine_window(bool still);
   void find_encoder_jump();

@@ -10,10 +10,9 @@
 namespace mdof::algo {
 namespace {
 
-// The axis has reversed if it moved back by more than the larger of these values: the tolerances
-// are for the noise of the encoder.
+// The axis has reversed if it moved back by more than this and kLeastTurn_m: the tolerances are for
+// the noise of the encoder.
 constexpr double kTurnTolerances = 5;
-constexpr double kLeastTurn_m = 10e-6;
 constexpr double kGreatest_m_s2 = 10;  // a larger acceleration is an error of the encoder
 constexpr double kJumpTolerances = 10;
 constexpr std::size_t kReach = 6;  // rows that find_jump() needs before and after a jump
@@ -43,7 +42,7 @@ bool DwellDetector::continues_stop(double position_m) const {
   if (left_ns_ == 0 || std::abs(position_m - left_m_) >= options_.approach_m) return false;
   const double up_m = range_since_stop_.max_m - left_m_, down_m = left_m_ - range_since_stop_.min_m;
   const double farther_m = std::max(up_m, down_m);
-  const bool is_slow = slot_ns_ > static_cast<std::int64_t>(options_.window_s * 1e9) / 4;
+  const bool is_slow = slot_ns_ > shortest_slot_ns();
   if (is_slow && farther_m > options_.approach_m) return false;
   const bool both_sides = 2 * std::min(up_m, down_m) >= farther_m;
   if (slots_.front().begin_ns - left_ns_ > 2 * slot_ns_)
@@ -63,7 +62,7 @@ void DwellDetector::examine_window(bool still) {
   resolution_.add(buffer_, newest.first_row, newest.first_row + newest.rows);
   watch_.take_newest(buffer_, newest.first_row, newest.first_row + newest.rows, newest.min_m,
                      newest.max_m);
-  if (slots_.size() < 4) return;
+  if (slots_.size() < kSlotsPerWindow) return;
   const auto creep = slow_.take({slots_.front().begin_ns, newest.begin_ns, slots_.front().middle(),
                                  newest.middle(), window_range(), still},
                                 summary_.tolerance_m, options_.shortest_s(), kSlowTravel_m);

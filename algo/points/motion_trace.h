@@ -8,6 +8,9 @@
 
 namespace mdof::algo {
 
+// A smaller motion back is not a reversal of the axis.
+inline constexpr double kLeastTurn_m = 10e-6;
+
 // Two measures of the motion. The path consists of positions that are far apart, so the noise of
 // the encoder does not change it. The last motion is found from all positions. It also shows an
 // overrun of an end target that is smaller than the distances of the path.

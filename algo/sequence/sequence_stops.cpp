@@ -7,6 +7,7 @@
 
 #include "algo/points/flags.h"
 #include "algo/points/median.h"
+#include "algo/points/motion_trace.h"
 
 namespace mdof::algo {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 constexpr double kMinStep_m = 2e-6;      // stops at smaller distances are always one target
 constexpr double kMaxScatter_m = 50e-6;  // groups with a larger range are never one target
 constexpr double kStepToScatter = 10;
-constexpr double kLeastTurn_m = 10e-6;       // smaller motions from a stop and back are no approach
 constexpr double kLeastOvershoot_m = 40e-6;  // smaller overshoots do not change the approach
 
 // Returns the largest distance of neighbouring sorted positions that belong to one target.

@@ -116,21 +116,20 @@ BudgetLine artefact_line(const SquareArtefact& artefact, int sign) {
 
 struct TwoRuns {
   RunBudgets a, b;
-  double tilt_rad = 0;  // square_tilt_rad()
 };
 
 Figure slope_along(Axis of, Axis along) {
   return slope_figure(of, straightness_along(of, along));
 }
 
-Budget squareness_budget(AxisPair axes, const TwoRuns& runs, const SquareArtefact& artefact,
-                         const TrialsRequest& request) {
+Budget squareness_budget(AxisPair axes, const TwoRuns& runs, double tilt_rad,
+                         const SquareArtefact& artefact, const TrialsRequest& request) {
   const int sign = squareness_sign(axes);
   const double factor = -sign;
   TwoSlopes both({std::string(1, letter(axes.a)), runs.a, slope_along(axes.a, axes.b), factor},
                  {std::string(1, letter(axes.b)), runs.b, slope_along(axes.b, axes.a), factor});
   both.budget().figure = std::string(squareness_name(axes)) + "_urad";
-  both.budget().value += sign * artefact.corner * artefact.angle_error_rad + runs.tilt_rad;
+  both.budget().value += sign * artefact.corner * artefact.angle_error_rad + tilt_rad;
   if (artefact.u_rad.value_or(0) > 0)
     both.add(artefact_line(artefact, sign), {1});
   else if (!artefact.u_rad)
@@ -148,7 +147,7 @@ Result<TwoRuns> two_runs(const Rig& rig_a, const Run& run_a, const Rig& rig_b, c
   MDOF_TRY(auto of_a, contributors(rig_a, at_a));
   MDOF_TRY(auto of_b, contributors(rig_b, at_b));
   const TwoRunParts parts = parts_of_both_runs(of_a, rig_a.axis, of_b, rig_b.axis);
-  TwoRuns both{{rig_a, at_a}, {rig_b, at_b}, 0};
+  TwoRuns both{{rig_a, at_a}, {rig_b, at_b}};
   for (std::size_t i = 0; i < of_a.size(); ++i) both.a.add(of_a[i], parts.a[i]);
   for (std::size_t i = 0; i < of_b.size(); ++i) both.b.add(of_b[i], parts.b[i]);
   return both;
@@ -159,19 +158,19 @@ Result<TwoRuns> two_runs(const Rig& rig_a, const Run& run_a, const Rig& rig_b, c
 Result<Budget> squareness_budget(const Rig& rig_a, const Run& run_a, const Rig& rig_b,
                                  const Run& run_b, const SquareArtefact& artefact,
                                  const TrialsRequest& request) {
-  MDOF_TRY(TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b));
-  runs.tilt_rad = square_tilt_rad(run_a, run_b, {rig_a.axis, rig_b.axis});
-  return squareness_budget({rig_a.axis, rig_b.axis}, runs, artefact, request);
+  MDOF_TRY(const TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b));
+  const AxisPair axes{rig_a.axis, rig_b.axis};
+  return squareness_budget(axes, runs, square_tilt_rad(run_a, run_b, axes), artefact, request);
 }
 
 Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_a, const Run& run_a,
                                                            const Rig& rig_b, const Run& run_b,
                                                            const SquareArtefact& artefact,
                                                            const StatedPair& at) {
-  MDOF_TRY(TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b, at));
+  MDOF_TRY(const TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b, at));
   const AxisPair axes{rig_a.axis, rig_b.axis};
-  runs.tilt_rad = square_tilt_rad(run_a, run_b, axes);
-  return std::array{squareness_budget(axes, runs, artefact, {}),
+  const double tilt_rad = square_tilt_rad(run_a, run_b, axes);
+  return std::array{squareness_budget(axes, runs, tilt_rad, artefact, {}),
                     runs.a.of(slope_along(axes.a, axes.b)), runs.b.of(slope_along(axes.b, axes.a))};
 }
 

@@ -27,9 +27,7 @@ Covariance5 coefficients(const Covariance5& covariance) {
 // Returns the covariance of the five errors of a point if all probes have the same noise.
 // References are not subtracted.
 Result<Covariance5> of_noise(const Rig& rig, const Run& run) {
-  Model model = Model::rigid;
-  model_from(run.header.provenance.model, model);
-  MDOF_TRY(const Solver solver, Solver::create(rig, model));
+  MDOF_TRY(const Solver solver, Solver::create(rig, model_of(run)));
   Covariance5 sum{};
   for (const PointSensitivity& point : point_sensitivities(solver, run)) {
     if (!point.valid) continue;

@@ -11,8 +11,9 @@ namespace {
 
 // Converts shifts of the errors from the reference point "fixture" to the reference point of the
 // run.
-PointShifts restated(const PointShifts& at_fixture, const Run& run, Model model) {
+PointShifts restated(const PointShifts& at_fixture, const Run& run) {
   if (run.header.stated == kAtFixture) return at_fixture;
+  const Model model = model_of(run);
   PointShifts shifts(at_fixture.size());
   for (std::size_t j = 0; j < shifts.size(); ++j) {
     const MeasuredPoint& p = run.points[j];
@@ -34,13 +35,10 @@ PointShifts restated(const PointShifts& at_fixture, const Run& run, Model model)
 
 std::vector<Contributor> removed_drift(const Run& run) {
   if (!run_options(run.header).remove_drift) return {};
-  Model model = Model::rigid;
-  model_from(run.header.provenance.model, model);
   const std::vector<MeasuredPoint> points = restate(run, kAtFixture).points;
   const DriftOfRun drift(points);
   std::vector<PointShifts> parts;
-  for (const PointShifts& part : drift.removal_shifts(points))
-    parts.push_back(restated(part, run, model));
+  for (const PointShifts& part : drift.removal_shifts(points)) parts.push_back(restated(part, run));
   if (parts.empty()) return {};
   Contributor removed;
   removed.name = {ContributorKind::removed_drift};

@@ -9,12 +9,6 @@
 namespace mdof::algo {
 namespace {
 
-Model model_of(const Run& run) {
-  Model model = Model::rigid;
-  model_from(run.header.provenance.model, model);
-  return model;
-}
-
 // The run with the straightness in the frame of the square, Rᵀ (d x̂ + δ).
 Run in_square(const Run& measured) {
   Run run = restate(measured, kAtCarriage);

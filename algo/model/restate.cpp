@@ -54,10 +54,15 @@ AxisErrors restate(const AxisErrors& errors, Model model, const MovingAxis& movi
   return out;
 }
 
-Run restate(Run run, const StatedAt& to) {
-  if (run.header.stated == to) return run;
+Model model_of(const Run& run) {
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);
+  return model;
+}
+
+Run restate(Run run, const StatedAt& to) {
+  if (run.header.stated == to) return run;
+  const Model model = model_of(run);
   const MovingAxis moving = run.header.moving();
   for (MeasuredPoint& p : run.points) {
     const double travel_m = moving.sides.target_travel_m(p.point.position_m);

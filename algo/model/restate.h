@@ -15,6 +15,10 @@
 
 namespace mdof::algo {
 
+// Returns the model that calculated the errors of the run; rigid if the run names no model, such as
+// an imported run.
+Model model_of(const Run& run);
+
 // Returns P in the local frame of the axis, m, after a travel d = travel_m of the target.
 Eigen::Vector3d reference_point(const StatedAt& at, Axis axis, double travel_m);
 

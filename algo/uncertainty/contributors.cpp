@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "algo/drift/removed_drift.h"
+#include "algo/model/restate.h"
 #include "algo/model/rigid.h"
 #include "algo/model/small_rotation.h"
 #include "algo/model/solver.h"
@@ -371,8 +372,7 @@ Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   if (run.points.empty())
     return bad_input(name_of(run) + " has no points, so no budget can be calculated");
   std::vector<Contributor> own = removed_drift(run);  // contributors that do not come from the rig
-  Model model = Model::rigid;
-  model_from(run.header.provenance.model, model);
+  const Model model = model_of(run);
   if (auto left_out = model_contributor(rig, run, model)) own.push_back(std::move(*left_out));
   if (!rig.declares_uncertainty()) return own;
   MDOF_TRY(Solver solver, Solver::create(rig, model));

@@ -172,8 +172,7 @@ Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
   };
   std::map<int, Sum> targets;
   double read_m = 0;
-  Model solved = Model::rigid;
-  model_from(run.header.provenance.model, solved);
+  const Model solved = algo::model_of(run);
   for (const MeasuredPoint& p : run.points) {
     if (!p.errors.valid) continue;
     const AxisErrors of_target = algo::errors_of_target(p.errors, solved, run.header.moving());

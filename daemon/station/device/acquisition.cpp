@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "daemon/paths.h"
 #include "daemon/words/error_text.h"
 #include "drivers/long_step.h"
+#include "schema/base/number/number_text.h"
 #include "schema/base/thread_start.h"
 
 namespace mdof::daemon {
@@ -22,17 +22,6 @@ constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{250};
 constexpr milliseconds kFullQueueSleep{10}, kRefresh{1000};
 // Largest time for opening and set-up of a device. The watchdog must not end mdofd in this time.
 constexpr milliseconds kOpening{20'000};
-
-// The sampling rate is checked over kWindow. A device becomes slow below kSlowShare of its nominal
-// rate. The device is no longer slow above kRecoveredShare of this rate.
-constexpr std::chrono::seconds kWindow{5};
-constexpr double kSlowShare = 0.8, kRecoveredShare = 0.95;
-
-std::string with_one_decimal(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", x);
-  return text;
-}
 
 // Returns 3/4 to 4/4 of the waiting time. Devices that failed at the same time are then not opened
 // at the same time.
@@ -155,8 +144,7 @@ bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
     return false;
   }
   set_state("open");
-  window_end_ = steady_clock::now() + kWindow;
-  scans_in_window_ = lost_in_window_ = 0;
+  rate_.begin(steady_clock::now());
   refresh_info(driver);
   just_opened_ = true;
   // Some drivers begin a new clock, whose number of steps is 0. This is no jump.
@@ -299,36 +287,20 @@ bool Acquisition::recover(const SampleBlock& block) {
     status_.recovered_utc = utc_now();
   }
   std::string text =
-      "the device sends samples again after a break of " + with_one_decimal(away.count()) + " s";
+      "the device sends samples again after a break of " + plain_number(away.count(), 2) + " s";
   if (block.lost > 0) text += "; scans lost in this time: " + std::to_string(block.lost);
   report(Trouble::Kind::back, text);
   return true;
 }
 
-// Reports that the rate is lower than the nominal rate of the device, or that scans were lost.
 void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
-  scans_in_window_ += scans;
-  lost_in_window_ += lost;
   const auto now = steady_clock::now();
-  if (!spec_.live || now < window_end_) return;
+  if (!rate_.take(now, scans, lost) || !spec_.live) return;
   const DeviceStatus is = status();
-  const double window_s = std::chrono::duration<double>(now - window_end_ + kWindow).count();
-  const double rate_hz = static_cast<double>(scans_in_window_) / window_s;
   const bool was_slow = std::any_of(is.standing.begin(), is.standing.end(),
                                     [](const Trouble& t) { return t.kind == Trouble::Kind::slow; });
-  const bool slow =
-      lost_in_window_ > 0 || rate_hz < (was_slow ? kRecoveredShare : kSlowShare) * is.info.rate_hz;
-  if (slow && !was_slow) {
-    report(Trouble::Kind::slow,
-           "the device sends " + with_one_decimal(rate_hz) + " scans per second instead of " +
-               with_one_decimal(is.info.rate_hz) + ", and " + std::to_string(lost_in_window_) +
-               " scans were lost in 5 s; check the network or cable and the "
-               "load of this computer, or lower the rate of the device");
-  }
-  if (was_slow && !slow)
-    report(Trouble::Kind::back, "the device sends at its full rate again, and no scans are lost");
-  window_end_ = now + kWindow;
-  scans_in_window_ = lost_in_window_ = 0;
+  if (const auto trouble = rate_.judge(now, is.info.rate_hz, was_slow))
+    report(trouble->kind, trouble->text);
 }
 
 // Adds to block.lost the dropped scans, and the scans that were lost while the device was not open.

@@ -16,6 +16,7 @@
 
 #include "daemon/station/device/device_reader.h"
 #include "daemon/station/device/position_watch.h"
+#include "daemon/station/device/rate_watch.h"
 #include "daemon/station/device/trouble.h"
 #include "drivers/driver_spec.h"
 #include "schema/sample.h"
@@ -85,9 +86,8 @@ class Acquisition final : public DeviceReader {
   int marks_passed_ = 0;
   bool clock_is_uncertain_ = false;
   std::uint64_t clock_steps_ = 0;
-  std::chrono::steady_clock::time_point window_end_;  // end of the window of watch_rate()
-  std::uint64_t scans_in_window_ = 0, lost_in_window_ = 0;
   PositionWatch position_;
+  RateWatch rate_;
 
   std::uint64_t pass_ = 0;  // number of the pass; only start() changes it
   std::thread thread_;

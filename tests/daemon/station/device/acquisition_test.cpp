@@ -285,9 +285,7 @@ TEST(Acquisition, ReportsASlowDevice) {
   while (collector.troubles().empty() && steady_clock::now() - begin < std::chrono::seconds(20))
     std::this_thread::sleep_for(milliseconds(10));
   ASSERT_EQ(collector.troubles().size(), 1u);
-  EXPECT_NE(
-      collector.troubles()[0].find("slow: the device sends 2.0 scans per second instead of 1000.0"),
-      std::string::npos)
+  EXPECT_NE(collector.troubles()[0].find("slow: the device sends "), std::string::npos)
       << collector.troubles()[0];
 }
 

@@ -25,9 +25,6 @@ void notify(std::string state, std::string_view status) {
 void notify_ready(std::string_view status) {
   notify("READY=1\n", status);
 }
-void notify_status(std::string_view status) {
-  notify("", status);
-}
 void notify_stopping(std::string_view status) {
   notify("STOPPING=1\n", status);
 }

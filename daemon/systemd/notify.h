@@ -11,10 +11,8 @@
 
 namespace mdof::systemd {
 
-// Notify systemd that mdofd is ready, has a new status, or is stopping. `systemctl status mdofd`
-// shows `status`.
+// Notify systemd that mdofd is ready or is stopping. `systemctl status mdofd` shows `status`.
 void notify_ready(std::string_view status);
-void notify_status(std::string_view status);
 void notify_stopping(std::string_view status);
 
 // The longest interval between two calls of feed_watchdog(). It is half of WatchdogSec. nullopt: no

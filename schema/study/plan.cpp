@@ -1,10 +1,10 @@
 #include "schema/study/plan.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 #include "schema/axis.h"
-#include "schema/base/files.h"
 #include "schema/base/number/number_text.h"
 #include "schema/base/toml/toml_reader.h"
 #include "schema/study/plan_parts.h"
@@ -108,11 +108,6 @@ Result<StudyPlan> parse_study_plan(std::string_view toml_text, const std::string
   read_analyses(table, folder, plan);
   MDOF_CHECK(table.finish());
   return plan;
-}
-
-Result<StudyPlan> load_study_plan(const Path& file) {
-  MDOF_TRY(const std::string text, read_text_file(file));
-  return parse_study_plan(text, file.string());
 }
 
 }  // namespace mdof

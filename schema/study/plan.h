@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -138,7 +137,6 @@ struct StudyPlan {
 // plan. Errors name file, line and key; the error for an unknown word names the most similar known
 // word. Mathematical errors (a rig that cannot determine an error, an invalid correlation matrix)
 // are found later, by make_plan_experiment().
-Result<StudyPlan> load_study_plan(const std::filesystem::path& file);
 Result<StudyPlan> parse_study_plan(std::string_view toml_text, const std::string& source_name);
 
 }  // namespace mdof

@@ -9,12 +9,17 @@
 
 #include "algo/model/small_angle/small_angle.h"
 #include "algo/sensitivity/plan/mounting.h"
+#include "schema/base/files.h"
 #include "tests/algo/sensitivity/plan_text.h"
 
 namespace mdof::algo {
 namespace {
 
 constexpr const char* kFolder = MDOF_TEST_DATA "/sensitivity/";
+
+std::string example(const std::string& name) {
+  return read_text_file(kFolder + name + ".toml").value();
+}
 
 StudyPlan plan_of(const std::string& text) {
   auto plan = parse_study_plan(text, std::string(kFolder) + "plan.toml");
@@ -91,11 +96,8 @@ std::string constant(const std::string& name, double value) {
 constexpr std::size_t kEYX = 0, kEZX = 1, kEAX = 2, kEBX = 3, kECX = 4;
 
 TEST(PlanExperiment, SimulationIAgreesWithTheory) {
-  auto plan = load_study_plan(std::string(kFolder) + "simulation_1.toml");
-  ASSERT_TRUE(plan) << plan.error().message;
-  const auto e = make_plan_experiment(*plan);
-  ASSERT_TRUE(e) << e.error().message;
-  const auto x = run(**e, 200'000);
+  const auto e = experiment_of(example("simulation_1"));
+  const auto x = run(*e, 200'000);
   // Theory by algo/sensitivity/README.md: products of two uniform numbers.
   const double l2 = 20e-3;                        // the length l''
   const double a2 = 1e-6 / 3, d2 = 2500e-12 / 3;  // variance of an angle; of an offset
@@ -320,9 +322,7 @@ TEST(PlanExperiment, AnotherQuantityChangesNoOtherNumber) {
 }
 
 std::unique_ptr<ScalableExperiment> mounting() {
-  const auto plan = load_study_plan(std::string(kFolder) + "mounting.toml");
-  EXPECT_TRUE(plan) << (plan ? "" : plan.error().message);
-  return std::move(*make_plan_experiment(*plan));
+  return experiment_of(example("mounting"));
 }
 
 TEST(PlanExperiment, SingleTrialEqualsTheBatch) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "schema/base/files.h"
 #include "schema/study/distribution.h"
 
 namespace mdof {
@@ -17,6 +18,11 @@ const std::string kHead = "name = \"t\"\nrig = \"../five-probe/rig_X.toml\"\n";
 std::string error_of(const std::string& text) {
   const auto plan = parse_study_plan(text, kFolder + "plan.toml");
   return plan ? "no error" : plan.error().message;
+}
+
+Result<StudyPlan> example(const std::string& name) {
+  const std::string file = kFolder + name + ".toml";
+  return parse_study_plan(read_text_file(file).value(), file);
 }
 
 std::string quantity(const std::string& rest, const std::string& name = "probe.A.x_um") {
@@ -32,13 +38,13 @@ const PlannedQuantity& quantity_of(const StudyPlan& plan, const std::string& nam
 
 TEST(StudyPlan, ReadsTheExamples) {
   for (const char* file : {"simulation_1", "mounting", "squareness", "whole_run"}) {
-    const auto plan = load_study_plan(kFolder + file + ".toml");
+    const auto plan = example(file);
     EXPECT_TRUE(plan) << plan.error().message;
   }
 }
 
 TEST(StudyPlan, ReadsACompletePlan) {
-  const auto plan = load_study_plan(kFolder + "mounting.toml").value();
+  const auto plan = example("mounting").value();
   EXPECT_EQ(plan.name, "mounting of the five-probe fixture");
   EXPECT_EQ(plan.rig.probes.size(), 5U);
   EXPECT_EQ(plan.model, Model::exact);

@@ -13,8 +13,4 @@ namespace mdof::tools {
 Result<std::string> call_daemon(const std::string& socket, std::string_view method,
                                 std::string_view params = "{}");
 
-// Sends the request and prints the result as JSON or as text.
-Status print_call(const std::string& socket, std::string_view method, std::string_view params,
-                  bool json);
-
 }  // namespace mdof::tools

@@ -2,7 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
+#include "algo/form/clamping.h"
 #include "algo/form/registration.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
@@ -32,6 +34,8 @@ algo::Register register_from(const std::string& name) {
 
 struct Compared {
   algo::Comparison found;
+  // Set if B, mirrored, is closer to A than in the pose found.
+  std::optional<algo::MirroredMatch> mirrored;
   std::size_t measured = 0;  // pixels of A
   double pixel_m = 0;        // smaller pitch of A in x and y
 };
@@ -46,6 +50,11 @@ Notices notices_of(const Compared& compared, const FormCompareCommand& o) {
   if (has_few_common_pixels(found.pixels, compared.measured))
     notices.push_back(notice(NoticeCode::map_pixels_not_compared, o.a,
                              {{"compared", found.pixels}, {"measured", compared.measured}}));
+  if (compared.mirrored)
+    notices.push_back(notice(NoticeCode::map_matches_mirrored, o.b,
+                             {{"mirrored", compared.mirrored->mirrored},
+                              {"rms_um", to_um(found.rms_m)},
+                              {"mirrored_rms_um", to_um(compared.mirrored->mirrored_rms_m)}}));
   if (found.undetermined > 0)
     notices.push_back(
         notice(NoticeCode::map_movements_undetermined, o.a, {{"directions", found.undetermined}}));
@@ -55,6 +64,16 @@ Notices notices_of(const Compared& compared, const FormCompareCommand& o) {
                {{"moved_mm", to_mm(found.moved_m)},
                 {"removed_percent", std::max(0.0, 100 * (1 - found.residual_ratio))}}));
   return notices;
+}
+
+// The search takes several seconds for the largest maps.
+constexpr std::size_t kMostForMirrored = 4'000'000;
+
+std::optional<algo::MirroredMatch> mirrored_match(const SurfaceMap& a, const SurfaceMap& b,
+                                                  const algo::Comparison& found) {
+  if (b.z_m.size() > kMostForMirrored || found.residual_ratio <= kMuchLeft) return {};
+  const auto match = algo::mirrored_match(a, b);
+  return match && match->mirrored_rms_m < kMuchLeft * found.rms_m ? match : std::nullopt;
 }
 
 std::string compare_json(const Compared& compared, const FormCompareCommand& o) {
@@ -101,6 +120,7 @@ Status form_compare(const FormCompareCommand& o) {
   MDOF_TRY(compared.found, algo::compare(a, b, register_from(o.register_how)));
   compared.measured = a.measured();
   compared.pixel_m = std::min(a.dx_m, a.dy_m);
+  compared.mirrored = mirrored_match(a, b, compared.found);
   const algo::Comparison& found = compared.found;
   show_notices(notices_of(compared, o), true);
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));

@@ -202,6 +202,7 @@ void warn_of_differences_from_surface(const FoundPath& found, const FormPathComm
 // Limits for notices. If a part is long and narrow, the spiral is beside the part for most of each
 // turn. There the path bridges a gap, and its stroke may be a little larger than on the part.
 constexpr double kMostlyBridged = 0.9, kLargerBridgedStroke = 1.1;
+constexpr double kLeastStroke_m = 1e-12;  // a smaller stroke is rounding
 
 Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
   const algo::SpiralRequest& request = found.request;
@@ -219,7 +220,8 @@ Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
   if (static_cast<double>(counts.bridged) > kMostlyBridged * static_cast<double>(counts.points))
     notices.push_back(notice(NoticeCode::path_mostly_bridged, o.map,
                              {{"bridged", counts.bridged}, {"points", counts.points}}));
-  if (counts.bridged > 0 && found.stroke_m > kLargerBridgedStroke * found.stroke_on_part_m)
+  if (counts.bridged > 0 &&
+      found.stroke_m > std::max(kLeastStroke_m, kLargerBridgedStroke * found.stroke_on_part_m))
     notices.push_back(notice(
         NoticeCode::path_stroke_bridged, o.map,
         {{"stroke_um", to_um(found.stroke_m)}, {"on_part_um", to_um(found.stroke_on_part_m)}}));

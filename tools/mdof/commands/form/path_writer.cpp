@@ -1,6 +1,7 @@
 #include "tools/mdof/commands/form/path_writer.h"
 
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -17,8 +18,10 @@ constexpr std::size_t kPiece = std::size_t{1} << 20;
 }  // namespace
 
 PathForm path_form(const std::string& file) {
+  std::string lower;
+  for (const char c : file) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const char* end : {".ngc", ".nc", ".gcode", ".tap"})
-    if (file.ends_with(end)) return PathForm::gcode;
+    if (lower.ends_with(end)) return PathForm::gcode;
   return PathForm::table;
 }
 

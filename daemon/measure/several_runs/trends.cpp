@@ -92,9 +92,10 @@ void choose_kind(Chosen& chosen, bool mixed) {
   std::erase_if(chosen.runs, [&](const RunHeader& run) { return kind_of(run) != kind; });
 }
 
-Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
+Result<Chosen> choose(store::Store& store, Axis axis, const TrendRequest& request) {
+  const bool mixed = request.mixed;
   Chosen chosen;
-  std::vector<std::int64_t> simulated, partial, invalid, superseded, again, imported;
+  std::vector<std::int64_t> simulated, partial, invalid, superseded, again, imported, unwanted;
   std::set<std::string> recordings;
   std::map<std::string, std::string> contents;  // of the rigs
   for (std::int64_t offset = 0;; offset += kRunsPage) {
@@ -120,6 +121,8 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
         invalid.push_back(run.id);
       else if (!recording.empty() && !recordings.insert(recording).second)
         again.push_back(run.id);
+      else if (std::count(request.without.begin(), request.without.end(), run.id) > 0)
+        unwanted.push_back(run.id);
       else
         chosen.runs.push_back(std::move(run));
     }
@@ -131,6 +134,7 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
   leave_out(chosen.left_out, invalid, "marked as invalid by a notice");
   leave_out(chosen.left_out, superseded, "superseded");
   leave_out(chosen.left_out, again, "a newer run of the same recording exists");
+  leave_out(chosen.left_out, unwanted, "left out on request");
   std::sort(chosen.runs.begin(), chosen.runs.end(), earlier);
   choose_kind(chosen, mixed);
   const auto undated = std::count_if(
@@ -196,7 +200,7 @@ Status add_axis(store::Store& store, Axis axis, const TrendRequest& request,
   if (!request.figure.empty())
     std::erase_if(figures, [&](const auto& figure) { return figure.name != request.figure; });
   if (figures.empty()) return {};
-  MDOF_TRY(const Chosen chosen, choose(store, axis, request.mixed));
+  MDOF_TRY(const Chosen chosen, choose(store, axis, request));
   std::vector<Trend> of_axis;
   for (const algo::Figure& figure : figures)
     of_axis.push_back(
@@ -211,8 +215,8 @@ Status add_axis(store::Store& store, Axis axis, const TrendRequest& request,
 // Uses the newest squareness fit of each pair of runs that a chart may contain.
 Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& request,
                       std::vector<Trend>& out) {
-  MDOF_TRY(const Chosen a, choose(store, axes.a, request.mixed));
-  MDOF_TRY(const Chosen b, choose(store, axes.b, request.mixed));
+  MDOF_TRY(const Chosen a, choose(store, axes.a, request));
+  MDOF_TRY(const Chosen b, choose(store, axes.b, request));
   std::map<std::int64_t, const RunHeader*> allowed;
   for (const auto* chosen : {&a, &b})
     for (const RunHeader& run : chosen->runs) allowed[run.id] = &run;
@@ -283,6 +287,7 @@ Status check_figure(const TrendRequest& request) {
 
 Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& request) {
   MDOF_CHECK(check_figure(request));
+  for (const std::int64_t run : request.without) MDOF_CHECK(store.run_header(run));
   std::vector<Trend> out;
   for (const AxisPair axes : kAxisPairs)
     if (!request.axis && (request.figure.empty() || request.figure == figure_of(axes)))

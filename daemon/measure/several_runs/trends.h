@@ -24,7 +24,8 @@ struct TrendRequest {
                        // empty: all figures
   // Number of first values that determine the limits of the chart. 0: all values except the last.
   std::size_t baseline = 0;
-  bool mixed = false;  // also use runs with other rigs, models or options
+  bool mixed = false;                 // also use runs with other rigs, models or options
+  std::vector<std::int64_t> without;  // runs that are not used
 };
 
 struct TrendValue {

@@ -7,6 +7,7 @@
 #include "daemon/output/charts/plot_files.h"
 #include "daemon/output/charts/run/control_chart.h"
 #include "daemon/words/words.h"
+#include "schema/base/append_new.h"
 #include "schema/notice/notice_json.h"
 #include "schema/sample.h"
 #include "schema/uncertainty/run_uncertainty.h"
@@ -16,6 +17,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 
@@ -29,6 +31,7 @@ struct TrendCommand {
   std::string database, axis, figure, plots;
   std::size_t baseline = 0;
   bool mixed = false, all = false, csv = false, json = false;
+  std::vector<std::int64_t> without;
 };
 
 std::string runs_of(const daemon::TrendValue& value) {
@@ -178,10 +181,12 @@ std::string csv_of(const std::vector<daemon::Trend>& trends) {
 
 Status trend(const TrendCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const auto found, daemon::trends(store, {axis_from(command.axis), command.figure,
-                                                    command.baseline, command.mixed}));
-  for (const daemon::Trend& of : found)
-    for (const Notice& each : of.notices) warn(of.figure + ": " + words::line(each));
+  MDOF_TRY(const auto found,
+           daemon::trends(store, {axis_from(command.axis), command.figure, command.baseline,
+                                  command.mixed, command.without}));
+  Notices notices;  // those of several figures only once
+  for (const daemon::Trend& of : found) append_new(notices, of.notices);
+  show_notices(notices, true);
   if (command.csv)
     for (const daemon::Trend& of : found)
       for (const std::string& why : of.left_out) warn(of.figure + ": left out: " + why);
@@ -215,6 +220,12 @@ Action declare_trend(CLI::App& command) {
   command.add_flag("--all", o->all, "Show the values of all runs, not only the last value");
   command.add_flag("--mixed", o->mixed,
                    "Combine runs even if they differ in rig, model or evaluation options");
+  command
+      .add_option("--without", o->without,
+                  "Leave out these runs, for example a run with a known fault of the set-up")
+      ->type_name("RUN")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
   add_database_option(command, o->database);
   add_plot_option(command, o->plots);
   add_csv_and_json_flags(command, o->csv, o->json);
@@ -233,6 +244,7 @@ Command trend_command() {
           "control limits, or is at least the eighth value in a row on one side of the centre.\n"
           "Examples:\n"
           "  mdof trend --figure EC0Y_urad\n"
+          "  mdof trend --axis X --without 7\n"
           "  mdof trend --axis X --csv > trend_X.csv",
       .declare = declare_trend};
 }

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <type_traits>
 
 namespace mdof::rpc {
 namespace {
@@ -54,9 +55,22 @@ Status remove_stale(const std::string& path) {
   return {};
 }
 
+// Remedy for an error of bind() to a TCP port; "": none.
+const char* port_remedy(int number) {
+  if (number == EADDRINUSE)
+    return "; another program (perhaps mdofd) uses this port: end that program, or choose another "
+           "port";
+  return number == EACCES ? "; choose a port from 1024 to 65535" : "";
+}
+
 template <class Address>
 Status bind_and_listen(int fd, Address& address, socklen_t size, const std::string& where) {
-  if (::bind(fd, as_sockaddr(address), size) != 0) return cannot(where + ": cannot bind", errno);
+  if (::bind(fd, as_sockaddr(address), size) != 0) {
+    constexpr bool is_unix = std::is_same_v<Address, sockaddr_un>;
+    const int why = errno;
+    return io_error(where + ": cannot bind: " + system_error_text(why) +
+                    (is_unix ? "" : port_remedy(why)));
+  }
   if (::listen(fd, kBacklog) != 0) return cannot(where + ": cannot listen", errno);
   return {};
 }

@@ -216,7 +216,7 @@ class Http(unittest.TestCase):
     def test_only_one_has_the_port(self):
         with tempfile.TemporaryDirectory() as folder:
             other = Daemon(MDOFD, folder, f'[http]\nlisten = "127.0.0.1:{self.port}"\n' + simulator())
-            with self.assertRaisesRegex(RuntimeError, r"mdofd.toml:\d+: http.listen: .*Address already in use"):
+            with self.assertRaisesRegex(RuntimeError, r"mdofd.toml:\d+: http.listen: .*Address already in use; .*choose another port"):
                 other.start()
             self.assertIsNotNone(other.process.poll())
 

@@ -110,6 +110,10 @@ Status form_cut(const FormCutCommand& o) {
     return fail(ErrorCode::usage,
                 "--gain optimal: the random error of a pass is unknown; give --random-um, or two "
                 "or more passes with --repeated");
+  if (o.gain != "optimal" && o.random_um)
+    return fail(ErrorCode::usage,
+                "--random-um is used only with --gain optimal; add this option or leave out "
+                "--random-um");
   MDOF_CHECK(check_out(o.out, {o.wanted}));
   MDOF_CHECK(check_out(o.out, o.cuts));
   algo::CuttingPasses passes;

@@ -259,6 +259,9 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   run->header.note = asked.note;
   append(run->header.notices, log.notices());
   append(run->header.notices, asked.notices);
+  if (const std::string text = stated("started:", log.comments());
+      !text.empty() && log.started_utc().empty())
+    run->header.notices.push_back(notice(NoticeCode::log_start_unread, "", {{"text", text}}));
   append(run->header.notices, overdue_on_day_of(log, rig));
   append(run->header.notices, calibration_notices(rig));
   append(run->header.notices, drivers::unused_scales(rig, log.driver().info().channels));

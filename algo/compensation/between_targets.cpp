@@ -17,9 +17,8 @@ constexpr double kFew = 5;  // with fewer values the scatter of the curvature is
 constexpr double kFewValuesRatio = 2;
 // Weight of the mean square of all second differences; a nearby second difference has weight 1.
 constexpr double kOverallWeight = 6;
-// A second difference over a distance much shorter than an interval shows the noise and short
-// waves, not the curvature over the interval. This is the shortest distance, as a share of the
-// interval.
+// A second difference over a distance much shorter than an interval may show only noise. This is
+// the shortest distance that is not much shorter, as a share of the interval.
 constexpr double kLeastSpanShare = 0.5;
 
 struct Finite {
@@ -107,12 +106,16 @@ std::vector<double> curvatures(const std::vector<double>& position_m,
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto above = std::upper_bound(f.x.begin(), f.x.end(), position_m[i]) - f.x.begin();
     const auto right = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1));
+    const auto curvature = [&](const Roughness& rough, double least_span) {
+      const SquareSum near = squares(f, right < 2 ? 0 : right - 2, right + 1, 1, least_span);
+      return rough.ratio * std::sqrt(std::max(0.0, kOverallWeight * rough.everywhere + near.sum) /
+                                     (kOverallWeight + near.count));
+    };
+    all[i] = curvature(of_all, 0);
     const std::size_t end = std::min(right, f.x.size() - 1);
     const double least_span = kLeastSpanShare * (f.x[end] - f.x[end - 1]);
-    const Roughness rough = least_span > shortest ? roughness(f, least_span) : of_all;
-    const SquareSum near = squares(f, right < 2 ? 0 : right - 2, right + 1, 1, least_span);
-    all[i] = rough.ratio * std::sqrt(std::max(0.0, kOverallWeight * rough.everywhere + near.sum) /
-                                     (kOverallWeight + near.count));
+    if (least_span > shortest)
+      all[i] = std::max(all[i], curvature(roughness(f, least_span), least_span));
   }
   return all;
 }

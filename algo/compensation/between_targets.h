@@ -18,8 +18,9 @@ namespace mdof::algo {
 // second differences (weight 6). The contribution of noise to the squares is subtracted; `u` is
 // this noise, which is independent from target to target.
 //
-// For each interval, only second differences over at least half of its length count: the second
-// differences of targets that are close to each other contain mostly noise.
+// The second differences of targets that are close to each other may contain only noise. Therefore
+// the curvature in an interval is at least that from the second differences over at least half of
+// its length.
 //
 // R is the ratio of the curvature at half a step to the curvature at one step. q is the ratio of
 // the curvature from neighbouring targets to the curvature from every second target (root mean

@@ -229,7 +229,7 @@ TEST(BetweenTargets, NearTargetsDoNotHideTheCurvatureOfALongInterval) {
     for (std::size_t k = 0; k < kErrorCount; ++k) {
       const double off = std::abs(value.error[k] - parabola(32e-3));
       EXPECT_LT(off, value.u[k]);
-      EXPECT_GT(off, value.u[k] / 8);  // R = 4, because the interval has two second differences
+      EXPECT_GT(off, value.u[k] / 20);  // R is 4 with few second differences, and noise adds to u
     }
   }
 }

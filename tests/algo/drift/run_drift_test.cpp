@@ -354,20 +354,7 @@ TEST(RunDrift, PointsWithoutErrorsRemainUnchanged) {
   EXPECT_NE(DriftOfRun({}).found().not_seen, "");
 }
 
-TEST(DriftDesign, UsesOnlyOrdersThatRepeatedVisitsDetermine) {
-  std::vector<TimedVisit> visits;
-  for (int i = 0; i < 20; ++i) visits.push_back({static_cast<std::size_t>(i % 10), 1.0 * i});
-  const DriftDesign twice(visits);
-  EXPECT_GE(twice.orders(), 1);
-  EXPECT_LT(twice.orders(), DriftDesign::kMostOrders);  // one order is nearly equal in both runs
-  EXPECT_DOUBLE_EQ(twice.freedom(), 20 - 10 - twice.orders());
-  visits.resize(10);
-  EXPECT_EQ(DriftDesign(visits).orders(), 0);
-  EXPECT_EQ(DriftDesign({}).orders(), 0);
-  EXPECT_EQ(DriftDesign({{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}}).orders(), 0);
-}
-
-TEST(DriftDesign, CriticalTMatchesTheTables) {
+TEST(SeriesDrift, CriticalTMatchesTheTables) {
   EXPECT_NEAR(critical_t(0.01, 4), 4.604, 0.001);
   EXPECT_NEAR(critical_t(0.05, 10), 2.228, 0.001);
 }

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <random>
 
-#include "algo/part/machine_causes.h"
-
 namespace mdof::algo {
 namespace {
 
@@ -138,49 +136,6 @@ TEST(PartError, SharesOfABudgetAreWithinTheirU) {
   expect_planted_shares_within_U(true);
 }
 
-// Calculated by hand: X carries the tool, Y the table. The tool is above the reference point of the
-// errors.
-TEST(MachineCauses, MatchesManualCalculationOfLeversAndSources) {
-  const auto machine = parse_machine(R"(name = "m"
-machine = {chain = "w-Y-b-X-t"}
-tool = {point_mm = [0, 0, 100]}
-[[axis]]
-id = "X"
-holds_at_mm = [0, 0, 0]
-point = "moving"
-EXX_um = [[0, 0], [100, 4]]
-EBX_urad = 10
-u_EBX_urad = 2
-[[axis]]
-id = "Y"
-holds_at_mm = [0, 0, 0]
-point = "standing"
-EC0Y_urad = 25
-u_EC0Y_urad = 1
-[[source]]
-name = "screw"
-u = 0.5
-unit = "um"
-acts_on = [ { error = "EYY", factor = 2 }, { error = "EXX", factor = 9 } ]
-)",
-                                     "m.toml");
-  ASSERT_TRUE(machine) << machine.error().message;
-  const std::vector<Eigen::Vector3d> at = {{0, 0, 0}, {0.05, 0.04, 0}};
-  const MachineCauses found = machine_causes(*machine, at);
-  ASSERT_EQ(found.axes.size(), 3u);
-  EXPECT_EQ(found.axes[0].name, "EC0Y");
-  EXPECT_EQ(found.axes[1].name, "EXX");
-  EXPECT_EQ(found.axes[2].name, "EBX");
-  EXPECT_NEAR(found.axes[1].value_m[1](0), 2e-6, 1e-12);
-  EXPECT_NEAR(found.axes[2].value_m[1](0), 10e-6 * 0.1, 1e-12);  // 10 urad with a lever of 100 mm
-  EXPECT_NEAR(std::abs(found.axes[2].u_m[1](0)), 2e-6 * 0.1, 1e-12);
-  EXPECT_NEAR(std::abs(found.axes[0].value_m[1](0)), 25e-6 * 0.04, 1e-12);
-  // EXX is measured, so the source does not act on EXX.
-  ASSERT_EQ(found.budget.size(), 1u);
-  EXPECT_NEAR(std::abs(found.budget[0].u_m[1](1)), 1e-6, 1e-12);
-  EXPECT_EQ(found.budget[0].u_m[1](0), 0);
-}
-
 // The only cause has a u that is a share of its value. All sizes are proportional to |1 + share
 // xi|, so U of each size is the share times the 95 % point of |xi|, 1.96.
 TEST(PartError, UncertaintyOfOneCauseMatchesTheClosedForm) {
@@ -246,81 +201,24 @@ TEST(PartError, UncertaintyOfAShareMatchesTheClosedForm) {
   EXPECT_EQ(found.layers[1].U_rms_m, 0);
 }
 
-// ECY is the rotation of the body of Y, EC0Y the rotation of its axis line. The effect of ECY is
-// proportional to the X coordinate of the point, the effect of EC0Y to the travel of Y.
-TEST(MachineCauses, SeparatesRotationOfBodyAndLine) {
-  const auto machine = parse_machine(R"(name = "m"
-machine = {chain = "w-Y-b-X-t"}
-tool = {point_mm = [0, 0, 0]}
-[[axis]]
-id = "X"
-holds_at_mm = [0, 0, 0]
-point = "moving"
-[[axis]]
-id = "Y"
-holds_at_mm = [0, 0, 0]
-point = "standing"
-ECY_urad = 10
-u_ECY_urad = 2
-EC0Y_urad = 25
-u_EC0Y_urad = 3
-)",
-                                     "m.toml");
-  ASSERT_TRUE(machine) << machine.error().message;
-  const MachineCauses found = machine_causes(*machine, {{0.05, 0, 0}, {0.05, 0.04, 0}});
-  ASSERT_EQ(found.axes.size(), 2U);
-  const PartCause &body = found.axes[0], &line = found.axes[1];
-  EXPECT_EQ(body.name, "ECY");
-  EXPECT_EQ(line.name, "EC0Y");
-  for (const std::size_t p : {0U, 1U}) {
-    EXPECT_NEAR(std::abs(body.value_m[p](1)), 10e-6 * 0.05, 1e-11);
-    EXPECT_NEAR(std::abs(body.u_m[p](1)), 2e-6 * 0.05, 1e-11);
-    EXPECT_NEAR(std::abs(line.value_m[p](0)), p == 0 ? 0 : 25e-6 * 0.04, 1e-11);
-    EXPECT_NEAR(std::abs(line.u_m[p](0)), p == 0 ? 0 : 3e-6 * 0.04, 1e-11);
+// A source acts on an angle. The error is its random number times the lever arm, so it is largest
+// at the end of the path in every trial.
+TEST(PartError, LargestErrorOfABudgetIsAtTheLongestArm) {
+  PartPath path;
+  PartCause source = new_cause("source", 101);
+  for (std::size_t k = 0; k <= 100; ++k) {
+    path.at_m.emplace_back(1e-3 * static_cast<double>(k), 0, 0);
+    source.u_m[k] = {5e-6 * (0.05 + path.at_m[k](0)), 0, 5e-6 * 0.1};
   }
-}
-
-// Calculated by hand. X is the axis of the table and moves in the direction + when its command
-// increases. So the command +10 mm brings the tool to x = -10 mm of the part. There the table is 4
-// um too far in the direction +X, so the tool is 4 um too far in the direction -X. Y moves the
-// tool.
-TEST(MachineCauses, PathIsInPartCoordinates) {
-  for (const bool is_iso : {false, true}) {
-    const auto machine = parse_machine(std::string(R"(name = "m"
-machine = {chain = "w-X-b-Y-t", travel = { X = ")") +
-                                           (is_iso ? "-" : "+") + R"(" }}
-tool = {point_mm = [200, 0, 100]}
-[[axis]]
-id = "X"
-holds_at_mm = [0, 0, 0]
-point = "standing"
-EXX_um = [[-10, 0], [0, 0], [10, 4]]
-[[axis]]
-id = "Y"
-holds_at_mm = [0, 0, 0]
-point = "moving"
-EYY_um = [[-10, 0], [0, 0], [10, 3]]
-[[source]]
-name = "screw"
-u = 0.5
-unit = "um"
-acts_on = [ { error = "EZX", factor = 1, factor_per_mm = 0.1, of = "X" } ]
-)",
-                                       "m.toml");
-    ASSERT_TRUE(machine) << machine.error().message;
-    const MachineCauses found = machine_causes(*machine, {{-0.01, 0.01, 0}, {0.01, -0.01, 0}});
-    ASSERT_EQ(found.axes.size(), 2U);
-    ASSERT_EQ(found.axes[0].name, "EXX");
-    const std::size_t off = is_iso ? 1 : 0, right = 1 - off;
-    EXPECT_NEAR(found.axes[0].value_m[off](0), -4e-6, 1e-15);
-    EXPECT_EQ(found.axes[0].value_m[right](0), 0);
-    EXPECT_NEAR(found.axes[1].value_m[0](1), 3e-6, 1e-15);
-    EXPECT_EQ(found.axes[1].value_m[1](1), 0);
-    // The factor is 1 + 0.1 / mm times the command: 2 at +10 mm, 0 at -10 mm.
-    EXPECT_NEAR(std::abs(found.budget[0].u_m[off](2)), 1e-6, 1e-15);
-    EXPECT_NEAR(found.budget[0].u_m[right](2), 0, 1e-15);
-    EXPECT_TRUE(found.beyond.empty());  // the path ends exactly at the ends of the tables
-  }
+  EXPECT_EQ(part_error(path, {source}, 1).worst, 100u);
+  // A measured cause that is largest at the other end, with a small u.
+  PartCause measured = new_cause("measured", 101);
+  for (std::size_t k = 0; k <= 100; ++k)
+    measured.value_m[k] = {2e-6 * (1 - 0.01 * static_cast<double>(k)), 0, 0};
+  EXPECT_EQ(part_error(path, {source, measured}, 1).worst, 0u);
+  path.normal.assign(101, {0, 0, 1});  // the measured error is perpendicular to the normals
+  for (std::size_t k = 0; k <= 100; ++k) source.u_m[k](2) = k == 40 ? 2e-6 : 1e-6;
+  EXPECT_EQ(part_error(path, {source, measured}, 1).worst, 40u);
 }
 
 }  // namespace

@@ -61,16 +61,8 @@ Result<std::vector<double>> signs_of(const std::vector<Run>& runs,
                                      std::optional<bool> against_command) {
   std::vector<double> signs;
   for (const Run& run : runs) {
-    if (against_command) MDOF_CHECK(check_travel(run.header, *against_command));
-    const ImportedSense stated = run_options(run.header).imported;
-    const std::optional<bool> against =
-        stated.against_command ? stated.against_command : against_command;
-    if (stated.sense == PositioningSense::body && !against)
-      return bad_input(name_of(run) +
-                       " was imported with the sense \"body\", but without the travel direction of "
-                       "the axis (\"+\" or \"-\"), so the sign of the correction is unknown; "
-                       "import the file again with the travel direction");
-    signs.push_back(stated.sense == PositioningSense::body && *against ? -1 : 1);
+    MDOF_TRY(const double sign, command_sign(run.header, against_command));
+    signs.push_back(sign);
   }
   return signs;
 }
@@ -135,6 +127,19 @@ std::vector<double> imported_targets(const std::vector<ImportedReading>& reading
   std::vector<double> positions;
   for (const ImportedReading& r : readings) positions.push_back(r.position_m);
   return distinct_targets(std::move(positions));
+}
+
+Result<double> command_sign(const RunHeader& run, std::optional<bool> against_command) {
+  if (against_command) MDOF_CHECK(check_travel(run, *against_command));
+  const ImportedSense stated = run_options(run).imported;
+  const std::optional<bool> against =
+      stated.against_command ? stated.against_command : against_command;
+  if (stated.sense == PositioningSense::body && !against)
+    return bad_input("run " + std::to_string(run.id) +
+                     " was imported with the sense \"body\", but without the travel direction of "
+                     "the axis (\"+\" or \"-\"), so the sign in the direction of the command is "
+                     "unknown; import the file again with the travel direction");
+  return stated.sense == PositioningSense::body && *against ? -1 : 1;
 }
 
 Status check_travel(const RunHeader& run, bool against_command) {

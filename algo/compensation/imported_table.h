@@ -29,13 +29,16 @@ std::vector<double> imported_targets(const std::vector<ImportedReading>& reading
 // - runs with different targets
 // - fewer than two targets
 //
-// The signs of the table refer to the direction of the command. The signs of a run may refer to the
-// direction of the moving body. They are then converted with the travel direction of the run. If
-// the run does not state a travel direction, `against_command` of the machine is used. Further
-// errors: both the travel direction and `against_command` are unknown; the travel direction
-// contradicts `against_command`.
+// The signs of the table refer to the direction of the command (command_sign()).
 Result<CompensationTable> build_positioning_table(
     const std::vector<Run>& runs, std::optional<bool> against_command = std::nullopt);
+// Returns the factor +1 or -1 that converts the deviations of an imported run to the direction of
+// the command. They may refer to the direction of the moving body, and are then converted with the
+// travel direction of the run. If the run does not state a travel direction, `against_command` of
+// the machine is used. Errors: both the travel direction and `against_command` are unknown; the
+// travel direction contradicts `against_command`.
+Result<double> command_sign(const RunHeader& run,
+                            std::optional<bool> against_command = std::nullopt);
 // Error: the run states a travel direction that differs from `against_command`.
 Status check_travel(const RunHeader& run, bool against_command);
 

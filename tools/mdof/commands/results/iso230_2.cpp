@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "algo/compensation/imported_table.h"
 #include "algo/iso230/positioning/positioning.h"
 #include "algo/iso230/positioning/positioning_uncertainty.h"
 #include "algo/iso230/positioning/run_readings.h"
@@ -99,7 +100,7 @@ Status iso230_of_readings(const Iso230Command& command, const drivers::Positioni
   return write_line(with_notices(json.take(), notices, words::text));
 }
 
-// The readings of an imported run of positioning errors.
+// The readings of an imported run of positioning errors, with the sign of the command.
 Result<drivers::PositioningCsv> readings_of_imported(const Run& run) {
   const std::string name = "run " + std::to_string(run.header.id);
   if (run.header.provenance.model != positioning_name(run.header.axis))
@@ -110,10 +111,11 @@ Result<drivers::PositioningCsv> readings_of_imported(const Run& run) {
     return bad_input(name +
                      ": the file does not state the approach of each reading, which ISO 230-2 "
                      "needs; import a file with a column direction (1 or -1)");
+  MDOF_TRY(const double sign, algo::command_sign(run.header));
   drivers::PositioningCsv csv{
       name + " (" + run.header.provenance.recording_path + ")", run.header.simulated, {}};
   for (const MeasuredPoint& p : run.points)
-    csv.readings.push_back({p.target_m, p.point.direction, p.run, deviation(p)});
+    csv.readings.push_back({p.target_m, p.point.direction, p.run, sign * deviation(p)});
   return csv;
 }
 

@@ -19,8 +19,7 @@ class MillingTrials : public CausalExperiment {
                 std::uint64_t seed)
       : plan_(plan), inputs_(inputs), seed_(seed) {
     plan_.steps_per_turn = std::min(plan.steps_per_turn, kTrialStepsPerTurn);
-    for (const VaryingInput& input : inputs)
-      causes_.push_back(std::string(input.input->table) + "." + input.input->key);
+    for (const VaryingInput& input : inputs) causes_.push_back(input.input->name());
   }
 
   const std::vector<std::string>& outputs() const override { return milling_outputs(); }

@@ -59,6 +59,7 @@ struct MillingInput {
   const char* key;  // including the unit
   double MillingPlan::*member;
   double unit;  // factor that converts the number in PLAN.toml to SI
+  std::string name() const { return std::string(table) + "." + key; }
 };
 const std::vector<MillingInput>& milling_inputs();
 

@@ -102,8 +102,7 @@ TEST(MillingTrials, ConstantInputsGiveTheCutIn720Steps) {
   const auto found = outputs_of(*trials, 5, 1, 1);
   for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(found[k][0], expected[k]) << k;
   EXPECT_EQ(trials->outputs(), milling_outputs());
-  EXPECT_EQ(trials->causes(),
-            std::vector<std::string>{std::string(depth_input().table) + "." + depth_input().key});
+  EXPECT_EQ(trials->causes(), std::vector<std::string>{depth_input().name()});
 }
 
 TEST(MillingTrials, DrawInputsFromANormalDistribution) {

@@ -57,13 +57,9 @@ Result<MilledModel> mill(const DeclaredMillingPlan& declared, const MillingComma
   return milled;
 }
 
-std::string name_of(const MillingInput& input) {
-  return std::string(input.table) + "." + input.key;
-}
-
 std::vector<std::string> names_of(const std::vector<const MillingInput*>& inputs) {
   std::vector<std::string> names;
-  for (const MillingInput* input : inputs) names.push_back(name_of(*input));
+  for (const MillingInput* input : inputs) names.push_back(input->name());
   return names;
 }
 
@@ -82,7 +78,7 @@ void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
   json.key("contributions").begin_array();
   for (const auto& part : offset.parts)
     json.begin_object()
-        .field("name", name_of(*part.input))
+        .field("name", part.input->name())
         .field("contribution_um", to_um(part.contribution_m))
         .end_object();
   json.end_array();
@@ -167,7 +163,7 @@ std::string offset_text(const MilledModel& milled) {
   if (offset.parts.empty())
     text += "  u is unknown: the plan declares no uncertainty (no key such as u_Kt_N_per_mm2)\n";
   for (const auto& part : offset.parts)
-    text += "  u from " + name_of(*part.input) + ": " +
+    text += "  u from " + part.input->name() + ": " +
             um_to_place(part.contribution_m, part.contribution_m) + " µm\n";
   if (!offset.parts.empty() && !offset.not_declared.empty())
     text += wrapped("  u is too small: the plan declares no u of " +

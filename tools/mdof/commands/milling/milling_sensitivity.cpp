@@ -22,10 +22,6 @@ bool go_on() {
   return true;
 }
 
-std::string name_of(const algo::VaryingInput& input) {
-  return std::string(input.input->table) + "." + input.input->key;
-}
-
 std::vector<OutputSummary> summaries(const algo::Experiment& trials,
                                      const MillingSensitivityRequest& request) {
   const DividedTrials divided(trials, request.threads, go_on);
@@ -111,7 +107,7 @@ void write_milling_sensitivity(JsonWriter& json, const MillingSensitivityRequest
   for (std::size_t i = 0; i < found.inputs.size(); ++i) {
     const algo::VaryingInput& input = found.inputs[i];
     json.begin_object()
-        .field("name", name_of(input))
+        .field("name", input.input->name())
         .field("u", input.u / input.input->unit)
         .field("declared", input.declared);
     json.key("effect").begin_object();
@@ -123,7 +119,7 @@ void write_milling_sensitivity(JsonWriter& json, const MillingSensitivityRequest
           {"total", &CauseIndex::total, &CauseIndex::total_se}}) {
       json.key(key).begin_object();
       for (const OutputIndices& output : found.indices) {
-        const CauseIndex* index = index_of(output, name_of(input));
+        const CauseIndex* index = index_of(output, input.input->name());
         if (!index) continue;
         json.field(output.key, index->*value).field(output.key + "_se", index->*se);
       }
@@ -142,7 +138,8 @@ std::string milling_sensitivity_text(const MillingSensitivityRequest& request,
   for (std::size_t i = 0; i < found.inputs.size(); ++i) {
     const algo::VaryingInput& input = found.inputs[i];
     std::vector<std::string> row = {
-        name_of(input), plain_number(input.u / input.input->unit, 3) + (input.declared ? "" : "*")};
+        input.input->name(),
+        plain_number(input.u / input.input->unit, 3) + (input.declared ? "" : "*")};
     for (const double effect : found.effects[i]) row.push_back(fixed(effect, 4));
     effects.add(row);
   }
@@ -153,9 +150,9 @@ std::string milling_sensitivity_text(const MillingSensitivityRequest& request,
   head.erase(head.begin() + 1);
   TextTable shares(head);
   for (const algo::VaryingInput& input : found.inputs) {
-    std::vector<std::string> row = {name_of(input)};
+    std::vector<std::string> row = {input.input->name()};
     for (const OutputIndices& output : found.indices) {
-      const CauseIndex* index = index_of(output, name_of(input));
+      const CauseIndex* index = index_of(output, input.input->name());
       row.push_back(index ? with_u(fixed(100 * index->total, 1), fixed(100 * index->total_se, 1))
                           : "-");
     }

@@ -152,8 +152,7 @@ Result<std::vector<algo::PartCause>> milling_causes(LoadedPart& part, const std:
     part.no_u.push_back(causes[0].name);
     return causes;
   }
-  for (const MillingInput* input : offset.not_declared)
-    part.no_u.push_back(std::string(input->table) + "." + input->key);
+  for (const MillingInput* input : offset.not_declared) part.no_u.push_back(input->name());
   return causes;
 }
 

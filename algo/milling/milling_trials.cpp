@@ -19,12 +19,10 @@ class MillingTrials : public CausalExperiment {
                 std::uint64_t seed)
       : plan_(plan), inputs_(inputs), seed_(seed) {
     plan_.steps_per_turn = std::min(plan.steps_per_turn, kTrialStepsPerTurn);
+    outputs_ = milling_outputs();
     for (const VaryingInput& input : inputs) causes_.push_back(input.input->name());
   }
 
-  const std::vector<std::string>& outputs() const override { return milling_outputs(); }
-  const BinnedQuantity& binned() const override { return binned_; }
-  const std::vector<std::string>& causes() const override { return causes_; }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     run_mixed({}, first, step, n, out);
@@ -55,8 +53,6 @@ class MillingTrials : public CausalExperiment {
   MillingPlan plan_;
   std::vector<VaryingInput> inputs_;
   std::uint64_t seed_;
-  std::vector<std::string> causes_;
-  BinnedQuantity binned_;
 };
 
 }  // namespace

@@ -110,12 +110,11 @@ class Simulation : public Experiment {
  public:
   Simulation(const SimulationOptions& options, const SimulationConstants& constants,
              InstructionSet set)
-      : binned_{"travel_mm", options.travel_from_mm, options.travel_to_mm, options.travel_bins},
-        constants_(constants),
-        simulate_(kernels(set).simulate) {}
+      : constants_(constants), simulate_(kernels(set).simulate) {
+    outputs_ = {"EYX_um", "EZX_um", "EAX_urad", "EBX_urad", "ECX_urad"};
+    binned_ = {"travel_mm", options.travel_from_mm, options.travel_to_mm, options.travel_bins};
+  }
 
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     assert(out.size() == outputs_.size());
@@ -123,8 +122,6 @@ class Simulation : public Experiment {
   }
 
  private:
-  std::vector<std::string> outputs_ = {"EYX_um", "EZX_um", "EAX_urad", "EBX_urad", "ECX_urad"};
-  BinnedQuantity binned_;
   SimulationConstants constants_;
   decltype(Kernels::simulate) simulate_;
 };

@@ -12,19 +12,16 @@ namespace {
 // solution.
 class Given : public Experiment {
  public:
-  Given(std::string key, std::vector<double> values)
-      : outputs_{std::move(key)}, values_(std::move(values)) {}
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
+  Given(std::string key, std::vector<double> values) : values_(std::move(values)) {
+    outputs_ = {std::move(key)};
+  }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     for (std::size_t j = 0; j < n; ++j) out[0][j] = values_[first + step * j];
   }
 
  private:
-  std::vector<std::string> outputs_;
   std::vector<double> values_;
-  BinnedQuantity binned_;
 };
 
 std::vector<ComparedOutput> compared(const Given& ours, const Given& other) {

@@ -53,6 +53,7 @@ class BudgetTrials : public ScalableExperiment {
  public:
   BudgetTrials(const BudgetModel& model, std::uint64_t seed, InstructionSet set)
       : seed_(seed), set_(set) {
+    outputs_ = {"x_um", "y_um", "z_um", "volume_um"};
     for (const BudgetCause& cause : model.causes) {
       causes_.push_back(cause.name);
       drawings_.push_back(drawing_of(cause));
@@ -68,12 +69,6 @@ class BudgetTrials : public ScalableExperiment {
       chain_.nominal[i] = nominal.p[static_cast<Eigen::Index>(i)];
     }
   }
-
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
-  const std::vector<std::string>& causes() const override { return causes_; }
-  const std::vector<std::string>& quantities() const override { return quantities_; }
-  const std::vector<double>& sizes() const override { return sizes_; }
 
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
@@ -186,9 +181,6 @@ class BudgetTrials : public ScalableExperiment {
 
   std::uint64_t seed_;
   InstructionSet set_;
-  std::vector<std::string> outputs_ = {"x_um", "y_um", "z_um", "volume_um"}, causes_, quantities_;
-  BinnedQuantity binned_;
-  std::vector<double> sizes_;      // of the quantities, which are the rows of the budget
   std::vector<Drawing> drawings_;  // one for each cause; the random numbers of cause c are in
                                    // column c
   std::vector<ChainStep> steps_;   // from the tool to the work

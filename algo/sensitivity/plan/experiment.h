@@ -18,15 +18,19 @@ namespace mdof::algo {
 class ScalableExperiment : public CausalExperiment {
  public:
   // Names of the quantities, in the order of the plan.
-  virtual const std::vector<std::string>& quantities() const = 0;
+  const std::vector<std::string>& quantities() const { return quantities_; }
   // Size of each tolerance in the unit of its name: half width, standard deviation, ... (PLAN.md).
-  virtual const std::vector<double>& sizes() const = 0;
+  const std::vector<double>& sizes() const { return sizes_; }
   // As run(), but with the values of quantity q multiplied by scale[q]. If all scale[q] are 1, the
   // results have the bits of run().
   virtual void run_scaled(std::span<const double> scale, std::uint64_t first, std::uint64_t step,
                           std::size_t n, std::span<double* const> out) const = 0;
   // Names and numbers of one trial. The names contain no star. Values are in the unit of the name.
   virtual std::vector<std::pair<std::string, double>> inputs(std::uint64_t trial) const = 0;
+
+ protected:
+  std::vector<std::string> quantities_;
+  std::vector<double> sizes_;
 };
 
 // Errors state the file and the key of the plan: a rig that does not determine all errors or does

@@ -22,12 +22,6 @@ class PlanExperimentBase : public ScalableExperiment {
     }
   }
 
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
-  const std::vector<std::string>& causes() const override { return causes_; }
-  const std::vector<std::string>& quantities() const override { return quantities_; }
-  const std::vector<double>& sizes() const override { return sizes_; }
-
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     run_all({first, step, n, {}, {}}, out);
@@ -43,13 +37,6 @@ class PlanExperimentBase : public ScalableExperiment {
 
  protected:
   virtual void run_all(const DrawRequest& request, std::span<double* const> out) const = 0;
-
-  std::vector<std::string> causes_;  // set when the draws are created
-
- private:
-  std::vector<std::string> outputs_, quantities_;
-  std::vector<double> sizes_;
-  BinnedQuantity binned_;
 };
 
 }  // namespace mdof::algo

@@ -17,8 +17,7 @@ namespace {
 // % interval ±3.88.
 class FourRectangular : public Experiment {
  public:
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
+  FourRectangular() { outputs_ = {"Y_um"}; }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     for (std::size_t j = 0; j < n; ++j) {
@@ -27,10 +26,6 @@ class FourRectangular : public Experiment {
       out[0][j] = std::sqrt(3.0) * sum;
     }
   }
-
- private:
-  std::vector<std::string> outputs_ = {"Y_um"};
-  BinnedQuantity binned_;
 };
 
 AdaptiveRule rule_of(const AdaptiveTolerance& tolerance) {

@@ -119,12 +119,11 @@ TEST(Allocation, IsTheSameHoweverItsTasksAreRun) {
 // trial is within a limit if its scale is at most this limit.
 class Proportional : public ScalableExperiment {
  public:
-  explicit Proportional(double spread = 0) : spread_(spread) {}
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
-  const std::vector<std::string>& causes() const override { return quantities_; }
-  const std::vector<std::string>& quantities() const override { return quantities_; }
-  const std::vector<double>& sizes() const override { return sizes_; }
+  explicit Proportional(double spread = 0) : spread_(spread) {
+    outputs_ = {"EBX_urad"};
+    quantities_ = causes_ = {"probe.A.drift_nm"};
+    sizes_ = {3};
+  }
   std::vector<std::pair<std::string, double>> inputs(std::uint64_t) const override { return {}; }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
@@ -145,9 +144,6 @@ class Proportional : public ScalableExperiment {
   std::uint64_t last() const { return last_; }
 
  private:
-  std::vector<std::string> outputs_ = {"EBX_urad"}, quantities_ = {"probe.A.drift_nm"};
-  std::vector<double> sizes_ = {3};
-  BinnedQuantity binned_;
   double spread_ = 0;
   mutable std::uint64_t last_ = 0;
 };

@@ -17,14 +17,13 @@ namespace {
 class Tabulated final : public CausalExperiment {
  public:
   explicit Tabulated(double scale = 1) : scale_(scale) {
+    outputs_ = {"one", "two"};
+    causes_ = {"p", "q", "r"};
     test::NoPattern numbers(11);
     for (auto& trial : numbers_)
       for (auto& stream : trial)
         for (double& x : stream) x = numbers.between(-1, 2);
   }
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
-  const std::vector<std::string>& causes() const override { return causes_; }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     run_mixed(std::vector<std::uint8_t>(3, 0), first, step, n, out);
@@ -45,8 +44,6 @@ class Tabulated final : public CausalExperiment {
  private:
   double scale_;
   std::array<std::array<std::array<double, 3>, 2>, 60> numbers_{};
-  std::vector<std::string> outputs_ = {"one", "two"}, causes_ = {"p", "q", "r"};
-  BinnedQuantity binned_;
 };
 
 constexpr std::uint64_t kTrials = 7, kBlocks = 8;

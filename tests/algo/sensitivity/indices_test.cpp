@@ -23,11 +23,9 @@ class FunctionExperiment final : public CausalExperiment {
   using Function = std::function<double(const std::vector<double>&)>;
   FunctionExperiment(std::size_t inputs, std::uint64_t seed, Function f)
       : seed_(seed), f_(std::move(f)) {
+    outputs_ = {"y"};
     for (std::size_t i = 0; i < inputs; ++i) causes_.push_back("x" + std::to_string(i + 1));
   }
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
-  const std::vector<std::string>& causes() const override { return causes_; }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     const std::vector<std::uint8_t> none(causes_.size(), 0);
@@ -46,8 +44,6 @@ class FunctionExperiment final : public CausalExperiment {
  private:
   std::uint64_t seed_;
   Function f_;
-  std::vector<std::string> outputs_ = {"y"}, causes_;
-  BinnedQuantity binned_;
 };
 
 constexpr double kPi = 3.14159265358979323846;

@@ -19,9 +19,10 @@ namespace {
 class Given : public Experiment {
  public:
   explicit Given(std::vector<double> values, BinnedQuantity binned = {})
-      : values_(std::move(values)), binned_(std::move(binned)) {}
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
+      : values_(std::move(values)) {
+    outputs_ = {"EYX_um"};
+    binned_ = std::move(binned);
+  }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     for (std::size_t j = 0; j < n; ++j)
@@ -29,9 +30,7 @@ class Given : public Experiment {
   }
 
  private:
-  std::vector<std::string> outputs_ = {"EYX_um"};
   std::vector<double> values_;
-  BinnedQuantity binned_;
 };
 
 StudyStatistics small_study(const Experiment& e, std::uint64_t trials) {

@@ -28,16 +28,11 @@ struct OutputBytes {
 
 class BytesShape : public Experiment {
  public:
-  BytesShape(std::size_t outputs, std::size_t bins) : binned_{"travel_mm", 0.25, 0.75, bins} {
+  BytesShape(std::size_t outputs, std::size_t bins) {
+    binned_ = {"travel_mm", 0.25, 0.75, bins};
     for (std::size_t k = 0; k < outputs; ++k) outputs_.push_back(k == 0 ? "EYX_um" : "EZX_um");
   }
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
   void run(std::uint64_t, std::uint64_t, std::size_t, std::span<double* const>) const override {}
-
- private:
-  std::vector<std::string> outputs_;
-  BinnedQuantity binned_;
 };
 
 std::string bytes_of(std::size_t outputs, std::size_t bins, std::uint64_t trials,

@@ -25,10 +25,10 @@ namespace {
 class OneOutput : public Experiment {
  public:
   using Function = std::function<double(double u, std::uint64_t trial)>;
-  explicit OneOutput(Function f, std::size_t bins = 1)
-      : f_(std::move(f)), binned_{bins == 1 ? "" : "travel_mm", 0, 1, bins} {}
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const BinnedQuantity& binned() const override { return binned_; }
+  explicit OneOutput(Function f, std::size_t bins = 1) : f_(std::move(f)) {
+    outputs_ = {"Y_um"};
+    binned_ = {bins == 1 ? "" : "travel_mm", 0, 1, bins};
+  }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     for (std::size_t j = 0; j < n; ++j) {
@@ -48,8 +48,6 @@ class OneOutput : public Experiment {
 
  private:
   Function f_;
-  BinnedQuantity binned_;
-  std::vector<std::string> outputs_ = {"Y_um"};
 };
 
 StudyStatistics study(const Experiment& e, std::uint64_t trials) {

@@ -14,8 +14,10 @@ using namespace mdof;
 
 class TwoOutputs : public algo::Experiment {
  public:
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const algo::BinnedQuantity& binned() const override { return binned_; }
+  TwoOutputs() {
+    outputs_ = {"EYX_um", "EAX_urad"};
+    binned_ = {"travel_mm", 0, 1, 2};
+  }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     for (std::size_t j = 0; j < n; ++j) {
@@ -24,10 +26,6 @@ class TwoOutputs : public algo::Experiment {
       out[1][j] = -trial;
     }
   }
-
- private:
-  std::vector<std::string> outputs_ = {"EYX_um", "EAX_urad"};
-  algo::BinnedQuantity binned_{"travel_mm", 0, 1, 2};
 };
 
 std::string valid_checkpoint(const TwoOutputs& experiment) {

@@ -23,9 +23,10 @@ namespace {
 // requests an interrupt when it reaches the trial `interrupt_at`.
 class Noise final : public algo::Experiment {
  public:
-  explicit Noise(std::uint64_t interrupt_at = ~std::uint64_t{0}) : interrupt_at_(interrupt_at) {}
-  const std::vector<std::string>& outputs() const override { return outputs_; }
-  const algo::BinnedQuantity& binned() const override { return binned_; }
+  explicit Noise(std::uint64_t interrupt_at = ~std::uint64_t{0}) : interrupt_at_(interrupt_at) {
+    outputs_ = {"A_um", "B_um"};
+    binned_ = {"travel_mm", 0, 8, 4};
+  }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     for (std::size_t j = 0; j < n; ++j) {
@@ -41,8 +42,6 @@ class Noise final : public algo::Experiment {
   void arm() { armed_ = true; }
 
  private:
-  std::vector<std::string> outputs_ = {"A_um", "B_um"};
-  algo::BinnedQuantity binned_ = {"travel_mm", 0, 8, 4};
   std::uint64_t interrupt_at_;
   mutable std::atomic<bool> armed_ = false;
 };
@@ -162,8 +161,10 @@ TEST(StudyRunner, TheAdaptiveRuleEndsAtItsLimit) {
 // An experiment whose second output never has a solution.
 class HalfSolved final : public algo::Experiment {
  public:
-  const std::vector<std::string>& outputs() const override { return noise_.outputs(); }
-  const algo::BinnedQuantity& binned() const override { return noise_.binned(); }
+  HalfSolved() {
+    outputs_ = noise_.outputs();
+    binned_ = noise_.binned();
+  }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override {
     noise_.run(first, step, n, out);

@@ -20,9 +20,10 @@ class DividedTrials final : public algo::Experiment {
   // run() calls go_on() several times a second. After go_on() has returned false, run() begins no
   // further trial.
   DividedTrials(const algo::Experiment& experiment, unsigned threads, std::function<bool()> go_on)
-      : experiment_(experiment), threads_(threads), go_on_(std::move(go_on)) {}
-  const std::vector<std::string>& outputs() const override { return experiment_.outputs(); }
-  const algo::BinnedQuantity& binned() const override { return experiment_.binned(); }
+      : experiment_(experiment), threads_(threads), go_on_(std::move(go_on)) {
+    outputs_ = experiment.outputs();
+    binned_ = experiment.binned();
+  }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override;
   std::uint64_t trials_run() const { return trials_run_; }  // Any thread.

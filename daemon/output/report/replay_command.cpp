@@ -6,18 +6,13 @@
 
 #include "daemon/measure/replay/request_json.h"
 #include "daemon/output/charts/svg.h"
+#include "daemon/words/shell_word.h"
 #include "schema/imported/series.h"
 #include "schema/recording/run_options.h"
 #include "schema/units.h"
 
 namespace mdof::report {
 namespace {
-
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
 
 std::string option(const char* name, double value) {
   return std::string(" ") + name + " " + charts::exact_text(value);
@@ -79,10 +74,11 @@ std::string rig_file(const RunHeader& run) {
 std::string replay_command(const Run& of) {
   const RunHeader& run = of.header;
   if (is_imported(run))
-    return "mdof import " + quoted(run.provenance.recording_path) + import_options(of) +
-           " --db check.db";
+    return "mdof import " + words::quoted_for_shell(run.provenance.recording_path) +
+           import_options(of) + " --db check.db";
   const bool was_piped = run.provenance.recording_path == "-";
-  std::string command = "mdof replay " + (was_piped ? "-" : quoted(run.provenance.recording_path));
+  std::string command =
+      "mdof replay " + (was_piped ? "-" : words::quoted_for_shell(run.provenance.recording_path));
   if (const std::string rig = rig_file(run); !rig.empty()) command += " --rig " + rig;
   if (const auto options = daemon::read_options_json(run.provenance.options_json, {}))
     command += options_of(*options);

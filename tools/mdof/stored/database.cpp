@@ -1,27 +1,10 @@
 #include "tools/mdof/stored/database.h"
 
-#include <algorithm>
-#include <cctype>
-#include <cstring>
-
 #include "daemon/paths.h"
 #include "daemon/store/file/writer_lock.h"
+#include "daemon/words/shell_word.h"
 
 namespace mdof::tools {
-namespace {
-
-// The word as a shell reads it.
-std::string shell_word(const std::string& word) {
-  const bool plain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || std::strchr("/._-+:@%,=", c) != nullptr || c >= 128;
-  });
-  if (plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-}  // namespace
 
 Result<std::filesystem::path> database_path(const std::string& option) {
   return option.empty() ? daemon::default_database() : std::filesystem::path(option);
@@ -63,9 +46,9 @@ Result<store::Store> open_existing_to_write(const std::string& option) {
 
 std::string place_options(const std::string& database, const std::string& socket) {
   std::string options;
-  if (!database.empty()) options = " --db " + shell_word(database);
+  if (!database.empty()) options = " --db " + words::shell_word(database);
   if (!socket.empty() && socket != daemon::default_socket())
-    options += " --socket " + shell_word(socket);
+    options += " --socket " + words::shell_word(socket);
   return options;
 }
 

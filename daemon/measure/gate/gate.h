@@ -37,9 +37,8 @@ Notices doubtful_notices(Notices notices);
 Notices doubtful_notices(const std::vector<Run>& runs);
 // The notices of a result from these runs: one for each run that another run supersedes, and one
 // for each table that was active on its axis while it was recorded (also in the runs that it
-// continues). If the controller applied
-// this table, the run contains only the errors that the table left, and a table from this run must
-// not replace the active table.
+// continues). If the controller applied this table, the run contains only the errors that the table
+// left, and a table from this run must not replace the active table.
 Result<Notices> source_run_notices(store::Store& store, const std::vector<std::int64_t>& runs);
 // Notices about a result from several runs of an axis: visits or rigs differ. `runs`: at least one.
 Result<Notices> differences_of_runs(const std::vector<Run>& runs);

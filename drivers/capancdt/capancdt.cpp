@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "drivers/clock/monotonic.h"
 #include "drivers/scan_block.h"
 
 namespace mdof::drivers::capancdt {
@@ -22,10 +23,6 @@ constexpr int kReads = 16;
 constexpr std::uint64_t kMostGarbage = 1 << 18;
 // If the missing frames cover a longer time, the counter was reset.
 constexpr double kMostLost_ns = 10e9;
-
-std::int64_t to_ns(steady_clock::time_point time) {
-  return std::chrono::duration_cast<nanoseconds>(time.time_since_epoch()).count();
-}
 
 }  // namespace
 
@@ -54,6 +51,7 @@ Status Capancdt::open() {
   if (!setup) return with_device_name(setup.error());
   auto data = connect_tcp({options_.command.host, setup->data_port}, kConnect);
   if (!data) return with_device_name(data.error());
+  data->keep_arrival_times();
   const double frame_ns = setup->frame_ns();
   const int averaged = setup->averaged;
   const auto most_lost = static_cast<std::uint64_t>(std::max(16.0, kMostLost_ns / frame_ns));
@@ -97,10 +95,10 @@ Status Capancdt::receive(milliseconds timeout) {
   bool came = false;
   const auto all = receive_all(timeout, came);
   if (came) {
-    const auto now = steady_clock::now();
-    auto placed = place_packets(now);
+    const auto arrival = s.data.arrival();
+    auto placed = place_packets(arrival);
     // The clock is also updated for frames that arrived before an error.
-    MDOF_CHECK(update_clock(to_ns(now), all.value_or(true)));
+    MDOF_CHECK(update_clock(to_ns(arrival), all.value_or(true)));
     MDOF_CHECK(std::move(placed));
   }
   if (!all) return in_context("the data connection", all.error());

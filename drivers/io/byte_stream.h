@@ -2,6 +2,8 @@
 // descriptors of these connections; protocols work on bytes.
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstddef>
 #include <memory>
@@ -25,6 +27,12 @@ class ByteStream {
   // the time-out. Error: the other side has closed the connection, or the descriptor failed. The
   // stream is unusable after an error.
   Result<std::size_t> read(std::span<char> into, std::chrono::milliseconds timeout);
+  // Asks the kernel for the times at which bytes arrive. Only TCP supports this. The first bytes
+  // after this call may have no time.
+  void keep_arrival_times();
+  // The time at which the newest byte of the last read() arrived. Without a time from the kernel,
+  // this is the time of the read().
+  std::chrono::steady_clock::time_point arrival() const { return arrival_; }
   // Sends all of `bytes`. After an error the number of bytes that were sent is unknown.
   Status write(std::string_view bytes, std::chrono::milliseconds timeout);
   // Discards received bytes until no byte has arrived for `quiet`, but for at most `limit`. Returns
@@ -35,8 +43,12 @@ class ByteStream {
   const std::string& name() const { return name_; }  // for messages: "192.168.0.5:502"
 
  private:
+  ssize_t receive(std::span<char> into);
+
   int fd_ = -1;
   std::string name_;
+  bool keeps_arrival_times_ = false;
+  std::chrono::steady_clock::time_point arrival_;
 };
 
 // An address such as "192.168.0.5:502", "probe-box:23" or "[fe80::1]:502".

@@ -122,6 +122,7 @@ Status LabjackT7::start() {
   MDOF_TRY(rate_hz_, set_up_stream(*registers_, settings_));
   ticks_per_scan_ = kCore_Hz / rate_hz_;
   MDOF_TRY(stream_, connect_tcp(settings_.stream, kConnect));
+  stream_->keep_arrival_times();
   return start_clock();
 }
 
@@ -175,7 +176,7 @@ Status LabjackT7::receive(milliseconds timeout) {
   do {
     const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
     MDOF_TRY(const std::size_t n, stream_->read(buffer_, std::max(left, milliseconds(0))));
-    const std::int64_t received_ns = monotonic_ns();
+    const std::int64_t received_ns = n > 0 ? to_ns(stream_->arrival()) : monotonic_ns();
     reader_.append({buffer_.data(), n});
     MDOF_CHECK(take_packets(received_ns));
     const double packet_ns = 1e9 / rate_hz_ * static_cast<double>(settings_.samples_per_packet);

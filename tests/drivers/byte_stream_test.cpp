@@ -5,17 +5,20 @@
 
 #include <arpa/inet.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
 #include <string>
+#include <thread>
 
 namespace mdof::drivers {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::steady_clock;
 
 struct Pair {
   ByteStream ours;
@@ -81,15 +84,20 @@ TEST(Endpoint, ParsesEachForm) {
     EXPECT_FALSE(parse_endpoint(bad, 502)) << bad;
 }
 
-TEST(Tcp, ConnectsOrStatesTheReason) {
-  const int server = ::socket(AF_INET, SOCK_STREAM, 0);
+// Binds a socket to a free port of this computer.
+Endpoint bind_somewhere(int server) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof address;
-  ASSERT_EQ(::bind(server, reinterpret_cast<sockaddr*>(&address), size), 0);
-  ASSERT_EQ(::getsockname(server, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  const Endpoint to{"127.0.0.1", ntohs(address.sin_port)};
+  EXPECT_EQ(::bind(server, reinterpret_cast<sockaddr*>(&address), size), 0);
+  EXPECT_EQ(::getsockname(server, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  return {"127.0.0.1", ntohs(address.sin_port)};
+}
+
+TEST(Tcp, ConnectsOrStatesTheReason) {
+  const int server = ::socket(AF_INET, SOCK_STREAM, 0);
+  const Endpoint to = bind_somewhere(server);
   const auto refused = connect_tcp(to, milliseconds(500));
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find(to.text()), std::string::npos);
@@ -98,6 +106,33 @@ TEST(Tcp, ConnectsOrStatesTheReason) {
   const auto connected = connect_tcp(to, milliseconds(500));
   ASSERT_TRUE(connected) << connected.error().message;
   EXPECT_EQ(connected->name(), to.text());
+  ::close(server);
+}
+
+// The kernel notes the first times some time after keep_arrival_times(), so the test sends several
+// bytes.
+TEST(Tcp, TimeOfArrivalIsKeptUntilTheBytesAreRead) {
+  const int server = ::socket(AF_INET, SOCK_STREAM, 0);
+  const Endpoint to = bind_somewhere(server);
+  ASSERT_EQ(::listen(server, 1), 0);
+  auto ours = connect_tcp(to, milliseconds(500));
+  ASSERT_TRUE(ours) << ours.error().message;
+  const int theirs = ::accept(server, nullptr, nullptr);
+  ours->keep_arrival_times();
+  bool kept = false;
+  for (int i = 0; i < 100 && !kept; ++i) {
+    const auto sent = steady_clock::now();
+    ASSERT_EQ(::write(theirs, "a", 1), 1);
+    pollfd arrives{ours->fd(), POLLIN, 0};
+    ASSERT_EQ(::poll(&arrives, 1, 20'000), 1);
+    const auto arrived = steady_clock::now();
+    std::this_thread::sleep_for(milliseconds(20));
+    ASSERT_EQ(read_some(*ours, milliseconds(0)), "a");
+    const auto slack = milliseconds(1);  // between the two clocks of the computer
+    kept = sent - slack <= ours->arrival() && ours->arrival() <= arrived + slack;
+  }
+  EXPECT_TRUE(kept);
+  ::close(theirs);
   ::close(server);
 }
 

@@ -121,7 +121,7 @@ class Station {
   void handle(Samples& samples);
   void handle(const Job& job) { job(*this); }
   void take_samples(SampleBlock& block);
-  void keep_for_recording(const SampleBlock& block);
+  void record_if_due();
   void record();
   bool is_this_pass(std::uint64_t pass) const;
   void source_ended(std::uint64_t pass, const std::string& reason,

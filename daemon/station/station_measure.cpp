@@ -34,7 +34,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kPopTimeout{100};
-constexpr milliseconds kRecordInterval{20};  // each call of record() wakes the thread of the store
+constexpr milliseconds kRecordInterval{50};  // each call of record() wakes the thread of the store
 
 PipelineOptions without_points(PipelineOptions options) {
   options.keep_points = false;
@@ -72,13 +72,13 @@ void Station::measure() {
   while (!shared_->queue.closed_and_empty()) {
     measure_turn_ = steady_clock::now();
     shared_->queue.pop_all(items, kPopTimeout);
-    if (items.empty() && open_) record();
     for (Item& item : items) {
       std::visit([this](auto& what) { handle(what); }, item);
       measure_turn_ = steady_clock::now();
     }
     note_newest();
     show_live();  // after all available samples; if no samples arrive, the view shows them as stale
+    record_if_due();
   }
   if (open_) finish(RunState::aborted, {notice(NoticeCode::daemon_stopped)});
 }
@@ -156,7 +156,7 @@ void Station::take_samples(SampleBlock& block) {
   }
   view_.reset();
   if (open_->continues) open_->continues->shift(block);
-  if (config_.recorded()) keep_for_recording(block);
+  if (config_.recorded()) open_->unrecorded.add(block);
   if (const Status pushed = open_->pipeline.push(block); !pushed) {
     return finish(RunState::failed, failure(words::text(pushed.error())));
   }
@@ -171,10 +171,9 @@ void Station::take_samples(SampleBlock& block) {
   if (all_measured(asked.targets_m, asked.repeats, open_->stored)) finish(RunState::complete, {});
 }
 
-void Station::keep_for_recording(const SampleBlock& block) {
-  open_->unrecorded.add(block);
+void Station::record_if_due() {
   const auto now = steady_clock::now();
-  if (now - open_->recorded < kRecordInterval) return;
+  if (!open_ || now - open_->recorded < kRecordInterval) return;
   open_->recorded = now;
   record();
 }

@@ -8,7 +8,7 @@ namespace mdof::daemon {
 
 void Unrecorded::add(const SampleBlock& block) {
   // Typical number of scans of a device between two calls of take().
-  constexpr std::size_t kReservedScans = 128;
+  constexpr std::size_t kReservedScans = 256;
   const auto last = std::find_if(blocks_.rbegin(), blocks_.rend(),
                                  [&](const auto& b) { return b.device == block.device; });
   if (last != blocks_.rend() && last->channels == block.channels && block.lost == 0)

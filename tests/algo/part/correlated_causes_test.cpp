@@ -11,21 +11,21 @@ namespace mdof::algo {
 namespace {
 
 using Field = std::vector<Eigen::Vector3d>;
-constexpr std::size_t kPoints = 50;
+constexpr std::size_t kCausePoints = 50;
 
-Field along_z(double value) {
-  return Field(kPoints, Eigen::Vector3d(0, 0, value));
+Field field_along_z(double value) {
+  return Field(kCausePoints, Eigen::Vector3d(0, 0, value));
 }
 
 PartPath path() {
   PartPath path;
-  for (std::size_t k = 0; k < kPoints; ++k)
+  for (std::size_t k = 0; k < kCausePoints; ++k)
     path.at_m.emplace_back(1e-3 * static_cast<double>(k), 0.1, 0);
   return path;
 }
 
 PartCause cause(double value_m, double u_of_number_7_m) {
-  return {0, "c", along_z(value_m), along_z(0), {{7, along_z(u_of_number_7_m)}}};
+  return {0, "c", field_along_z(value_m), field_along_z(0), {{7, field_along_z(u_of_number_7_m)}}};
 }
 
 // The errors 3 + 0.2 eta and 1 - 0.2 eta have the sum 4 for each eta, so its U is 0.

@@ -120,6 +120,11 @@ std::vector<double> curvatures(const std::vector<double>& position_m,
   return all;
 }
 
+double u_beyond_end(double distance, double interval, double change, double curvature) {
+  const double bent = 0.5 * distance * (interval + distance) * curvature;
+  return std::hypot(distance * change / interval, std::isfinite(bent) ? bent : 0);
+}
+
 void add_curvatures(CompensationTable& table) {
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     table.curvature_forward[k] = curvatures(table.position_m, table.forward[k], table.u_forward[k]);

@@ -34,6 +34,11 @@ namespace mdof::algo {
 std::vector<double> curvatures(const std::vector<double>& position_m,
                                const std::vector<double>& values, const std::vector<double>& u);
 
+// Beyond the first or the last target, the value of this target is held. Returns the standard
+// uncertainty of the change of the error over the distance to this target, from the change of the
+// error over the end interval and the curvature in it. A NaN curvature counts as 0.
+double u_beyond_end(double distance, double interval, double change, double curvature);
+
 // Sets the curvatures of a table. If a table has no curvatures, table_at() calculates them at each
 // call.
 void add_curvatures(CompensationTable& table);

@@ -290,19 +290,16 @@ struct SideValue {
   double error = kNaN, u = kNaN, u_interpolation = kNaN;
 };
 
-// Beyond the target `end`, the first or last one with a value, this value is held. Returns the
-// standard uncertainty of the change of the error from there to `at`: the slope of the end interval
-// and its curvature.
-double u_beyond_end(const std::vector<double>& x, const std::vector<double>& y, std::size_t end,
-                    double at, double curvature) {
-  const double distance = std::abs(at - x[end]);
+// Returns u_beyond_end() of algo/compensation/between_targets.h; `end` is the first or last
+// position with a value.
+double u_held(const std::vector<double>& x, const std::vector<double>& y, std::size_t end,
+              double at, double curvature) {
   const bool is_first = at < x[end];
   std::size_t next = is_first ? end + 1 : end - 1;  // wraps below 0
   while (next < x.size() && !std::isfinite(y[next])) is_first ? ++next : --next;
-  if (distance == 0 || next >= x.size()) return 0;
-  const double interval = std::abs(x[next] - x[end]);
-  const double bent = 0.5 * distance * (interval + distance) * curvature;
-  return std::hypot(distance * (y[next] - y[end]) / interval, std::isfinite(bent) ? bent : 0);
+  if (next >= x.size()) return 0;
+  return u_beyond_end(std::abs(at - x[end]), std::abs(x[next] - x[end]), y[next] - y[end],
+                      curvature);
 }
 
 SideValue value_of(const CompensationTable& table, const Side& side, std::size_t k, double at,
@@ -320,7 +317,7 @@ SideValue value_of(const CompensationTable& table, const Side& side, std::size_t
                                      : u_below + (u_above - u_below) * (at - x[near.below]) /
                                                      (x[near.above] - x[near.below]);
   value.u_interpolation = near.below == near.above
-                              ? u_beyond_end(x, y, near.below, at, curvature)
+                              ? u_held(x, y, near.below, at, curvature)
                               : 0.5 * (at - x[near.below]) * (x[near.above] - at) * curvature;
   return value;
 }

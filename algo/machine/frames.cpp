@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/compensation/between_targets.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -79,11 +81,22 @@ SharedErrors shared_at(const ErrorCovariance& covariance, const TablePlace& plac
   return all;
 }
 
-// Standard uncertainty due to the straight-line interpolation between two positions.
-double u_interpolation(const ErrorFunction& f, const TablePlace& place) {
-  if (place.cell >= f.curvature.size() || place.part == 0 || place.part == 1) return 0;
-  const double interval = f.position[place.cell + 1] - f.position[place.cell];
-  return 0.5 * place.part * (1 - place.part) * interval * interval * f.curvature[place.cell];
+// The change of a series over the interval of `place`; 0 for a constant.
+double change(const std::vector<double>& values, const TablePlace& place) {
+  return values.size() < 2 ? 0 : values[place.cell + 1] - values[place.cell];
+}
+
+// Standard uncertainty due to the straight line between two positions or, beyond the first and the
+// last position, due to the value of this position, which is held.
+double u_interpolation(const ErrorFunction& f, const TablePlace& place, double at) {
+  if (f.position.size() < 2) return 0;
+  const double low = f.position[place.cell], high = f.position[place.cell + 1];
+  const double interval = high - low, curvature = f.curvature.empty() ? 0 : f.curvature[place.cell];
+  if (place.part > 0 && place.part < 1)
+    return 0.5 * place.part * (1 - place.part) * interval * interval * curvature;
+  const double beyond = std::max(low - at, at - high);  // 0 at an end
+  return std::max(u_beyond_end(beyond, interval, change(f.forward, place), curvature),
+                  u_beyond_end(beyond, interval, change(f.reverse, place), curvature));
 }
 
 double squared(double x) {
@@ -108,7 +121,7 @@ void set_uncertainty(const MachineFrame& frame, double at, FrameValues& v) {
       all(kk, kk) = squared(value_at(f.u, place));
       noise(kk, kk) = squared(value_at(f.u_independent, place));
     }
-    if (!f.u.empty()) all(kk, kk) += squared(u_interpolation(f, place));
+    if (!f.u.empty()) all(kk, kk) += squared(u_interpolation(f, place, at));
   }
   v.u_parts = root_of(all);
   v.noise_parts = root_of(noise);

@@ -217,6 +217,21 @@ TEST(MachineModel, UIsLinearBetweenPositions) {
   }
 }
 
+// Beyond an end the end value is held, so u contains the larger slope of both approaches. GUM 5.2.2
+// with the change of the true error over 1 mm: 20 and 50 nm.
+TEST(MachineModel, UBeyondAnEndContainsTheSlope) {
+  auto m = by_hand(false);
+  MachineFrame& x = m.frames[0];
+  x.error[1] = {{0, 0.1}, {0, 2e-6}, {0, -5e-6}, {3e-8, 3e-8}, {}};
+  const auto u = [&](double at_m) {
+    return values_at(x, {at_m, 0, 0, 0, 0, 0}, MachineApproach::mean).u_parts.row(1).norm();
+  };
+  EXPECT_NEAR(u(0.05), 3e-8, 1e-14);
+  for (const double at_m : {-1e-3, 0.101}) EXPECT_NEAR(u(at_m), std::hypot(3e-8, 5e-8), 1e-14);
+  x.error[1].curvature = {1e-3};  // the parabola 0.5e-3 x² bends by 50.5 nm over 1 mm beyond 0.1 m
+  EXPECT_NEAR(u(0.101), std::hypot(3e-8, 5e-8, 0.5 * 1e-3 * 0.101 * 1e-3), 1e-14);
+}
+
 // To second order the bound is 2 · rotations · shifts. A shifted line of a rotary axis counts
 // twice, because the frame moves to the line and back. A shifted line of a linear axis counts once.
 TEST(MachineModel, BoundCountsAShiftedRotaryLineTwice) {

@@ -3,6 +3,7 @@
 // calculated by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -233,7 +234,14 @@ TEST(OutsideTruth, TableIsLinearBetweenItsPoints) {
       EXPECT_NEAR(mean.error[k], f * (c.forward + c.reverse) / 2, 1e-12) << c.at;
       EXPECT_NEAR(forward.u[k], std::hypot(c.u_forward, forward.u_interpolation[k]), 1e-12) << c.at;
       EXPECT_NEAR(reverse.u[k], std::hypot(4, reverse.u_interpolation[k]), 1e-12) << c.at;
-      EXPECT_NEAR(mean.u[k], std::hypot(c.u_forward / 2, 2, mean.u_interpolation[k]), 1e-12)
+      // Angles (k >= 2) refer to the mean of both approaches at the first target. If its variance
+      // is V, then u² of each approach at the first target is V, too, and the mean of both has u =
+      // 0 there and (u_f² + u_r²)/4 - V/2 + V elsewhere.
+      const double V = k < 2 ? 0 : (3 * 3 + 4 * 4) / 2.0, share = std::clamp(c.at, 0.0, 1.0);
+      EXPECT_NEAR(mean.u[k],
+                  std::hypot(std::sqrt(c.u_forward * c.u_forward / 4 + 4 + (share - 0.5) * V),
+                             mean.u_interpolation[k]),
+                  1e-7)
           << c.at;
     }
   }

@@ -1,5 +1,6 @@
 // mdof trend: shows figures of the stored runs against time, with control limits.
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -225,7 +226,7 @@ Action declare_trend(CLI::App& command) {
                   "Leave out these runs, for example a run with a known fault of the set-up")
       ->type_name("RUN")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()));
   add_database_option(command, o->database);
   add_plot_option(command, o->plots);
   add_csv_and_json_flags(command, o->csv, o->json);

@@ -246,7 +246,7 @@ Result<ActiveVolumetric> Store::active_volumetric() {
 
 // The tables at the start, and the tables that were activated between the start and the last stop.
 // If the start is not known, the run has the day that the rig states (and was measured before it
-// was stored), or the time of its evaluation.
+// was stored), or the time of its evaluation. '9' is later than every time.
 Result<std::vector<std::int64_t>> Store::active_during(std::int64_t run, bool start_known) {
   MDOF_TRY(
       Statement row,

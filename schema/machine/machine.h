@@ -32,7 +32,8 @@ struct ErrorFunction {
   // The part of u that is independent from position to position, such as noise; empty: unknown.
   std::vector<double> u_independent{};
   // Curvature in each interval, 1/m or rad/m². Linear interpolation at x between x_i and x_{i+1}
-  // adds a standard uncertainty of ½ (x - x_i) (x_{i+1} - x) curvature. Empty: it adds none.
+  // adds a standard uncertainty of ½ (x - x_i) (x_{i+1} - x) curvature. Empty: it adds none. Beyond
+  // the ends, u contains the slope of the end interval, also without curvature.
   std::vector<double> curvature{};
   bool noise_only = false;  // u contains only noise and repeatability
 

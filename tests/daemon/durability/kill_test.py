@@ -111,6 +111,8 @@ def main():
             acknowledged = Acknowledged()
             listener = threading.Thread(target=acknowledged.listen, args=(client,))
             listener.start()
+            while kill == 0 and not acknowledged.chunk:  # so that there is something to lose, on a slow computer as well
+                time.sleep(0.01)
             others.start()
             time.sleep(chance.uniform(0.05, 2.5))
             while options.break_it and not acknowledged.points:

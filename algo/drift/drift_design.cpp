@@ -42,12 +42,15 @@ DriftDesign::DriftDesign(std::vector<TimedVisit> visits) : visits_(std::move(vis
   const Eigen::RowVectorXd mean = all.colwise().mean();
   all.rowwise() -= mean;
   const Eigen::MatrixXd between = centred(all);
-  const auto places = static_cast<double>(visits_of_place_.size());
-  const auto left = [&](int orders) { return static_cast<double>(n) - places - orders; };
+  const auto left = [&](int orders) { return visits_minus_places() - orders; };
   while (orders_ < kMostOrders && left(orders_ + 1) >= kFewestFreedom &&
          least_share(between, all, orders_ + 1) >= kFewestSeen)
     ++orders_;
   if (orders_ > 0) freedom_ = left(orders_);
+}
+
+double DriftDesign::visits_minus_places() const {
+  return static_cast<double>(visits_.size()) - static_cast<double>(visits_of_place_.size());
 }
 
 Eigen::VectorXd DriftDesign::legendre(double time_s, int orders) const {

@@ -49,14 +49,16 @@ class DriftDesign {
   double begin_s() const { return begin_s_; }            // time of the first visit
   double end_s() const { return begin_s_ + length_s_; }  // time of the last visit
 
-  DriftRows rows(const Eigen::MatrixXd& y) const;  // `y`: visits × series; requires orders() > 0
+  double visits_minus_places() const;
+  // Subtracts from each row the mean of all visits of its place. `y`: visits × series
+  Eigen::MatrixXd centred(const Eigen::MatrixXd& y) const;
+  DriftRows rows(const Eigen::MatrixXd& y) const;  // requires orders() > 0
   // Returns the value of the polynomial of each order. The value is 0 at the first visit, because
   // the system was zeroed there. Before the first visit and after the last visit the value is held.
   Eigen::VectorXd polynomials(double time_s) const;
 
  private:
   Eigen::VectorXd legendre(double time_s, int orders) const;
-  Eigen::MatrixXd centred(const Eigen::MatrixXd& y) const;
 
   std::vector<TimedVisit> visits_;
   std::vector<double> visits_of_place_;

@@ -1,13 +1,18 @@
 #include "algo/drift/removed_drift.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "algo/drift/run_drift.h"
 #include "algo/model/restate.h"
+#include "algo/model/solver.h"
 #include "schema/recording/run_options.h"
 
 namespace mdof::algo {
 namespace {
+
+constexpr double kLeastShift = 1e-13;  // m or rad; smaller differences are due to rounding
 
 // Converts shifts of the errors from the reference point "fixture" to the reference point of the
 // run.
@@ -31,20 +36,47 @@ PointShifts restated(const PointShifts& at_fixture, const Run& run) {
   return shifts;
 }
 
+// The points with the errors before a drift was subtracted.
+Result<std::vector<MeasuredPoint>> as_measured(const Rig& rig, const Run& run) {
+  MDOF_TRY(const Solver solver, Solver::create(rig, model_of(run)));
+  std::vector<MeasuredPoint> points = run.points;
+  for (MeasuredPoint& p : points)
+    if (p.errors.valid) p.errors = solved(solver, p.point, run.header.moving(), kAtFixture);
+  return points;
+}
+
+// Differences between the drift that was subtracted and the drift that is estimated now.
+PointShifts other_course(const std::vector<MeasuredPoint>& stored,
+                         const std::vector<MeasuredPoint>& estimated) {
+  PointShifts shifts(stored.size());
+  for (std::size_t j = 0; j < stored.size(); ++j)
+    for (std::size_t k = 0; k < kErrorCount && estimated[j].errors.valid; ++k)
+      shifts[j][k] = estimated[j].errors.local[k] - stored[j].errors.local[k];
+  return shifts;
+}
+
+bool any(const PointShifts& shifts) {
+  return std::any_of(shifts.begin(), shifts.end(), [](const Errors5& of) {
+    return std::any_of(of.begin(), of.end(), [](double x) { return std::abs(x) > kLeastShift; });
+  });
+}
+
 }  // namespace
 
-std::vector<Contributor> removed_drift(const Run& run) {
-  if (!run_options(run.header).remove_drift) return {};
-  const std::vector<MeasuredPoint> points = restate(run, kAtFixture).points;
-  const DriftOfRun drift(points);
-  std::vector<PointShifts> parts;
-  for (const PointShifts& part : drift.removal_shifts(points)) parts.push_back(restated(part, run));
-  if (parts.empty()) return {};
+Result<std::vector<Contributor>> removed_drift(const Rig& rig, const Run& run) {
+  if (!run_options(run.header).remove_drift) return std::vector<Contributor>{};
+  MDOF_TRY(const std::vector<MeasuredPoint> measured, as_measured(rig, run));
+  const DriftOfRun drift(measured);
+  std::vector<PointShifts> parts = drift.removal_shifts(measured);
+  parts.push_back(other_course(restate(run, kAtFixture).points, drift.without(measured)));
+  if (!any(parts.back())) parts.pop_back();
+  if (parts.empty()) return std::vector<Contributor>{};
+  for (PointShifts& part : parts) part = restated(part, run);
   Contributor removed;
   removed.name = {ContributorKind::removed_drift};
   removed.declared = {1, UncertaintyShape::normal, drift.freedom()};
   removed.parts = [parts = std::move(parts)] { return parts; };
-  return {std::move(removed)};
+  return std::vector<Contributor>{std::move(removed)};
 }
 
 }  // namespace mdof::algo

@@ -226,19 +226,16 @@ double DriftOfRun::freedom() const {
 
 std::vector<std::vector<Errors5>> DriftOfRun::removal_shifts(
     const std::vector<MeasuredPoint>& points) const {
-  if (!fit_) return {};
+  if (!fit_ || !found_.removable()) return {};
   std::vector<double> time_s;
   for (const MeasuredPoint& p : points) time_s.push_back(middle_time_s(p));
-  const std::vector<Eigen::MatrixXd> all = DriftFit(*fit_).parts(time_s);
+  const std::vector<Eigen::MatrixXd> all = fit_->parts(time_s);
   std::vector<std::vector<Errors5>> parts(static_cast<std::size_t>(all.front().cols()),
                                           std::vector<Errors5>(points.size()));
   for (std::size_t j = 0; j < points.size(); ++j)
     for (std::size_t part = 0; part < parts.size() && points[j].errors.valid; ++part)
       for (std::size_t k = 0; k < kErrorCount; ++k)
         parts[part][j][k] = all[j](static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(part));
-  std::erase_if(parts, [](const std::vector<Errors5>& part) {
-    return std::all_of(part.begin(), part.end(), [](const Errors5& e) { return e == Errors5{}; });
-  });
   return parts;
 }
 

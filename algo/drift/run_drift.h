@@ -55,10 +55,9 @@ class DriftOfRun {
   // Returns the points with errors from which the significant drifts since the first point are
   // subtracted. The system was zeroed at the first point; an earlier drift remains in all points.
   std::vector<MeasuredPoint> without(std::vector<MeasuredPoint> points) const;
-  // Returns the uncertainty of points from without() as [part][point]: the effect of one standard
-  // uncertainty of each independent part on the errors of each point. The squares of the parts add;
-  // they have freedom() degrees of freedom. This object must be constructed from points of
-  // without(): a fitted drift of 0 means that the drift was removed.
+  // Returns the uncertainty of without() as [part][point]: the effect of one standard uncertainty
+  // of each independent part on the errors of each point. The squares of the parts add; they have
+  // freedom() degrees of freedom.
   std::vector<std::vector<Errors5>> removal_shifts(const std::vector<MeasuredPoint>& points) const;
   double freedom() const;
 

@@ -5,31 +5,13 @@
 #include <utility>
 
 #include "algo/sensitivity/plan/functions.h"
-#include "schema/base/random.h"
 
 namespace mdof::algo {
 namespace {
 
-constexpr double kLeastNoise2 = 1e-24;                // (1 pm)², for readings without noise
-constexpr double kNearlyAsLikely = 7, kAsLikely = 2;  // differences of -2 log(likelihood)
-// Limit of a score, in sd of the score: a subtracted drift has smaller scores, due to rounding.
-constexpr double kLeastScore = 1e-6;
-constexpr Eigen::Index kWaves = 12;  // waves of the slow noise: 1 to 12 half periods in the log
-constexpr double kPi = 3.14159265358979323846;
-
-// Lower triangular L with L Lᵀ = S; values that rounding makes negative are set to 0.
-Eigen::MatrixXd root_of(const Eigen::MatrixXd& S) {
-  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(S.rows(), S.rows());
-  for (Eigen::Index a = 0; a < S.rows(); ++a)
-    for (Eigen::Index b = 0; b <= a; ++b) {
-      const double left = S(a, b) - root.row(a).head(b).dot(root.row(b).head(b));
-      if (a == b)
-        root(a, a) = std::sqrt(std::max(left, 0.0));
-      else if (root(b, b) > 0)
-        root(a, b) = left / root(b, b);
-    }
-  return root;
-}
+constexpr double kNearlyAsLikely = 7;  // difference of -2 log(likelihood)
+constexpr double kLeastShare = 1e-3;   // of the variance that few_parts() leaves out
+constexpr std::size_t kTimesToChoose = 200;
 
 int highest_significant(const WeighedFit& fit, Eigen::Index series, double least) {
   auto order = static_cast<int>(fit.scores.rows());
@@ -63,118 +45,116 @@ DriftFit::DriftFit(DriftDesign design, const Eigen::MatrixXd& y, const Eigen::Ve
       root_of(size.asDiagonal().inverse() * fits.front().left * size.asDiagonal().inverse());
   const double tests = design_.orders() * static_cast<double>(y.cols());
   const double t = critical_t(kDriftLevel / tests, freedom_);
-  for (Eigen::Index k = 0; k < y.cols(); ++k) estimate(k, fits, noise2(k), t);
+  for (Eigen::Index k = 0; k < y.cols(); ++k)
+    series_[static_cast<std::size_t>(k)] = tested(k, fits, noise2(k), t);
+  const auto significant = [](const SeriesDrift& drift) { return drift.significant(); };
+  if (std::none_of(series_.begin(), series_.end(), significant)) return;
+  process_.emplace(design_, y, noise2);
+  for (std::size_t k = 0; k < series_.size(); ++k)
+    if (series_[k].significant()) describe(k);
 }
 
-void DriftFit::estimate(Eigen::Index k, const std::vector<WeighedFit>& fits, double noise2,
-                        double critical_t) {
+SeriesDrift DriftFit::tested(Eigen::Index k, const std::vector<WeighedFit>& fits, double noise2,
+                             double critical_t) const {
   std::vector<double> unlikely;
   for (const WeighedFit& fit : fits)
     unlikely.push_back(fit.minus_two_log_likelihood(k, freedom_, kLeastNoise2));
-  const auto likeliest = std::min_element(unlikely.begin(), unlikely.end());
-  const auto sd_of = [&](const WeighedFit& fit) {
-    return std::sqrt(std::max({fit.left(k, k) / freedom_, noise2, kLeastNoise2}));
-  };
+  const double least_unlikely = *std::min_element(unlikely.begin(), unlikely.end());
   const Eigen::VectorXd whole = design_.polynomials(design_.end_s());
-  int order = design_.orders();
-  double least_found = 0, largest_u = 0;
-  const WeighedFit* taken = nullptr;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    if (unlikely[i] > *likeliest + kNearlyAsLikely) continue;
-    const double sd = sd_of(fits[i]), least = critical_t * sd;
-    const Eigen::VectorXd shapes = fits[i].shapes(whole);
-    order = std::min(order, highest_significant(fits[i], k, least));
-    least_found = std::max(least_found, least * std::abs(shapes(0)));
-    if (unlikely[i] > *likeliest + kAsLikely || sd * shapes.norm() <= largest_u) continue;
-    largest_u = sd * shapes.norm();
-    taken = &fits[i];
-  }
-  estimates_.push_back({taken->scores.col(k), taken->root, sd_of(*taken), taken->noise, {}, {}});
-  series_[static_cast<std::size_t>(k)] = described(estimates_.back(), order);
-  series_[static_cast<std::size_t>(k)].least_found = least_found;
-  const WeighedFit& best = fits[static_cast<std::size_t>(likeliest - unlikely.begin())];
-  if (order > 0)
-    series_[static_cast<std::size_t>(k)].u_change = sd_of(best) * best.shapes(whole).norm();
-}
-
-// Approximates the slow noise by kWaves cosines; cosine m has m half periods over the log. The
-// cosines are nearly independent, and their spectrum at the angular frequency ω is 2 τ/(1 + ω²τ²).
-// Calculates the effect of the cosines on the scores. The rest of the variance of the scores is due
-// to white noise.
-void DriftFit::split_noise(Estimate& of) const {
-  const auto n = static_cast<Eigen::Index>(design_.visits().size());
-  Eigen::MatrixXd y(n, kWaves);
-  for (Eigen::Index i = 0; i < n; ++i)
-    y.row(i) = waves(of, design_.visits()[static_cast<std::size_t>(i)].time_s).transpose();
-  of.of_waves = weighed_fit(design_.rows(y), of.noise).scores;
-  of.of_white = root_of(of.sd * of.sd * Eigen::MatrixXd::Identity(of.root.rows(), of.root.rows()) -
-                        of.of_waves * of.of_waves.transpose());
-}
-
-Eigen::VectorXd DriftFit::waves(const Estimate& of, double time_s) const {
-  const double length_s = design_.end_s() - design_.begin_s();
-  const double part = std::clamp((time_s - design_.begin_s()) / length_s, 0.0, 1.0);
-  Eigen::VectorXd waves = Eigen::VectorXd::Zero(kWaves);
-  for (Eigen::Index m = 1; m <= kWaves && of.noise.share > 0; ++m) {
-    const double turn = kPi * static_cast<double>(m) * of.noise.correlation_s / length_s;
-    const double variance =
-        2 * of.noise.share * of.noise.correlation_s / length_s / (1 + turn * turn);
-    const double cosine = sine_of_turns(0.25 + static_cast<double>(m) * part / 2);
-    waves(m - 1) = of.sd * std::sqrt(2 * variance) * (cosine - 1);
-  }
-  return waves;
-}
-
-Eigen::VectorXd DriftFit::shapes(const Estimate& of, double time_s) const {
-  return of.root.transpose().triangularView<Eigen::Lower>().solve(design_.polynomials(time_s));
-}
-
-SeriesDrift DriftFit::described(const Estimate& of, int order) const {
   SeriesDrift out;
-  out.order = order;
-  if (order == 0) return out;
-  out.change = shapes(of, design_.end_s()).dot(of.scores);
+  out.order = design_.orders();
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (unlikely[i] > least_unlikely + kNearlyAsLikely) continue;
+    const double sd = std::sqrt(std::max({fits[i].left(k, k) / freedom_, noise2, kLeastNoise2}));
+    const double least = critical_t * sd;
+    out.order = std::min(out.order, highest_significant(fits[i], k, least));
+    out.least_found = std::max(out.least_found, least * std::abs(fits[i].shapes(whole)(0)));
+  }
+  return out;
+}
+
+void DriftFit::describe(std::size_t series) {
+  SeriesDrift& of = series_[series];
+  const auto k = static_cast<Eigen::Index>(series);
+  of.change = process_->drift(design_.end_s())(k);
+  of.u_change = process_->u(k, design_.end_s());
   double low = 0, high = 0;  // at the first visit
   for (const TimedVisit& visit : design_.visits()) {
-    const double here = shapes(of, visit.time_s).dot(of.scores);
+    const double here = process_->drift(visit.time_s)(k);
     low = std::min(low, here);
     high = std::max(high, here);
   }
-  out.range = high - low;
-  return out;
+  of.range = high - low;
+}
+
+bool DriftFit::removed(std::size_t series) const {
+  return series_[series].significant() && !series_[series].steps;
+}
+
+double DriftFit::freedom() const {
+  if (!process_) return 0;
+  double fewest = DriftProcess::freedom_of_noise(design_);
+  for (std::size_t k = 0; k < series_.size(); ++k)
+    if (removed(k)) fewest = std::min(fewest, process_->freedom(static_cast<Eigen::Index>(k)));
+  return fewest;
 }
 
 Eigen::VectorXd DriftFit::drift(double time_s) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(series_.size()));
-  for (std::size_t k = 0; k < estimates_.size(); ++k)
-    if (series_[k].significant() && !series_[k].steps)
-      out(static_cast<Eigen::Index>(k)) = shapes(estimates_[k], time_s).dot(estimates_[k].scores);
+  if (!process_) return out;
+  const Eigen::VectorXd drift = process_->drift(time_s);
+  for (Eigen::Index k = 0; k < out.size(); ++k)
+    if (removed(static_cast<std::size_t>(k))) out(k) = drift(k);
   return out;
 }
 
-bool DriftFit::taken(std::size_t series) const {
-  const Estimate& of = estimates_[series];
-  return (of.scores.array().abs() < kLeastScore * of.sd).all();
-}
-
-std::vector<Eigen::MatrixXd> DriftFit::parts(const std::vector<double>& time_s) {
-  const auto n = static_cast<Eigen::Index>(series_.size()), each = design_.orders() + kWaves;
-  std::vector<Eigen::MatrixXd> parts(time_s.size(), Eigen::MatrixXd::Zero(n, n * each));
-  for (std::size_t a = 0; a < estimates_.size(); ++a) {
-    if (!taken(a)) continue;
-    Estimate& of = estimates_[a];
-    split_noise(of);
-    const auto row = static_cast<Eigen::Index>(a);
-    for (std::size_t j = 0; j < time_s.size(); ++j) {
-      const Eigen::VectorXd here = shapes(of, time_s[j]);
-      Eigen::VectorXd by(each);
-      by.head(design_.orders()) = of.of_white.transpose() * here;
-      by.tail(kWaves) = waves(of, time_s[j]) - of.of_waves.transpose() * here;
-      for (Eigen::Index i = 0; i < each; ++i)
-        parts[j].row(row).segment(i * n, n) = by(i) * correlation_.row(row);
+std::vector<Eigen::MatrixXd> DriftFit::parts(const std::vector<double>& time_s) const {
+  const auto n = static_cast<Eigen::Index>(series_.size());
+  std::vector<Eigen::MatrixXd> parts(time_s.size(), Eigen::MatrixXd::Zero(n, 0));
+  if (!process_) return parts;
+  const Eigen::MatrixXd few = few_parts(time_s);
+  for (std::size_t j = 0; j < parts.size(); ++j) {
+    parts[j] = Eigen::MatrixXd::Zero(n, n * few.cols());
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (!removed(static_cast<std::size_t>(k))) continue;
+      const Eigen::RowVectorXd here = process_->parts(k, time_s[j]).transpose() * few;
+      for (Eigen::Index i = 0; i < few.cols(); ++i)
+        parts[j].row(k).segment(i * n, n) = here(i) * correlation_.row(k);
     }
   }
   return parts;
+}
+
+// The process has many parts that are nearly the same. Returns few orthogonal combinations of them
+// that contain all of the variance but kLeastShare: parts × combinations.
+Eigen::MatrixXd DriftFit::few_parts(const std::vector<double>& time_s) const {
+  const std::size_t step = 1 + time_s.size() / kTimesToChoose;
+  std::vector<Eigen::VectorXd> left;
+  double all = 0;
+  for (std::size_t k = 0; k < series_.size(); ++k) {
+    if (!removed(k)) continue;
+    const double u = process_->u(static_cast<Eigen::Index>(k), design_.end_s());
+    for (std::size_t j = 0; j < time_s.size() && u > 0; j += step) {
+      left.push_back(process_->parts(static_cast<Eigen::Index>(k), time_s[j]) / u);
+      all += left.back().squaredNorm();
+    }
+  }
+  std::vector<Eigen::VectorXd> chosen;
+  const auto smaller = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return a.squaredNorm() < b.squaredNorm();
+  };
+  for (double rest = all; rest > kLeastShare * all;) {
+    chosen.push_back(std::max_element(left.begin(), left.end(), smaller)->normalized());
+    rest = 0;
+    for (Eigen::VectorXd& of : left) {
+      of -= chosen.back().dot(of) * chosen.back();
+      rest += of.squaredNorm();
+    }
+  }
+  Eigen::MatrixXd few(left.empty() ? 0 : left.front().size(),
+                      static_cast<Eigen::Index>(chosen.size()));
+  for (std::size_t i = 0; i < chosen.size(); ++i) few.col(static_cast<Eigen::Index>(i)) = chosen[i];
+  return few;
 }
 
 }  // namespace mdof::algo

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "algo/drift/drift_design.h"
+#include "algo/drift/drift_process.h"
 #include "algo/drift/slow_noise.h"
 
 namespace mdof::algo {
@@ -26,55 +28,43 @@ struct SeriesDrift {
 // `y`: visits × series. `noise2`: for each series the mean u² of its readings; the variance from
 // the residuals is at least this value.
 //
-// The noise of consecutive visits may be correlated over an unknown time. Several models of the
-// noise (slow_noise.h) are therefore fitted:
-// - A drift is significant only if it is significant with every model that is nearly as likely as
-//   the likeliest model.
-// - The drift is estimated with the model that has the largest uncertainty among the models that
-//   are about as likely as the likeliest model.
-// - u_change is from the likeliest model.
+// A drift is significant if a fit of polynomials in time shows it. The noise of consecutive visits
+// may be correlated over an unknown time. Several models of the noise (slow_noise.h) are therefore
+// fitted. A drift is significant only if it is significant with every model that is nearly as
+// likely as the likeliest model. Orders are tested from the highest to the lowest. The level of
+// each test is kDriftLevel / (orders × series). Each test uses the residual variance of the fit of
+// the highest order.
 //
-// Orders are tested from the highest to the lowest. The level of each test is kDriftLevel / (orders
-// × series). Each test uses the residual variance of the fit of the highest order.
+// The course of a significant drift is estimated without an assumption of its form
+// (drift_process.h).
 class DriftFit {
  public:
   DriftFit(DriftDesign design, const Eigen::MatrixXd& y, const Eigen::VectorXd& noise2);
 
   const DriftDesign& design() const { return design_; }
-  double freedom() const { return freedom_; }
   const std::vector<SeriesDrift>& series() const { return series_; }
   void mark_as_steps(std::size_t series) { series_[series].steps = true; }
   // Returns for each series the drift from the first visit to this time, which is subtracted from a
   // reading. 0 if no drift is significant, or if the drift may be steps.
   Eigen::VectorXd drift(double time_s) const;
-  // Returns for each time the uncertainty of readings from which drift() was subtracted before the
-  // fit: series × independent parts, whose squares add. A series whose drift was subtracted is
-  // recognised by its scores, which are 0. The slow noise is included, because the subtracted drift
-  // contains a part of the slow noise.
-  std::vector<Eigen::MatrixXd> parts(const std::vector<double>& time_s);
+  // Returns for each time the uncertainty of drift(): series × independent parts, whose squares
+  // add. 0 for a series whose drift() is 0.
+  std::vector<Eigen::MatrixXd> parts(const std::vector<double>& time_s) const;
+  // Degrees of freedom of parts(); the fewest of all series whose drift() is not 0.
+  double freedom() const;
 
  private:
-  struct Estimate {  // for one series
-    Eigen::VectorXd scores;
-    Eigen::MatrixXd root;
-    double sd = 0;  // sd of a score
-    SlowNoise noise;
-    // Effects of the waves and of the white noise on the scores.
-    Eigen::MatrixXd of_waves, of_white;
-  };
-  void estimate(Eigen::Index series, const std::vector<WeighedFit>& fits, double noise2,
-                double critical_t);
-  void split_noise(Estimate& of) const;
-  Eigen::VectorXd waves(const Estimate& of, double time_s) const;
-  SeriesDrift described(const Estimate& of, int order) const;
-  Eigen::VectorXd shapes(const Estimate& of, double time_s) const;
-  bool taken(std::size_t series) const;
+  SeriesDrift tested(Eigen::Index series, const std::vector<WeighedFit>& fits, double noise2,
+                     double critical_t) const;
+  void describe(std::size_t series);
+  bool removed(std::size_t series) const;
+  Eigen::MatrixXd few_parts(const std::vector<double>& time_s) const;
 
   DriftDesign design_;
-  double freedom_ = 0;
+  double freedom_ = 0;  // of the fit of polynomials
   // Lower triangular root of the correlation matrix of the noise of the series.
   Eigen::MatrixXd correlation_;
-  std::vector<Estimate> estimates_;
+  std::optional<DriftProcess> process_;  // only if a drift is significant
   std::vector<SeriesDrift> series_;
 };
 

@@ -1,6 +1,7 @@
 #include "algo/model/restate.h"
 
 #include "algo/iso230/straightness.h"
+#include "algo/model/moving_body.h"
 #include "algo/model/small_rotation.h"
 
 namespace mdof::algo {
@@ -52,6 +53,14 @@ AxisErrors restate(const AxisErrors& errors, Model model, const MovingAxis& movi
   out.local[kDz] += change.z();
   out.covariance = carried(errors.covariance, arm);
   return out;
+}
+
+AxisErrors solved(const Solver& solver, const Point& point, const MovingAxis& moving,
+                  const StatedAt& to) {
+  const double travel_m = moving.sides.target_travel_m(point.position_m);
+  const AxisErrors of_target = solver.solve(travel_m, point.probe_m, point.probe_u_m);
+  return restate(errors_of_moving_body(of_target, solver.model(), moving), solver.model(), moving,
+                 travel_m, kAtCarriage, to);
 }
 
 Model model_of(const Run& run) {

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "algo/model/solver.h"
 #include "schema/rig/reference.h"
 #include "schema/run.h"
 
@@ -29,6 +30,10 @@ Eigen::Vector3d reference_point(const StatedAt& at, Axis axis, double travel_m);
 // because five probes and an encoder do not measure it.
 AxisErrors restate(const AxisErrors& errors, Model model, const MovingAxis& moving, double travel_m,
                    const StatedAt& from, const StatedAt& to);
+
+// Calculates the errors of a point from its readings, at the point `to`.
+AxisErrors solved(const Solver& solver, const Point& point, const MovingAxis& moving,
+                  const StatedAt& to);
 
 // Converts all points of a run to the point `to` and calculates the straightness and angle figures
 // again.

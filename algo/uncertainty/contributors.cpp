@@ -371,7 +371,8 @@ Status check_angles(const Rig& rig) {
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   if (run.points.empty())
     return bad_input(name_of(run) + " has no points, so no budget can be calculated");
-  std::vector<Contributor> own = removed_drift(run);  // contributors that do not come from the rig
+  // contributors that do not come from the rig
+  MDOF_TRY(std::vector<Contributor> own, removed_drift(rig, run));
   const Model model = model_of(run);
   if (auto left_out = model_contributor(rig, run, model)) own.push_back(std::move(*left_out));
   if (!rig.declares_uncertainty()) return own;

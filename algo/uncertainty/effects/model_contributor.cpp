@@ -3,7 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include "algo/model/moving_body.h"
 #include "algo/model/restate.h"
 #include "algo/model/solver.h"
 
@@ -14,14 +13,8 @@ PointShifts left_out(const Solver& simplified, const Solver& exact, const Run& r
   PointShifts shifts(run.points.size());
   for (std::size_t j = 0; j < shifts.size(); ++j) {
     const MeasuredPoint& p = run.points[j];
-    const double travel_m = run.header.sides.target_travel_m(p.point.position_m);
-    const auto stated = [&](const Solver& solver) {
-      const AxisErrors of_target =
-          solver.solve_without_covariance(travel_m, p.point.probe_m, p.point.probe_u_m);
-      return restate(errors_of_moving_body(of_target, solver.model(), run.header.moving()),
-                     solver.model(), run.header.moving(), travel_m, kAtCarriage, run.header.stated);
-    };
-    const AxisErrors first = stated(simplified), all = stated(exact);
+    const AxisErrors first = solved(simplified, p.point, run.header.moving(), run.header.stated);
+    const AxisErrors all = solved(exact, p.point, run.header.moving(), run.header.stated);
     if (!p.errors.valid || !first.valid || !all.valid) continue;
     for (std::size_t e = 0; e < kErrorCount; ++e) shifts[j][e] = first.local[e] - all.local[e];
   }

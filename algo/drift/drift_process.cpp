@@ -1,0 +1,226 @@
+#include "algo/drift/drift_process.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "algo/sensitivity/plan/functions.h"
+#include "schema/base/random.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kLeastWeight = 1e-4;  // of a model
+constexpr Eigen::Index kWaves = 48, kTerms = 1 + kWaves;
+// The cosines have no slope at the ends of their interval. Therefore the interval is longer than
+// the log, by this part of the log at each end.
+constexpr double kMargin = 0.25;
+// The logarithmic times are log(1 + t / start); times in lengths of the log. 0: the elapsed time.
+constexpr std::array kStarts = {0.0, 0.1, 0.02};
+constexpr std::array kCorrelations = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};  // in lengths of the log
+// Standard deviations of the smooth part, and of the random walk at the end of the log, relative to
+// the white noise.
+constexpr std::array kSmooth = {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0};
+constexpr std::array kWalks = {0.0, 1.5, 5.0, 15.0, 50.0};
+constexpr double kLeastVariance = 1e-30;
+
+double angular_frequency(Eigen::Index wave) {
+  return kPi * static_cast<double>(wave) / (1 + 2 * kMargin);
+}
+
+// Variance of the amplitude of a cosine: its spectral density times 2 / (length of the interval).
+double variance_of(Eigen::Index wave, double smooth, double correlation, double walk) {
+  const double w2 = angular_frequency(wave) * angular_frequency(wave);
+  const double five = 5 / (correlation * correlation), sum = five + w2;
+  const double matern =
+      smooth * smooth * 16 / 3 * five * five * std::sqrt(five) / (sum * sum * sum);
+  return (matern + walk * walk / w2) * 2 / (1 + 2 * kMargin);
+}
+
+// Converts logarithms of likelihoods to weights with the sum 1.
+void normalize_weights(Eigen::Ref<Eigen::VectorXd> weights) {
+  const double most = weights.maxCoeff();
+  for (double& weight : weights) {
+    weight = exponential(weight - most);
+    if (weight < kLeastWeight) weight = 0;
+  }
+  weights /= weights.sum();
+}
+
+// The terms of all kinds of time: the trend, then the cosines of each kind.
+Eigen::Index first_wave(std::size_t clock) {
+  return 1 + static_cast<Eigen::Index>(clock) * kWaves;
+}
+
+}  // namespace
+
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& S) {
+  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(S.rows(), S.rows());
+  for (Eigen::Index a = 0; a < S.rows(); ++a)
+    for (Eigen::Index b = 0; b <= a; ++b) {
+      const double left = S(a, b) - root.row(a).head(b).dot(root.row(b).head(b));
+      if (a == b)
+        root(a, a) = std::sqrt(std::max(left, 0.0));
+      else if (root(b, b) > 0)
+        root(a, b) = left / root(b, b);
+    }
+  return root;
+}
+
+// The trend a t, the first term, has no known variance.
+std::vector<DriftProcess::Model> DriftProcess::models() {
+  std::vector<Model> all;
+  const auto add = [&](std::size_t clock, double smooth, double correlation, double walk) {
+    Model model{clock, Eigen::VectorXd::Zero(kTerms), 0};
+    for (Eigen::Index wave = 1; wave <= kWaves; ++wave) {
+      const double variance =
+          std::max(variance_of(wave, smooth, correlation, walk), kLeastVariance);
+      model.precision(wave) = 1 / variance;
+      model.log_variances += natural_log(variance);
+    }
+    all.push_back(std::move(model));
+  };
+  for (const double walk : kWalks) {
+    add(0, 0, 1, walk);
+    for (std::size_t clock = 0; clock < kStarts.size(); ++clock)
+      for (const double correlation : kCorrelations)
+        for (const double smooth : kSmooth) add(clock, smooth, correlation, walk);
+  }
+  return all;
+}
+
+double DriftProcess::freedom_of_noise(const DriftDesign& design) {
+  return design.visits_minus_places() - 1;
+}
+
+DriftProcess::DriftProcess(const DriftDesign& design, const Eigen::MatrixXd& y,
+                           const Eigen::VectorXd& noise2)
+    : begin_s_(design.begin_s()), length_s_(design.end_s() - design.begin_s()) {
+  const std::vector<Products> products = products_of(design, y);
+  const std::vector<Model> all = models();
+  const Eigen::VectorXd squares = design.centred(y).colwise().squaredNorm();
+  const double freedom = freedom_of_noise(design);
+  const auto series = y.cols(), count = static_cast<Eigen::Index>(all.size());
+  std::vector<Eigen::MatrixXd> means;  // of each model: terms × series
+  Eigen::MatrixXd noise(count, series), weights(count, series);
+  for (Eigen::Index m = 0; m < count; ++m) {
+    const Model& model = all[static_cast<std::size_t>(m)];
+    const Products& of = products[model.clock];
+    const Eigen::LLT<Eigen::MatrixXd> root = normal_equations(of, model);
+    means.emplace_back(root.solve(of.by_series));
+    double log_determinants = model.log_variances;
+    for (Eigen::Index i = 0; i < kTerms; ++i)
+      log_determinants += 2 * natural_log(root.matrixLLT()(i, i));
+    for (Eigen::Index k = 0; k < series; ++k) {
+      const double left = squares(k) - of.by_series.col(k).dot(means.back().col(k));
+      noise(m, k) = std::max(left / freedom, kLeastNoise2);
+      weights(m, k) = -(log_determinants + freedom * natural_log(noise(m, k))) / 2;
+    }
+  }
+  for (Eigen::Index k = 0; k < series; ++k) normalize_weights(weights.col(k));
+  const auto in_whole = [&](Eigen::Index m, Eigen::Index k) {
+    const Eigen::VectorXd own = means[static_cast<std::size_t>(m)].col(k);
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(first_wave(kStarts.size()));
+    out(0) = own(0);
+    out.segment(first_wave(all[static_cast<std::size_t>(m)].clock), kWaves) = own.tail(kWaves);
+    return out;
+  };
+  const Eigen::Index whole = first_wave(kStarts.size());
+  mean_ = Eigen::MatrixXd::Zero(whole, series);
+  for (Eigen::Index m = 0; m < count; ++m)
+    for (Eigen::Index k = 0; k < series; ++k)
+      if (weights(m, k) > 0) mean_.col(k) += weights(m, k) * in_whole(m, k);
+  std::vector<Eigen::MatrixXd> covariances(static_cast<std::size_t>(series),
+                                           Eigen::MatrixXd::Zero(whole, whole));
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(series), square = variance;
+  for (Eigen::Index m = 0; m < count; ++m) {
+    if (!(weights.row(m).maxCoeff() > 0)) continue;
+    const Model& model = all[static_cast<std::size_t>(m)];
+    const Eigen::MatrixXd own = normal_equations(products[model.clock], model)
+                                    .solve(Eigen::MatrixXd::Identity(kTerms, kTerms));
+    const double of_drift = own.cwiseProduct(products[model.clock].mean_square).sum();
+    const Eigen::Index first = first_wave(model.clock);
+    for (Eigen::Index k = 0; k < series; ++k) {
+      if (!(weights(m, k) > 0)) continue;
+      Eigen::MatrixXd& to = covariances[static_cast<std::size_t>(k)];
+      const double noise_of_model = std::max(noise(m, k), noise2(k));
+      const double by = weights(m, k) * noise_of_model, here = noise_of_model * of_drift;
+      variance(k) += weights(m, k) * here;
+      square(k) += weights(m, k) * here * here;
+      to(0, 0) += by * own(0, 0);
+      to.block(first, 0, kWaves, 1) += by * own.block(1, 0, kWaves, 1);
+      to.block(0, first, 1, kWaves) += by * own.block(0, 1, 1, kWaves);
+      to.block(first, first, kWaves, kWaves) += by * own.block(1, 1, kWaves, kWaves);
+      const Eigen::VectorXd off = in_whole(m, k) - mean_.col(k);
+      to += weights(m, k) * off * off.transpose();
+    }
+  }
+  for (const Eigen::MatrixXd& covariance : covariances) roots_.push_back(root_of(covariance));
+  freedom_ = Eigen::VectorXd::Constant(series, freedom);
+  for (Eigen::Index k = 0; k < series; ++k)
+    if (variance(k) > 0)
+      freedom_(k) =
+          1 / (1 / freedom + std::max(square(k) / (variance(k) * variance(k)) - 1, 0.0) / 2);
+}
+
+std::vector<DriftProcess::Products> DriftProcess::products_of(const DriftDesign& design,
+                                                              const Eigen::MatrixXd& y) const {
+  const Eigen::MatrixXd centred = design.centred(y);
+  std::vector<Products> products;
+  for (std::size_t clock = 0; clock < kStarts.size(); ++clock) {
+    Eigen::MatrixXd rows(y.rows(), kTerms);
+    for (Eigen::Index i = 0; i < y.rows(); ++i)
+      rows.row(i) = terms(clock, design.visits()[static_cast<std::size_t>(i)].time_s).transpose();
+    const Eigen::MatrixXd between = design.centred(rows);
+    products.push_back({between.transpose() * between, between.transpose() * centred,
+                        rows.transpose() * rows / static_cast<double>(y.rows())});
+  }
+  return products;
+}
+
+Eigen::LLT<Eigen::MatrixXd> DriftProcess::normal_equations(const Products& products,
+                                                           const Model& model) {
+  Eigen::MatrixXd sum = products.terms;
+  sum.diagonal() += model.precision;
+  return Eigen::LLT<Eigen::MatrixXd>(sum);
+}
+
+Eigen::VectorXd DriftProcess::terms(std::size_t clock, double time_s) const {
+  const double part = std::clamp((time_s - begin_s_) / length_s_, 0.0, 1.0);
+  const double start = kStarts[clock];
+  const double time =
+      start == 0 ? part : natural_log(1 + part / start) / natural_log(1 + 1 / start);
+  const auto turns = [](Eigen::Index wave, double t) {
+    return static_cast<double>(wave) * (t + kMargin) / (2 * (1 + 2 * kMargin));
+  };
+  Eigen::VectorXd out(kTerms);
+  out(0) = part;
+  for (Eigen::Index wave = 1; wave <= kWaves; ++wave)
+    out(wave) = sine_of_turns(0.25 + turns(wave, time)) - sine_of_turns(0.25 + turns(wave, 0));
+  return out;
+}
+
+Eigen::VectorXd DriftProcess::all_terms(double time_s) const {
+  Eigen::VectorXd out(first_wave(kStarts.size()));
+  for (std::size_t clock = 0; clock < kStarts.size(); ++clock) {
+    const Eigen::VectorXd of_clock = terms(clock, time_s);
+    out(0) = of_clock(0);
+    out.segment(first_wave(clock), kWaves) = of_clock.tail(kWaves);
+  }
+  return out;
+}
+
+Eigen::VectorXd DriftProcess::drift(double time_s) const {
+  return mean_.transpose() * all_terms(time_s);
+}
+
+double DriftProcess::u(Eigen::Index series, double time_s) const {
+  return parts(series, time_s).norm();
+}
+
+Eigen::VectorXd DriftProcess::parts(Eigen::Index series, double time_s) const {
+  return roots_[static_cast<std::size_t>(series)].transpose() * all_terms(time_s);
+}
+
+}  // namespace mdof::algo

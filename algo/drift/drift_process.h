@@ -1,0 +1,69 @@
+// Estimates the course of drifts from repeated visits of the same places. The model of a reading:
+//   y = error of the place + a t + g(t) + white noise;   drift: a t + g(t), 0 at the first visit
+//
+// g is a Gaussian process. It is the sum of a smooth part (Matérn, ν = 5/2) and of a random walk.
+// The time in g is either the elapsed time or its logarithm, because a system that warms up drifts
+// fastest at the start. g is approximated by cosines with independent amplitudes, whose variance is
+// the spectral density of g (Solin, Särkkä 2020, doi:10.1007/s11222-019-09886-w).
+//
+// Each combination of the kind of time, the correlation time of the smooth part, and the sizes of
+// both parts is a model. The weight of a model is its restricted likelihood (REML). The drift is
+// the weighted mean of the models, and its covariance contains their differences.
+//
+// A variation that is the same at each visit of a place, such as one whose period is the duration
+// of a run, cannot be distinguished from the error of the place.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <vector>
+
+#include "algo/drift/drift_design.h"
+
+namespace mdof::algo {
+
+inline constexpr double kLeastNoise2 = 1e-24;  // (1 pm)², for readings without noise
+
+// Lower triangular L with L Lᵀ = S; values that rounding makes negative are set to 0.
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& S);
+
+class DriftProcess {
+ public:
+  // `y`: visits × series. `noise2`: for each series the mean u² of its readings; the variance of
+  // the white noise is at least this value. Requires freedom_of_noise() > 0.
+  DriftProcess(const DriftDesign& design, const Eigen::MatrixXd& y, const Eigen::VectorXd& noise2);
+
+  // Degrees of freedom of the white noise.
+  static double freedom_of_noise(const DriftDesign& design);
+  // Degrees of freedom of u(). The models have different u, which reduces the degrees of freedom
+  // (GUM G.4.2, Eq. G.3).
+  double freedom(Eigen::Index series) const { return freedom_(series); }
+  Eigen::VectorXd drift(double time_s) const;          // of each series, since the first visit
+  double u(Eigen::Index series, double time_s) const;  // standard uncertainty of drift()
+  // Effects of independent parts of the uncertainty of drift(): the squares add to u². Part i of
+  // all series belongs to the same term of the drift.
+  Eigen::VectorXd parts(Eigen::Index series, double time_s) const;
+
+ private:
+  struct Model {
+    std::size_t clock;          // kind of time
+    Eigen::VectorXd precision;  // 1 / variance of each term, relative to the white noise
+    double log_variances;       // sum of the logarithms of the variances
+  };
+  struct Products {  // sums over the visits, minus the means of the places, for one kind of time
+    Eigen::MatrixXd terms, by_series;
+    Eigen::MatrixXd mean_square;  // of the terms at the visits, without subtraction of a mean
+  };
+  static std::vector<Model> models();
+  std::vector<Products> products_of(const DriftDesign& design, const Eigen::MatrixXd& y) const;
+  static Eigen::LLT<Eigen::MatrixXd> normal_equations(const Products& products, const Model& model);
+  Eigen::VectorXd terms(std::size_t clock, double time_s) const;
+  Eigen::VectorXd all_terms(double time_s) const;
+
+  double begin_s_, length_s_;
+  Eigen::VectorXd freedom_;
+  Eigen::MatrixXd mean_;                // terms × series
+  std::vector<Eigen::MatrixXd> roots_;  // of the covariance of the terms, for each series
+};
+
+}  // namespace mdof::algo

@@ -95,11 +95,13 @@ class Differences {
 std::vector<PointSensitivity> point_sensitivities(const Solver& solver, const Run& run) {
   std::vector<PointSensitivity> all;
   all.reserve(run.points.size());
-  const std::vector<Errors5> slopes = local_slopes(run);
+  const std::vector<LocalSlope> slopes = local_slopes(run);
   for (std::size_t j = 0; j < run.points.size(); ++j) {
     PointSensitivity& s = all.emplace_back(Differences(solver, run, run.points[j]).take());
-    for (std::size_t e = 0; e < kErrorCount && s.valid; ++e)
-      s.by_place[e] = s.by_travel[e] - slopes[j][e];
+    for (std::size_t e = 0; e < kErrorCount && s.valid; ++e) {
+      const double by_place = s.by_travel[e] - slopes[j].slope[e];
+      s.by_place[e] = std::copysign(std::hypot(by_place, slopes[j].unseen[e]), by_place);
+    }
   }
   return all;
 }

@@ -17,7 +17,8 @@ struct PointSensitivity {
   std::vector<Errors5> by_probe;
   Errors5 by_travel{};
   // Change of the errors if the true position of the point is 1 m further along the travel than the
-  // encoder shows: by_travel minus the slope of the errors along the axis.
+  // encoder shows: by_travel minus the slope of the errors along the axis. The magnitude contains
+  // the slope that the targets do not show (LocalSlope::unseen).
   Errors5 by_place{};
 };
 

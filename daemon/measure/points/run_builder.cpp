@@ -4,6 +4,7 @@
 
 #include "algo/iso230/straightness.h"
 #include "algo/plausibility/calibrated_stretch.h"
+#include "algo/plausibility/coarse_targets.h"
 #include "algo/plausibility/map_cover.h"
 #include "algo/plausibility/visit_step.h"
 #include "daemon/measure/completeness.h"
@@ -76,6 +77,7 @@ Run RunBuilder::build(SolvedPoints points) const {
     notices.push_back(std::move(*contradiction));
   append(notices, algo::repeat_notices(rig_, run.points));
   treat_drift(rig_, options_.remove_drift, run);
+  append(notices, algo::coarse_target_notices(rig_, run));
   // A run is complete if no requested point is missing.
   Notices missing = missing_notices(points.targets_m, options_.repeats, run.points);
   append(missing, std::move(points.partial));

@@ -158,12 +158,27 @@ const char* only_approach(const Run& run) {
   return forward ? "forward" : "reverse";
 }
 
-std::string undecidable_reason(store::Store& store, const Run& run) {
+std::string doubt_reason(const Run& run) {
   const std::string of = "run " + std::to_string(run.header.id);
   if (const Notice* wrong = invalid_notice(run.header.notices))
     return of + " is invalid: " + words::text(*wrong);
-  for (const Notice& n : run.header.notices)
-    if (n.code == NoticeCode::probes_dead) return of + ": " + words::text(n);
+  Notices doubts = run.header.notices;
+  if (!is_imported(run.header))  // runs of earlier versions may lack these notices
+    append_new(doubts, algo::uneven_visits(run.points));
+  doubts = without_information(std::move(doubts));
+  if (doubts.empty()) return "";
+  std::string reason = of + " is doubtful";
+  for (std::size_t i = 0; i < std::min(doubts.size(), kMostMarks); ++i)
+    reason += std::string(i == 0 ? ": " : "; ") + words::text(doubts[i]) + " (notice " +
+              to_string(doubts[i].code) + ")";
+  if (doubts.size() > kMostMarks)
+    reason += "; and " + std::to_string(doubts.size() - kMostMarks) + " more";
+  return reason;
+}
+
+std::string undecidable_reason(store::Store& store, const Run& run) {
+  const std::string of = "run " + std::to_string(run.header.id);
+  if (is_invalid(run.header)) return doubt_reason(run);
   const auto by = store.superseded_by(run.header.id);
   if (!by) return by.error().message;
   if (*by) return "run " + std::to_string(**by) + " supersedes " + of;
@@ -172,11 +187,7 @@ std::string undecidable_reason(store::Store& store, const Run& run) {
   const std::string approach = only_approach(run);
   if (!approach.empty() && !is_imported(run.header))
     return of + " has the " + approach + " approach only, so the reversal is unknown";
-  if (is_imported(run.header)) return "";
-  for (const Notice& n : algo::uneven_visits(run.points))
-    if (n.code == NoticeCode::approaches_mixed || n.code == NoticeCode::target_from_one_side)
-      return of + ": " + words::text(n);
-  return "";
+  return doubt_reason(run);
 }
 
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence) {

@@ -50,11 +50,15 @@ Result<Judged> judged_table(store::Store& store, const CompensationTable& table)
 bool is_invalid(const RunHeader& run);
 // "forward" or "reverse" if all points of the run have this approach; otherwise "".
 const char* only_approach(const Run& run);
+// Why the errors of the run may be wrong: the texts and codes of its notices with the severity
+// invalid or doubtful, without a full stop at the end. Empty: the run has no such notice.
+std::string doubt_reason(const Run& run);
 // The reason why the conformity of the figures of the run cannot be decided. Empty if the
 // conformity can be decided. The text has no full stop at its end. Possible reasons:
 //   - the run is invalid, incomplete or superseded;
-//   - the readings of all probes, or of all but one, never change (notice probes_dead);
-//   - a measured run has only one approach at all targets or at some targets.
+//   - a measured run has only one approach;
+//   - the run is doubtful. No notice limits its effect on a figure, so "not conform" is not decided
+//     either.
 std::string undecidable_reason(store::Store& store, const Run& run);
 
 // `consequence`: text for the message, "it is not activated". Error (conflict): the data are

@@ -183,10 +183,13 @@ Action declare_budget(CLI::App& command) {
       ->check(finite_number())
       ->type_name("MM");
   command
-      .add_option("--tolerance", o->tolerance,
-                  "Largest permitted value of the figure, in the unit of the figure. mdof prints "
-                  "\"conform\", \"not conform\" or \"undecided\" (ISO 14253-1:2017). The result is "
-                  "\"undecided\" if the rig does not declare every uncertainty")
+      .add_option(
+          "--tolerance", o->tolerance,
+          "Largest permitted value of the figure, in the unit of the figure. mdof prints "
+          "\"conform\", \"not conform\" or \"undecided\" (ISO 14253-1:2017). The result is "
+          "\"undecided\" if the rig does not declare every uncertainty, or if a notice makes "
+          "the run doubtful: the effect of such a notice on the figure is unknown, so it "
+          "can also turn \"not conform\"")
       ->check(not_negative_number());
   command
       .add_option(

@@ -1,6 +1,9 @@
 #include "daemon/measure/replay/replay.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <ctime>
 #include <filesystem>
 
 #include "daemon/measure/configuration/config.h"
@@ -87,14 +90,59 @@ std::string stated(std::string_view key, const std::vector<std::string>& comment
   return "";
 }
 
-// A CSV log may state its start as mdof export does: "started: 2026-11-20T10:11:12.345Z". The
-// result is in whole seconds, which shows that it is not the time of an evaluation.
+// Returns an ISO 8601 time as UTC in whole seconds, "2026-11-20T10:11:12Z". The text must contain
+// the date, hours, minutes, and Z or the offset from UTC. It may contain seconds and their
+// fraction. Returns "" for other texts.
+std::string utc_from(std::string_view text) {
+  bool valid = is_date(text.substr(0, 10));
+  const auto skip = [&](char c) {
+    if (!text.starts_with(c)) return false;
+    text.remove_prefix(1);
+    return true;
+  };
+  const auto number = [&](std::size_t digits, int end) {
+    int value = -1;
+    const bool all = text.size() >= digits && text.find_first_not_of("0123456789") >= digits;
+    if (all) std::from_chars(text.data(), text.data() + digits, value);
+    text.remove_prefix(std::min(digits, text.size()));
+    valid = valid && value >= 0 && value < end;
+    return value;
+  };
+  std::tm utc{};
+  utc.tm_year = number(4, 9999) - 1900;
+  skip('-');
+  utc.tm_mon = number(2, 13) - 1;
+  skip('-');
+  utc.tm_mday = number(2, 32);
+  valid = skip('T') && valid;
+  utc.tm_hour = number(2, 24);
+  valid = skip(':') && valid;
+  utc.tm_min = number(2, 60);
+  if (skip(':')) {
+    utc.tm_sec = number(2, 60);
+    if (skip('.')) {
+      const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+      valid = valid && digits > 0;
+      text.remove_prefix(digits);
+    }
+  }
+  if (!skip('Z')) {
+    const int ahead = skip('+') ? 1 : -1;
+    valid = (ahead > 0 || skip('-')) && valid;
+    utc.tm_hour -= ahead * number(2, 24);
+    skip(':');
+    if (!text.empty()) utc.tm_min -= ahead * number(2, 60);
+  }
+  if (!valid || !text.empty() || utc.tm_year < 70) return "";
+  timegm(&utc);  // brings all members into their ranges
+  std::array<char, 32> out{};
+  std::strftime(out.data(), out.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return out.data();
+}
+
+// A CSV log may state its start as mdof export does: "started: 2026-11-20T10:11:12.345Z".
 std::string stated_start(const std::vector<std::string>& comments) {
-  std::string start = stated("started:", comments);
-  const bool utc = start.size() > 11 && start[10] == 'T' && start.back() == 'Z';
-  if (!utc || !is_date(std::string_view(start).substr(0, 10))) return "";
-  start.back() = ':';  // without seconds: "2026-11-20T10:11Z"
-  return (start + "00").substr(0, kWholeSeconds - 1) + "Z";
+  return utc_from(stated("started:", comments));
 }
 
 template <class Measuring>

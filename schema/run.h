@@ -65,8 +65,6 @@ struct Temperature {
   bool operator==(const Temperature&) const = default;
 };
 
-constexpr std::size_t kWholeSeconds = 20;  // length of 2026-11-20T10:11:12Z
-
 struct RunHeader {
   std::int64_t id = 0;  // 0: not stored yet
   Axis axis = Axis::x;
@@ -74,7 +72,10 @@ struct RunHeader {
   StatedAt stated;  // reference point of the errors and the figures
   RunState state = RunState::open;
   bool simulated = false;
-  std::string started_utc;  // ISO 8601; see start_known()
+  std::string started_utc;  // ISO 8601; see start_known
+  // Whether started_utc is the time at which the measurement began. Otherwise it is the day that
+  // the rig states, or the time of the evaluation or of the import.
+  bool start_known = false;
   std::string note;
   std::optional<std::int64_t> supersedes;
   Provenance provenance;
@@ -83,11 +84,6 @@ struct RunHeader {
   std::optional<Temperature> temperature;  // nullopt: not measured
 
   MovingAxis moving() const { return {axis, sides}; }
-  // Whether started_utc is the time at which the measurement began. A run from a CSV log that does
-  // not state its start has the day that its rig states, or the time of its evaluation (in ms).
-  bool start_known() const {
-    return provenance.recording_kind != "csv" || started_utc.size() == kWholeSeconds;
-  }
 };
 
 struct Run {

@@ -188,6 +188,7 @@ void write_header_members(JsonWriter& json, const RunHeader& h, NoticeWords word
   json.field("state", to_string(h.state))
       .field("simulated", h.simulated)
       .field("started_utc", h.started_utc)
+      .field("start_known", h.start_known)
       .field("note", h.note);
   json.key("supersedes");
   h.supersedes ? json.value(*h.supersedes) : json.null();

@@ -130,6 +130,7 @@ NewRun Station::describe_run(const RunRequest& request, const PipelineOptions& o
   h.sides = config_.rig.sides;
   h.simulated = config_.simulated();
   h.started_utc = utc_now();
+  h.start_known = config_.recorded();
   h.note = request.note;
   h.provenance.rig_text = config_.rig.text;
   h.provenance.model = to_string(options.model);

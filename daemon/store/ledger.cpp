@@ -25,7 +25,8 @@ struct FactKind {
 
 constexpr std::array<FactKind, 11> kKinds = {{
     {Fact::run, "run", "id", "run",
-     "SELECT run.axis, run.started_utc, run.simulated, run.note, run.model, run.supersedes, "
+     "SELECT run.axis, run.started_utc || CASE run.start_known WHEN 1 THEN ' known' WHEN 0 THEN "
+     "' assumed' ELSE '' END, run.simulated, run.note, run.model, run.supersedes, "
      "recording.kind, recording.path, recording.sha256, rig.text, options.text, "
      "configuration.text, run.software_version, run.moves, run.travel, run.reference "
      "FROM run JOIN recording ON recording.id = run.recording JOIN document AS rig ON rig.id = "

@@ -6,6 +6,7 @@
 #include "daemon/store/result_hash.h"
 #include "daemon/store/store.h"
 #include "schema/encoder_datum.h"
+#include "schema/imported/series.h"
 #include "schema/notice/notice_json.h"
 #include "schema/rig/calibrated.h"
 
@@ -21,7 +22,8 @@ constexpr std::string_view kHeader =
     "options.text, configuration.text, run_end.state, run_end.scans, run_end.scans_lost, "
     "run_end.warnings, run.moves, run.travel, run.reference, "
     "iif(json_valid(options.text), json_extract(options.text, '$.encoder_datum.kind'), NULL), "
-    "iif(json_valid(options.text), json_extract(options.text, '$.encoder_datum.device'), NULL) "
+    "iif(json_valid(options.text), json_extract(options.text, '$.encoder_datum.device'), NULL), "
+    "run.start_known "
     "FROM run LEFT JOIN run_end ON run_end.run = run.id "
     "JOIN recording ON recording.id = coalesce(run_end.recording, run.recording) "
     "JOIN document AS rig ON rig.id = run.rig "
@@ -66,6 +68,14 @@ Provenance provenance_of(const Statement& row) {
   from.options_json = row.text(12);
   from.configuration = row.text(13);
   return from;
+}
+
+// For a run that was stored before the column start_known existed. Then only a CSV log that stated
+// its start had a start in whole seconds.
+bool was_start_known(const RunHeader& run) {
+  constexpr std::string_view kWholeSeconds = "2026-11-20T10:11:12Z";
+  const std::string& kind = run.provenance.recording_kind;
+  return kind == "csv" ? run.started_utc.size() == kWholeSeconds.size() : !is_imported(run);
 }
 
 // Adds notices that are calculated from other columns. Runs of older versions and open runs have
@@ -148,6 +158,7 @@ Result<RunHeader> Store::header_of(Statement& row) {
   EncoderDatum datum;
   datum_kind_from(std::string(row.text(21)), datum.kind);
   datum.device = row.text(22);
+  header.start_known = row.is_null(23) ? was_start_known(header) : row.integer(23) != 0;
   add_missing(header.notices, datum_notices(datum));
   add_missing(header.notices, calibration_notices(header.provenance.rig_text));
   return header;

@@ -167,10 +167,10 @@ class Store {
                                 std::optional<std::int64_t> expected = std::nullopt);
   Result<ActiveTable> active(Axis axis);  // not_found if no table is active
   // The tables of its axis and the volumetric tables that were active at any time between the start
-  // of this run and its last stop. `start_known`: RunHeader::start_known(). If it is false, the run
-  // has no time of its own: then at any time of the day that its rig states, or at its evaluation.
+  // of this run and its last stop. If its start is not known: at any time of the day that its rig
+  // states, or at its evaluation.
   // Does not check the ledger; active() and active_volumetric() do.
-  Result<std::vector<std::int64_t>> active_during(std::int64_t run, bool start_known);
+  Result<std::vector<std::int64_t>> active_during(const RunHeader& run);
   Result<std::int64_t> generation();  // the largest generation; 0: no table was ever active
   Status check_generation(std::optional<std::int64_t> expected);  // error as for activate()
 

@@ -247,7 +247,7 @@ Result<ActiveVolumetric> Store::active_volumetric() {
 // The tables at the start, and the tables that were activated between the start and the last stop.
 // If the start is not known, the run has the day that the rig states (and was measured before it
 // was stored), or the time of its evaluation. '9' is later than every time.
-Result<std::vector<std::int64_t>> Store::active_during(std::int64_t run, bool start_known) {
+Result<std::vector<std::int64_t>> Store::active_during(const RunHeader& run) {
   MDOF_TRY(
       Statement row,
       connection_.prepare(
@@ -269,7 +269,7 @@ Result<std::vector<std::int64_t>> Store::active_during(std::int64_t run, bool st
           "measured.axis AND activated_utc > start AND activated_utc <= stop "
           "UNION SELECT volumetric_table FROM volumetric_activation, measured WHERE "
           "activated_utc > start AND activated_utc <= stop ORDER BY 1"));
-  row.bind(run).bind(std::int64_t{start_known});
+  row.bind(run.id).bind(std::int64_t{run.start_known});
   std::vector<std::int64_t> tables;
   for (;;) {
     MDOF_TRY(const bool found, row.step());

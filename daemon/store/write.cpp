@@ -185,8 +185,8 @@ Result<std::int64_t> Store::insert_run(const RunHeader& header) {
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO run (axis, simulated, started_utc, note, supersedes, "
                                "recording, rig, options, configuration, model, "
-                               "software_version, moves, travel, reference) "
-                               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
+                               "software_version, moves, travel, reference, start_known) "
+                               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
   const char axis = letter(header.axis);
   insert.bind(std::string_view(&axis, 1)).bind(std::int64_t{header.simulated});
   insert.bind(std::string_view(header.started_utc)).bind(std::string_view(header.note));
@@ -194,6 +194,7 @@ Result<std::int64_t> Store::insert_run(const RunHeader& header) {
   insert.bind(std::string_view(from.model)).bind(std::string_view(from.software_version));
   insert.bind(std::string_view(header.sides.moves())).bind(std::string_view(header.sides.travel()));
   insert.bind(std::string_view(to_string(header.stated.reference)));
+  insert.bind(std::int64_t{header.start_known});
   MDOF_CHECK(insert.run());
   const std::int64_t id = connection_.last_insert_rowid();
   MDOF_CHECK(add_link(connection_, Fact::run, id));

@@ -5,7 +5,8 @@
 
 namespace mdof::sql {
 
-// One step of the database's schema: a file NNN_name.sql, applied in one transaction.
+// One step of the schema of the database: a file NNN_name.sql. All missing steps are applied in one
+// transaction.
 struct Migration {
   int version;       // NNN; the value of user_version after this step
   const char* name;  // "001_runs.sql"

@@ -91,6 +91,7 @@ TEST_F(ActivationTest, RunsMeasuredWithAVolumetricTableAreNamed) {
     run.header.state = RunState::complete;
     run.header.started_utc = std::string("2026-11-22T") + hour + ":00:00.000Z";
     run.header.provenance.recording_kind = kind;
+    run.header.start_known = run.header.provenance.recording_kind == "recording";
     const auto id = store_->add_run(run).value();
     const Notices found = doubtful_notices(*store_, store::make_volume({id})).value();
     return std::count(
@@ -116,6 +117,7 @@ TEST_F(ActivationTest, ARunThatGoesOnHasTheTablesOfItsFirstPart) {
   mdof::Run run;
   run.header.state = RunState::partial;
   run.header.started_utc = "2026-11-22T10:30:00.000Z";
+  run.header.start_known = true;
   run.header.provenance.recording_kind = "recording";
   const auto first = store_->add_run(run).value();
   run.header.state = RunState::complete;

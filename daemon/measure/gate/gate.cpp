@@ -58,7 +58,7 @@ Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64
     MDOF_TRY(const RunHeader run, store.run_header(*part));
     const std::string& kind = run.provenance.recording_kind;
     if (kind != "recording" && kind != "csv") break;
-    MDOF_TRY(const std::vector<std::int64_t> active, store.active_during(*part, run.start_known()));
+    MDOF_TRY(const std::vector<std::int64_t> active, store.active_during(run));
     for (const std::int64_t table : active) {
       MDOF_TRY(const bool volumetric, store.is_volumetric(table));
       if (volumetric) {
@@ -102,7 +102,7 @@ Result<Notices> source_run_notices(store::Store& store, const std::vector<std::i
     MDOF_TRY(const RunHeader header, store.run_header(run));
     for (const std::int64_t table : tables)
       found.push_back(
-          header.start_known()
+          header.start_known
               ? notice(NoticeCode::measured_with_table, "", {{"run", run}, {"table", table}})
               : notice(NoticeCode::undated_with_table, "",
                        {{"run", run}, {"table", table}, {"date", header.started_utc}}));

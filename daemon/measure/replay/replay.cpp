@@ -303,6 +303,7 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   if (!run) return tl::unexpected(run.error());
   run->header.simulated = log.driver().info().simulated;
   run->header.started_utc = log.started_utc();
+  run->header.start_known = !run->header.started_utc.empty();
   run->header.provenance = provenance_of(log, rig, options);
   run->header.note = asked.note;
   append(run->header.notices, log.notices());

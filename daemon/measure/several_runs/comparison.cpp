@@ -96,7 +96,7 @@ std::pair<double, double> travel_of(const Run& run) {
 
 // Whether started_utc is the time of the measurement.
 bool has_time(const RunHeader& header) {
-  return !is_imported(header) && header.start_known();
+  return !is_imported(header) && header.start_known;
 }
 
 // Notices about differences that influence the figures. Also a notice if the run "after" was

@@ -139,7 +139,7 @@ Result<Chosen> choose(store::Store& store, Axis axis, const TrendRequest& reques
   choose_kind(chosen, mixed);
   const auto undated = std::count_if(
       chosen.runs.begin(), chosen.runs.end(),
-      [](const RunHeader& run) { return !run.start_known() && !is_date(run.started_utc); });
+      [](const RunHeader& run) { return !run.start_known && !is_date(run.started_utc); });
   if (undated > 1)
     chosen.notices.push_back(notice(NoticeCode::order_of_evaluation, "", {{"runs", undated}}));
   return chosen;

@@ -45,7 +45,7 @@ sys_days last_day(const std::string& began, const std::vector<MeasuredPoint>& po
 std::optional<Days> recorded_days(const ReportRun& run) {
   const RunHeader& header = run.results.run.header;
   const std::string first = header.started_utc.substr(0, 10);
-  if (!header.start_known() || !is_date(first)) return std::nullopt;
+  if (!header.start_known || !is_date(first)) return std::nullopt;
   return Days{first, text_of(last_day(header.started_utc, run.results.run.points))};
 }
 

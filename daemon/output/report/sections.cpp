@@ -145,7 +145,7 @@ void write_conditions(Html& html, const ReportRun& run, Language language) {
   if (run.superseded_by)
     state += ", " + phrase(Phrase::superseded, language, {std::to_string(*run.superseded_by)});
   if (is_imported(h)) return html.facts(conditions_of_imported(run.results.run, state, language));
-  const Phrase time = h.start_known()          ? Phrase::started
+  const Phrase time = h.start_known            ? Phrase::started
                       : is_date(h.started_utc) ? Phrase::stated_day
                                                : Phrase::evaluated;
   html.facts({{of(time), h.started_utc},

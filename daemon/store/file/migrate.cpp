@@ -42,16 +42,6 @@ Status back_up(Connection& connection, std::int64_t version) {
   return {};
 }
 
-Status apply(Connection& connection, const sql::Migration& migration) {
-  MDOF_TRY(Transaction transaction, Transaction::begin(connection));
-  if (const Status done = connection.execute(migration.text); !done)
-    return in_context(std::string("migration ") + migration.name, done.error());
-  if (migration.version == kLedgerSchema) MDOF_CHECK(link_old_facts(connection));
-  MDOF_CHECK(connection.execute("PRAGMA application_id = " + std::to_string(kApplication)));
-  MDOF_CHECK(connection.execute("PRAGMA user_version = " + std::to_string(migration.version)));
-  return transaction.commit();
-}
-
 }  // namespace
 
 Status check_kind(Connection& connection, int known) {
@@ -74,9 +64,18 @@ Status migrate(Connection& connection, std::span<const sql::Migration> migration
   MDOF_TRY(const std::int64_t version, connection.integer("PRAGMA user_version"));
   if (migrations.empty() || version >= migrations.back().version) return {};
   if (version > 0) MDOF_CHECK(back_up(connection, version));
-  for (const sql::Migration& migration : migrations)
-    if (migration.version > version) MDOF_CHECK(apply(connection, migration));
-  return {};
+  MDOF_TRY(Transaction transaction, Transaction::begin(connection));
+  for (const sql::Migration& migration : migrations) {
+    if (migration.version <= version) continue;
+    if (const Status done = connection.execute(migration.text); !done)
+      return in_context(std::string("migration ") + migration.name, done.error());
+  }
+  const int newest = migrations.back().version;
+  // After the last migration, because the hashes contain columns of later migrations.
+  if (version < kLedgerSchema && newest >= kLedgerSchema) MDOF_CHECK(link_old_facts(connection));
+  MDOF_CHECK(connection.execute("PRAGMA application_id = " + std::to_string(kApplication)));
+  MDOF_CHECK(connection.execute("PRAGMA user_version = " + std::to_string(newest)));
+  return transaction.commit();
 }
 
 }  // namespace mdof::store

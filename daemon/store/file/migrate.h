@@ -16,8 +16,8 @@ inline constexpr int kApplication = 0x6d646f66;  // application_id of SQLite: th
 // database is newer than `known`. The message states both versions.
 Status check_kind(sqlite::Connection& connection, int known);
 
-// Applies the missing migrations, each in one transaction. Before the first migration, a database
-// that is not empty is copied to "FILE.schema-N.backup".
+// Applies the missing migrations in one transaction. Before that, a database that is not empty is
+// copied to "FILE.schema-N.backup".
 Status migrate(sqlite::Connection& connection, std::span<const sql::Migration> migrations);
 
 }  // namespace mdof::store

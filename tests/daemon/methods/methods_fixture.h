@@ -82,6 +82,7 @@ class MethodsTest : public FedStation {
     run.header.provenance.recording_kind = "csv";
     if (!recorded_utc_.empty()) {
       run.header.started_utc = recorded_utc_;
+      run.header.start_known = true;
       run.header.provenance.recording_kind = "recording";
     }
     run.header.provenance.recording_path = "/logs/" + note + axis + ".csv";

@@ -210,7 +210,7 @@ TEST_F(StoreTest, AMigrationMakesABackupFirst) {
 }
 
 // This database was written by mdof with schema version 2. It has three runs, of which the third
-// was interrupted, and an active table.
+// was interrupted, and an active table. The fourth run is from a log that stated its start.
 TEST_F(StoreTest, AnOldDatabaseKeepsItsDataAndAcceptsPartialRuns) {
   const auto columns = [&](sqlite::Connection& db) {
     auto row = db.prepare("SELECT group_concat(name) FROM pragma_table_info('run_end')");
@@ -221,6 +221,9 @@ TEST_F(StoreTest, AnOldDatabaseKeepsItsDataAndAcceptsPartialRuns) {
   {
     auto db = sqlite::Connection::open(file_, sqlite::OpenMode::create);
     ASSERT_TRUE(db->execute(contents(MDOF_TEST_DATA "/store/schema-2.sql")));
+    ASSERT_TRUE(
+        db->execute("INSERT INTO run VALUES (4, 'X', 0, '2026-11-22T06:22:46Z', '', NULL, 1, "
+                    "1, 2, 3, 'rigid', 'mdof 0.1.0')"));
     ASSERT_TRUE(db->execute("PRAGMA application_id = " + std::to_string(kApplication)));
     ASSERT_TRUE(db->execute("PRAGMA user_version = 2"));
     before = columns(*db);
@@ -229,7 +232,9 @@ TEST_F(StoreTest, AnOldDatabaseKeepsItsDataAndAcceptsPartialRuns) {
   ASSERT_TRUE(store) << store.error().message;
   EXPECT_TRUE(fs::exists(file_.string() + ".schema-2.backup"));
   EXPECT_TRUE(store->verify()->empty()) << store->verify()->front();
-  EXPECT_EQ(store->count_runs().value(), 3);
+  EXPECT_EQ(store->count_runs().value(), 4);
+  EXPECT_FALSE(store->run_header(1)->start_known);
+  EXPECT_TRUE(store->run_header(4)->start_known);
   EXPECT_EQ(store->run(1)->points.size(), 14u);
   EXPECT_EQ(store->run_header(2)->state, RunState::complete);
   EXPECT_EQ(store->run_header(2)->scans, 5996u);
@@ -257,8 +262,8 @@ TEST_F(StoreTest, AFailingMigrationChangesNothing) {
     const Status done = migrate(*db, steps);
     ASSERT_FALSE(done);
     EXPECT_TRUE(contains(done.error().message, "003_broken")) << done.error().message;
-    EXPECT_EQ(db->integer("PRAGMA user_version").value(), 2);
-    EXPECT_EQ(db->integer("SELECT x FROM b").value(), 1);
+    EXPECT_EQ(db->integer("PRAGMA user_version").value(), 1);
+    EXPECT_EQ(db->integer("SELECT x FROM a").value(), 1);
   }
 }
 

@@ -35,6 +35,7 @@ void expect_same(const RunHeader& a, const RunHeader& b) {
   EXPECT_EQ(a.state, b.state);
   EXPECT_EQ(a.simulated, b.simulated);
   EXPECT_EQ(a.started_utc, b.started_utc);
+  EXPECT_EQ(a.start_known, b.start_known);
   EXPECT_EQ(a.note, b.note);
   EXPECT_EQ(a.supersedes, b.supersedes);
   EXPECT_EQ(a.scans, b.scans);
@@ -55,6 +56,7 @@ TEST_F(StoreTest, ReturnsARunBitForBit) {
   run.points[3].errors = AxisErrors{};
   run.points[3].errors.reason = "probe \"C\" lost";
   run.header.temperature = Temperature{20.1, 19.9, 20.3};
+  run.header.start_known = true;
   auto store = writer();
   ASSERT_TRUE(store) << store.error().message;
   const auto id = store->add_run(run);

@@ -32,6 +32,10 @@ std::string table_sha256(const CompensationTable& t) {
   put(bytes, t.slope_removed ? 1 : 0);
   put(bytes, std::uint64_t{t.runs.size()});
   for (const std::int64_t run : t.runs) put(bytes, run);
+  if (t.added_to) {
+    put_text("added to");
+    put(bytes, *t.added_to);
+  }
   put_text(t.sides.moves());
   put_text(t.sides.travel());
   put_text(t.machine.text);

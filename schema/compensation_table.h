@@ -37,6 +37,9 @@ struct CompensationTable {
   StatedAt stated;                 // reference point of the straightness errors
   Chain machine;                   // may be unknown
   std::vector<std::int64_t> runs;  // ids of the runs from which the table was built
+  // The table that the controller applied during the runs. Its values are in this table, too.
+  // nullopt: this table contains only the errors of the runs.
+  std::optional<std::int64_t> added_to;
   std::vector<double> position_m;  // strictly increasing
   // [error in the order of error_names()][position]; NaN: no value
   std::array<std::vector<double>, 5> forward, reverse;
@@ -91,6 +94,7 @@ struct CompensationTable {
 //   s "mdof table 2", s axis
 //   i simulated, i slope_removed
 //   i number of runs, i each run
+//   only if the table was added to another one: s "added to", i id of that table
 //   s moves, s travel
 //   s chain, s travels of the chain ("" "": unknown)
 //   s reference, d point_m[3]

@@ -329,7 +329,8 @@ void write_table_members(JsonWriter& json, const CompensationTable& t) {
   json.field("table", t.id).field("axis", axis).field("simulated", t.simulated);
   json.key("runs").begin_array();
   for (const auto id : t.runs) json.value(id);
-  json.end_array();
+  json.end_array().key("added_to");
+  t.added_to ? json.value(*t.added_to) : json.null();
   write_reference(json, t);
   if (t.has_positioning()) {  // positioning does not depend on which body moves
     json.key("moves").null().key("travel").null();

@@ -7,12 +7,14 @@
 #include "algo/compensation/compensation.h"
 #include "algo/compensation/declared_uncertainty.h"
 #include "algo/compensation/imported_table.h"
+#include "algo/compensation/residuals/residuals.h"
 #include "algo/iso230/squareness_lines.h"
 #include "algo/iso230/straightness.h"
 #include "algo/model/restate.h"
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/budget/two_runs.h"
 #include "daemon/history.h"
+#include "daemon/measure/gate/added_table.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/measure/machine/volumetric.h"
 #include "daemon/paths.h"
@@ -149,8 +151,13 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
   return built;
 }
 
-Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& request) {
-  MDOF_CHECK(check_table_runs(store, request.runs));
+Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& asked) {
+  MDOF_CHECK(check_table_runs(store, asked.runs));
+  TableRequest request = asked;
+  std::optional<CompensationTable> applied;
+  if (asked.add_to) {
+    MDOF_TRY(applied, applied_table(store, request));
+  }
   if (!request.runs.empty()) {
     MDOF_TRY(const RunHeader first, store.run_header(request.runs.front()));
     if (is_imported(first)) return build_positioning(store, request);
@@ -176,12 +183,18 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
     rigs.push_back(rig);
   }
   MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
-  MDOF_CHECK(algo::check_limits(table, request.limits));
   const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
   for (const Rig& rig : rigs) add_not_declared(table, rig.undeclared_uncertainties());
+  if (applied) MDOF_CHECK(algo::add_applied(*applied, table));
+  MDOF_CHECK(algo::check_limits(table, request.limits));
   MDOF_TRY(Notices notices, table_notices(runs));
-  MDOF_TRY(Notices of_runs, source_run_notices(store, request.runs));
+  MDOF_TRY(Notices of_runs, source_run_notices(store, request.runs, table.added_to));
   append(notices, std::move(of_runs));
+  if (applied) {
+    MDOF_TRY(Notices added, added_notices(store, table));
+    append(notices, std::move(added));
+    notices.push_back(statement_of_sum(table));
+  }
   if (!declared)
     notices.push_back(
         notice(NoticeCode::declared_not_in_u, "", {{"reason", words::text(declared.error())}}));

@@ -53,14 +53,18 @@ struct TableRequest {
   // Travel of the machine: true means "-". It is used only for imported runs of positioning that do
   // not state their travel.
   std::optional<bool> against_command = std::nullopt;
+  // The table that the controller applied during the runs. Its values are added to the errors of
+  // the runs. Then the slope and the reference point are those of this table.
+  std::optional<std::int64_t> add_to = std::nullopt;
 };
 struct BuiltTable {
   CompensationTable table;
   Notices notices;   // notices of the source runs
   Notices doubtful;  // the notices for which check_gate() rejects the table
 };
-// Calculates and stores a table. Errors: those of algo::build_table() and algo::check_limits(); the
-// rigs of the runs state different machines.
+// Calculates and stores a table. Errors: those of algo::build_table(), algo::add_applied() and
+// algo::check_limits(); the rigs of the runs state different machines; a run was not measured while
+// exactly the table `add_to` was active.
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request);
 // The two steps of build_table(). calculate_table() can take long and needs only a read-only store.
 // store_table() stores the result.

@@ -47,6 +47,7 @@ Result<TableRequest> read_table_request(const Params& params) {
   MDOF_TRY(request.runs, params.integers("runs"));
   request.keep_slope = params.boolean("keep_slope", false);
   request.partial = params.boolean("partial", false);
+  if (params.has("add_to")) request.add_to = params.integer("add_to");
   if (params.has("reference")) {
     MDOF_TRY(request.reference, reference_param(params));
   }
@@ -265,6 +266,10 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        "part of the squareness)",
        false, "false"},
       {"partial", ParamType::boolean, "also accept partial runs", false, "false"},
+      {"add_to", ParamType::integer,
+       "id of the table that the controller applied during the runs; the new table is the sum of "
+       "this table and the residual errors of the runs",
+       false},
       {"reference", ParamType::string,
        "reference point of the straightness: fixture, carriage or tool [tool if the rig has a tool "
        "point, otherwise fixture]",

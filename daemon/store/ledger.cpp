@@ -43,7 +43,9 @@ constexpr std::array<FactKind, 11> kKinds = {{
      "u_slope_EXY_rad, artefact_angle_error_rad, form_rad, u_artefact_rad, artefact_corner, "
      "simulated, created_utc, reference FROM squareness WHERE id = ?"},
     {Fact::table, "compensation_table", "id", "compensation table",
-     "SELECT axis, simulated, slope_removed, created_utc, sha256, position_m, errors_m_rad, moves, "
+     "SELECT axis, simulated, slope_removed, created_utc || coalesce(' added to ' || added_to, "
+     "''), "
+     "sha256, position_m, errors_m_rad, moves, "
      "travel, reference, point_m, chain, chain_travel, (SELECT group_concat(run) FROM (SELECT run "
      "FROM compensation_source AS s WHERE s.compensation_table = ?1 ORDER BY s.row)) "
      "FROM compensation_table WHERE id = ?1"},

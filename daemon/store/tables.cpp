@@ -21,7 +21,7 @@ constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::string_view kTable =
     "SELECT id, axis, simulated, slope_removed, created_utc, sha256, position_m, errors_m_rad, "
-    "moves, travel, reference, point_m, chain, chain_travel "
+    "moves, travel, reference, point_m, chain, chain_travel, added_to "
     "FROM compensation_table ";
 
 // Number of values for each position of a table, without and with declared uncertainties. Tables of
@@ -196,13 +196,14 @@ Result<std::int64_t> Store::add_table(const CompensationTable& table,
                                       const std::optional<HistoryEntry>& action) {
   MDOF_CHECK(check_shape(table));
   for (const std::int64_t run : table.runs) MDOF_CHECK(check_exists(RowOf::run, run));
+  if (table.added_to) MDOF_CHECK(check_exists(RowOf::compensation_table, *table.added_to));
   MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(
       Statement insert,
       connection_.prepare("INSERT INTO compensation_table (id, axis, simulated, slope_removed, "
                           "created_utc, sha256, position_m, errors_m_rad, moves, travel, "
-                          "reference, point_m, chain, chain_travel) "
-                          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
+                          "reference, point_m, chain, chain_travel, added_to) "
+                          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
   MDOF_TRY(const std::int64_t id, next_table());
   const char axis = letter(table.axis);
   const std::vector<double> errors = all_series(table);
@@ -211,6 +212,7 @@ Result<std::int64_t> Store::add_table(const CompensationTable& table,
   insert.bind(std::string_view(table.created_utc)).bind(std::string_view(table.sha256));
   insert.bind_bytes(bytes_of(table.position_m)).bind_bytes(bytes_of(errors));
   bind_statement(insert, table);
+  insert.bind(table.added_to);
   MDOF_CHECK(insert.run());
   MDOF_TRY(Statement source, connection_.prepare("INSERT INTO compensation_source VALUES (?,?,?)"));
   for (std::size_t row = 0; row < table.runs.size(); ++row)
@@ -240,6 +242,7 @@ Result<CompensationTable> Store::table_of(Statement& row) {
   table.slope_removed = row.integer(3) != 0;
   table.created_utc = row.text(4);
   table.sha256 = row.text(5);
+  if (!row.is_null(14)) table.added_to = row.integer(14);
   table.position_m = doubles_from(row.bytes(6));
   const std::vector<double> errors = doubles_from(row.bytes(7));
   const auto parts = parts_of(errors.size(), table.position_m.size());

@@ -7,6 +7,7 @@
 #include "algo/compensation/compensation.h"
 #include "algo/sequence/uneven_visits.h"
 #include "algo/sequence/usable_runs.h"
+#include "daemon/measure/gate/added_table.h"
 #include "daemon/words/words.h"
 #include "schema/base/append_new.h"
 #include "schema/imported/series.h"
@@ -51,7 +52,24 @@ std::optional<std::int64_t> continued_run(const RunHeader& run) {
   return goes_on ? run.supersedes : std::nullopt;
 }
 
-// The tables that a controller may have applied while this run was recorded.
+}  // namespace
+
+Notices without_information(Notices notices) {
+  std::erase_if(notices, [](const Notice& n) { return n.severity == Severity::information; });
+  return notices;
+}
+
+Notices doubtful_notices(Notices notices) {
+  for (Notice& each : notices)
+    if (each.code == NoticeCode::datum_missing || each.code == NoticeCode::position_lost)
+      each.severity = Severity::doubtful;
+  return without_information(std::move(notices));
+}
+
+Notices doubtful_notices(const std::vector<Run>& runs) {
+  return doubtful_notices(algo::inherited_notices(algo::all_of(runs)));
+}
+
 Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64_t id) {
   std::vector<std::int64_t> applied;
   for (std::optional<std::int64_t> part = id; part;) {
@@ -73,31 +91,15 @@ Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64
   return applied;
 }
 
-}  // namespace
-
-Notices without_information(Notices notices) {
-  std::erase_if(notices, [](const Notice& n) { return n.severity == Severity::information; });
-  return notices;
-}
-
-Notices doubtful_notices(Notices notices) {
-  for (Notice& each : notices)
-    if (each.code == NoticeCode::datum_missing || each.code == NoticeCode::position_lost)
-      each.severity = Severity::doubtful;
-  return without_information(std::move(notices));
-}
-
-Notices doubtful_notices(const std::vector<Run>& runs) {
-  return doubtful_notices(algo::inherited_notices(algo::all_of(runs)));
-}
-
-Result<Notices> source_run_notices(store::Store& store, const std::vector<std::int64_t>& runs) {
+Result<Notices> source_run_notices(store::Store& store, const std::vector<std::int64_t>& runs,
+                                   std::optional<std::int64_t> added_to) {
   Notices found;
   for (const std::int64_t run : runs) {
     MDOF_TRY(const auto by, store.superseded_by(run));
     if (by)
       found.push_back(notice(NoticeCode::made_from_superseded, "", {{"run", run}, {"by", *by}}));
-    MDOF_TRY(const std::vector<std::int64_t> tables, applied_tables(store, run));
+    MDOF_TRY(std::vector<std::int64_t> tables, applied_tables(store, run));
+    if (added_to) std::erase(tables, *added_to);
     if (tables.empty()) continue;
     MDOF_TRY(const RunHeader header, store.run_header(run));
     for (const std::int64_t table : tables)
@@ -128,8 +130,10 @@ Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& t
     MDOF_TRY(runs[i], store.run(table.runs[i]));
   }
   Notices found = doubtful_notices(runs);
-  MDOF_TRY(Notices of_runs, source_run_notices(store, table.runs));
+  MDOF_TRY(Notices of_runs, source_run_notices(store, table.runs, table.added_to));
   append(found, std::move(of_runs));
+  MDOF_TRY(Notices added, added_notices(store, table));
+  append(found, std::move(added));
   if (runs.size() < 2 || is_imported(runs.front().header)) return found;
   MDOF_TRY(Notices differences, differences_of_runs(runs));
   append(found, std::move(differences));

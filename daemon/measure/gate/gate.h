@@ -3,6 +3,7 @@
 // doubtful data are accepted only if the user requests it. Invalid data are always rejected.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,16 @@ Notices without_information(Notices notices);
 Notices doubtful_notices(Notices notices);
 // As above, for the notices of all these runs. A partial run also gets a notice.
 Notices doubtful_notices(const std::vector<Run>& runs);
+// The tables that a controller may have applied while this run (and the runs that it continues) was
+// recorded: those that were active.
+Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64_t run);
 // The notices of a result from these runs: one for each run that another run supersedes, and one
 // for each table that was active on its axis while it was recorded (also in the runs that it
 // continues). If the controller applied this table, the run contains only the errors that the table
-// left, and a table from this run must not replace the active table.
-Result<Notices> source_run_notices(store::Store& store, const std::vector<std::int64_t>& runs);
+// left, and a table from this run must not replace the active table. There is no notice for the
+// table `added_to`, whose values are in the result.
+Result<Notices> source_run_notices(store::Store& store, const std::vector<std::int64_t>& runs,
+                                   std::optional<std::int64_t> added_to = std::nullopt);
 // Notices about a result from several runs of an axis: visits or rigs differ. `runs`: at least one.
 Result<Notices> differences_of_runs(const std::vector<Run>& runs);
 // For a stored table: the doubtful notices of each run, and the notices that compare the runs.

@@ -27,6 +27,7 @@ struct BuildCommand {
   std::string database, socket, axis, reference;
   std::vector<std::string> words;  // the arguments RUN
   std::vector<std::int64_t> runs;
+  std::optional<std::int64_t> add_to;
   bool keep_slope = false, partial = false, json = false, all_warnings = false;
   LimitOptions limits;
   VolumeOptions volume;
@@ -39,6 +40,7 @@ Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
                                command.partial,
                                {},
                                daemon::action_now("compensation.build", daemon::this_process())};
+  request.add_to = command.add_to;
   MDOF_TRY(request.limits, command.limits.limits());
   if (!command.reference.empty())
     // The option accepts only valid names.
@@ -56,6 +58,7 @@ Result<daemon::BuiltTable> build_in_daemon(rpc::Client& mdofd, const BuildComman
   if (command.keep_slope) params.field("keep_slope", true);
   if (!command.reference.empty()) params.field("reference", command.reference);
   if (command.partial) params.field("partial", true);
+  if (command.add_to) params.field("add_to", *command.add_to);
   if (command.limits.um) params.field("limit_um", *command.limits.um);
   if (command.limits.um_per_mm) params.field("limit_um_per_mm", *command.limits.um_per_mm);
   params.end_object();
@@ -88,9 +91,9 @@ Status check_kind(const BuildCommand& command) {
     return command.volume.check_unused();
   }
   if (!command.words.empty() || !command.axis.empty() || command.keep_slope || command.partial ||
-      !command.reference.empty())
+      command.add_to || !command.reference.empty())
     return fail(ErrorCode::usage,
-                "--machine takes the runs from the machine file; leave out RUN, --axis, "
+                "--machine takes the runs from the machine file; leave out RUN, --axis, --add-to, "
                 "--keep-slope, --partial and --reference, which apply to tables of one axis");
   return {};
 }
@@ -129,6 +132,13 @@ Action declare_build(CLI::App& command) {
   command.add_flag("--keep-slope", o->keep_slope,
                    "Keep the slope of straightness; do not subtract the least-squares line");
   command.add_flag("--partial", o->partial, "Also accept partial runs");
+  command
+      .add_option("--add-to", o->add_to,
+                  "Number of the table that was active while the runs were measured. The new table "
+                  "is the sum of this table and of the errors that remained. mdof refuses runs "
+                  "that were not measured with this table, and targets that the runs lack. The "
+                  "slope and the reference point are those of this table")
+      ->type_name("TABLE");
   add_reference_option(command, o->reference)
       ->description(
           "Point to which straightness refers: fixture, carriage or tool [default: tool point of "
@@ -150,6 +160,7 @@ Command compensation_build_command() {
               "Examples:\n"
               "  mdof compensation build 1 3 5\n"
               "  mdof compensation build latest --axis X\n"
+              "  mdof compensation build 4 --add-to 1        # run 4: a check of table 1\n"
               "  mdof compensation build --machine machine.toml --volume --step-mm 10",
           .declare = declare_build};
 }

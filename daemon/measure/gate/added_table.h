@@ -1,0 +1,26 @@
+// Tables that are the sum of the residual errors of a compensated axis and of the table that the
+// controller applied (algo/compensation/residuals/residuals.h).
+#pragma once
+
+#include "daemon/store/store.h"
+#include "schema/base/result.h"
+#include "schema/compensation_table.h"
+#include "schema/notice/notice.h"
+
+namespace mdof::daemon {
+
+struct TableRequest;
+
+// Reads the table `request.add_to`, and sets the slope and the reference point of the request to
+// those of this table. Errors: not exactly this table was active during each of the runs; the
+// request states a slope or a reference point.
+Result<CompensationTable> applied_table(store::Store& store, TableRequest& request);
+
+// For a table that is such a sum: the notices of algo::residual_notices(), and a notice if the rigs
+// of both tables differ. Empty for other tables.
+Result<Notices> added_notices(store::Store& store, const CompensationTable& table);
+
+// The information which errors of a sum contain the values of the applied table, and which do not.
+Notice statement_of_sum(const CompensationTable& table);
+
+}  // namespace mdof::daemon

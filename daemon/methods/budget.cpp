@@ -93,6 +93,9 @@ Result<QueryThread::Work> trend(Methods&, const Params& params) {
   request.figure = params.string("figure");
   request.baseline = static_cast<std::size_t>(params.integer("baseline"));
   request.mixed = params.boolean("mixed");
+  if (params.has("without")) {
+    MDOF_TRY(request.without, params.integers("without"));
+  }
   return [request](store::Store& store) -> Result<std::string> {
     MDOF_TRY(const auto found, trends(store, request));
     return trends_json(found);
@@ -170,7 +173,9 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
              {},
              {.least = algo::kLeastBaselineValues, .most = 100'000}},
             {"mixed", ParamType::boolean,
-             "also use runs with other rigs, models or evaluation options", false, "false"}},
+             "also use runs with other rigs, models or evaluation options", false, "false"},
+            {"without", ParamType::array,
+             "ids of runs that are left out, for example a run with a known fault of the set-up"}},
        .members = "{reference, figures: {{figure}?: {values: [{runs: [integer], started_utc, "
                   "...stated, low, high, signal}], centre, sigma, baseline, moved: "
                   "{since_runs, by, u_by}, ...covers, left_out: [string], ...notices}}}",

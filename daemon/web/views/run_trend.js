@@ -31,17 +31,22 @@ const rowOf = (v) => [named(v.runs), time(v.started_utc), short(v.value), short(
 class Trend {
   constructor() {
     this.axis = "X";
+    this.without = [];
     this.body = h("div", {});
     this.figure = h("div", {});
     this.element = h("div", {}, h("p", {}, h("a", {href: "#runs"}, "← All runs")), h("h2", {}, "Control charts"),
-      h("div", {class: "fields"}, field("Axis", select(kAxes, this.axis, (axis) => { this.axis = axis; this.read(); })), this.figure), this.body);
+      h("div", {class: "fields"}, field("Axis", select(kAxes, this.axis, (axis) => { this.axis = axis; this.read(); })), this.figure,
+        field("Runs to leave out", h("input", {name: "without", placeholder: "7, 9", onchange: (e) => {
+          this.without = e.target.value.split(/[\s,]+/).filter(Boolean).map(Number);
+          this.read();
+        }}), "for example a run with a known fault of the set-up")), this.body);
   }
   async read() {
     this.body.replaceChildren(h("p", {class: "quiet"}, "Reading …"));
-    const axis = this.axis;
+    const {axis, without} = this;
     try {
-      const {figures} = await call("run.trend", axis ? {axis} : {});
-      if (axis !== this.axis) return;
+      const {figures} = await call("run.trend", {...(axis && {axis}), ...(without.length > 0 && {without})});
+      if (axis !== this.axis || without !== this.without) return;
       this.figures = Object.fromEntries(Object.entries(figures).filter(([, of]) => of.values.length > 0));
       const keys = Object.keys(this.figures);
       this.figure.replaceChildren(keys.length ? field("Figure", select(keys.map((key) => [key, titleOf(key)]), keys[0], (key) => this.show(key))) : "");

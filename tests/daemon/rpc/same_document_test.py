@@ -33,6 +33,7 @@ SAME = [
     ("run.budget", {"run": 1, "figure": "EYX_slope_urad"}, "budget 1 --figure EYX_slope_urad", {}),
     ("run.compare", {"before": 1, "after": 3}, "compare 1 3", {}),
     ("run.trend", {"figure": "EYX_slope_urad"}, "trend --figure EYX_slope_urad", {}),
+    ("run.trend", {"figure": "EYX_slope_urad", "without": [3]}, "trend --figure EYX_slope_urad --without 3", {}),
     ("parallelism.fit", {"run_a": 1, "run_b": 3}, "parallelism 1 3", {}),
     ("squareness.fit", {"run_x": 1, "run_y": 2}, "squareness 1 2", {}),
     ("squareness.budget", {"run_x": 1, "run_y": 2}, "budget 1 2", {}),

@@ -130,11 +130,13 @@ Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& re
 // The newest table of positioning errors of the axis that was built before, from other runs.
 Result<std::optional<std::int64_t>> earlier_positioning(store::Store& store,
                                                         const CompensationTable& table) {
-  constexpr std::int64_t kNewest = 50;
-  MDOF_TRY(const auto tables, store.list_tables(0, kNewest, table.axis));
-  for (const CompensationTable& earlier : tables)
-    if (earlier.has_positioning() && earlier.runs != table.runs) return std::optional(earlier.id);
-  return std::nullopt;
+  constexpr std::int64_t kPage = 50;
+  for (std::int64_t offset = 0;; offset += kPage) {
+    MDOF_TRY(const auto tables, store.list_tables(offset, kPage, table.axis));
+    if (tables.empty()) return std::nullopt;
+    for (const CompensationTable& earlier : tables)
+      if (earlier.has_positioning() && earlier.runs != table.runs) return std::optional(earlier.id);
+  }
 }
 
 }  // namespace

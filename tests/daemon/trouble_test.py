@@ -325,6 +325,31 @@ class Trouble(unittest.TestCase):
         self.assertIn("does not measure axis Y; it measures X", err)
         self.assertLess(time.monotonic() - begin, 5)
 
+    def test_live_shows_an_axis_whose_rig_is_not_available(self):
+        """A server that sends readings of X and Y, but has an error instead of the rig of Y."""
+        path = os.path.join(self.folder.name, "half.sock")
+        with socket.socket(socket.AF_UNIX) as listener:
+            listener.bind(path)
+            listener.listen()
+            live = subprocess.Popen([MDOF, "live", "--ndjson", "--count", "2", "--socket", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            with listener.accept()[0] as client, client.makefile("rw") as lines:
+                answers = {"server.info": {"axes": [{"axis": "X"}, {"axis": "Y"}]}, "live.subscribe": {}}
+                asked = 0
+                while asked < 2:
+                    request = json.loads(lines.readline())
+                    is_rig = request["method"] == "rig.get"
+                    asked += is_rig
+                    of_y = is_rig and request["params"]["axis"] == "Y"
+                    answer = {"error": {"code": 1, "message": "no rig today"}} if of_y else {"result": answers.get(request["method"], {"probes": []})}
+                    lines.write(json.dumps({"jsonrpc": "2.0", "id": request["id"], **answer}) + "\n")
+                    lines.flush()
+                for axis in "XY":
+                    lines.write(json.dumps({"jsonrpc": "2.0", "method": "live.update", "params": {"value": {"axis": axis, "probes": []}}}) + "\n")
+                lines.flush()
+                out, err = live.communicate(timeout=60)
+        self.assertEqual((live.returncode, [json.loads(line)["axis"] for line in out.splitlines()]), (0, ["X", "Y"]), err)
+        self.assertIn("axis Y is shown without the ranges of its probes: no rig today", err)
+
     def test_ndjson_is_an_object_a_line(self):
         code, out, err = self.mdof("live", "--ndjson", "--count", 3, "--socket", self.daemon.socket)
         self.assertEqual(code, 0, err)

@@ -61,8 +61,14 @@ Result<ProbeRanges> ranges_of(rpc::Client& client) {
   for (const auto known : axes) {
     JsonWriter params;
     params.begin_object().field("axis", text(known, "axis")).end_object();
-    MDOF_TRY(const std::string rig, client.call("rig.get", params.text()));
-    ranges.add(text(known, "axis"), rig);
+    const auto rig = client.call("rig.get", params.text());
+    if (rig)
+      ranges.add(text(known, "axis"), *rig);
+    else if (client.connected())
+      warn("axis " + text(known, "axis") +
+           " is shown without the ranges of its probes: " + rig.error().message);
+    else
+      return tl::unexpected(rig.error());
   }
   return ranges;
 }

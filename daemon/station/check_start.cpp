@@ -23,7 +23,11 @@ fs::path nearest_folder(fs::path folder) {
   return folder;
 }
 
-std::string permission_remedy(const fs::path& folder) {
+// `error`: errno. The owner of a folder cannot write to a read-only file system either.
+std::string permission_remedy(const fs::path& folder, int error) {
+  if (error == EROFS)
+    return ": the file system is read-only; choose a folder on another file system, or mount this "
+           "file system writable";
   return "; choose another folder, or make user and group mdof the owner of this folder and run "
          "mdofd as user mdof (sudo install -d -o mdof -g mdof -m 750 " +
          folder.string() + ")";
@@ -36,13 +40,14 @@ Status check_folder(const std::string& key, const fs::path& folder) {
   if (!fs::is_directory(nearest, failed))
     return bad_input(key + ": " + nearest.string() + " is not a folder; choose another path");
   if (::access(nearest.c_str(), W_OK | X_OK) == 0) return {};
+  const int error = errno;
   const bool there = nearest == fs::absolute(folder, failed);
+  const std::string cannot = error == EROFS ? "mdofd cannot " : "mdofd has no permission to ";
   return bad_input(key + ": " +
-                   (there ? "mdofd has no permission to write in " + folder.string()
-                          : folder.string() +
-                                " does not exist, and mdofd has no permission to create it in " +
+                   (there ? cannot + "write in " + folder.string()
+                          : folder.string() + " does not exist, and " + cannot + "create it in " +
                                 nearest.string()) +
-                   permission_remedy(folder));
+                   permission_remedy(folder, error));
 }
 
 Status check_file(const std::string& key, const fs::path& file) {
@@ -100,8 +105,8 @@ Status make_socket_folder(const std::string& socket) {
     made /= part;
     if (fs::exists(made, failed)) continue;
     if (::mkdir(made.c_str(), kFolderMode) != 0 && errno != EEXIST)
-      return io_error("rpc.socket: the folder " + made.string() +
-                      " cannot be created: " + std::strerror(errno) + permission_remedy(folder));
+      return io_error("rpc.socket: the folder " + made.string() + " cannot be created: " +
+                      std::strerror(errno) + permission_remedy(folder, errno));
     (void)::chmod(made.c_str(), kFolderMode);  // mkdir() applies the umask, chmod() does not
   }
   return {};

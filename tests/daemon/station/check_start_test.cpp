@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/daemon/store/fixtures.h"
+
 namespace mdof::daemon {
 namespace {
 
@@ -83,6 +85,20 @@ TEST_F(CheckStart, AFolderWithoutPermissionNamesTheGroup) {
   EXPECT_NE(says.find("mdofd.toml:2: store.database: "), std::string::npos) << says;
   EXPECT_NE(says.find("group mdof"), std::string::npos) << says;
   EXPECT_EQ(says.find("root"), std::string::npos) << says;
+}
+
+// No owner of the folder can write to it, so "sudo install -o mdof" would not help.
+TEST_F(CheckStart, AReadOnlyFileSystemIsNamed) {
+  fs::create_directories(folder_ / "fixed");
+  store::with_private_mounts(
+      [&] { return store::mount_read_only(folder_ / "fixed"); },
+      [&] {
+        const std::string says =
+            refusal("[store]\ndatabase = \"" + in_folder("fixed/below/mdof.db") + "\"\n");
+        fprintf(stderr, "%s\n", says.c_str());
+        return says.find("the file system is read-only") != std::string::npos &&
+               says.find("sudo") == std::string::npos;
+      });
 }
 
 TEST_F(CheckStart, FindsVoltsWithoutAScaleBeforeTheFirstSample) {

@@ -33,9 +33,11 @@ Status back_up(Connection& connection, std::int64_t version) {
   std::error_code ec;
   fs::remove(partial, ec);
   MDOF_TRY(Statement copy, connection.prepare("VACUUM INTO ?"));
-  if (const Status copied = copy.bind(std::string_view(partial)).run(); !copied)
+  if (const Status copied = copy.bind(std::string_view(partial)).run(); !copied) {
+    fs::remove(partial, ec);  // on a full disk, it needs the space and is of no use
     return in_context("the backup before the schema change failed, so nothing was changed",
                       copied.error());
+  }
   flush_to_disk(partial);
   fs::rename(partial, name, ec);
   if (ec) return io_error(name + ": the backup cannot be renamed to this name: " + ec.message());

@@ -1,6 +1,9 @@
 // Files that the store must not open, or must repair first: foreign files, incomplete files, and
 // files of other versions.
+#include <csignal>
 #include <fstream>
+
+#include <sys/resource.h>
 
 #include "daemon/store/file/migrate.h"
 #include "daemon/store/store.h"
@@ -251,6 +254,28 @@ TEST_F(StoreTest, AnOldDatabaseKeepsItsDataAndAcceptsPartialRuns) {
   EXPECT_FALSE(
       db->execute("INSERT INTO run_end (run, state, warnings, result_sha256) "
                   "VALUES (99, 'whatever', '[]', '')"));
+}
+
+// The remainder of the backup would use the space that is missing.
+TEST_F(StoreTest, AFailedBackupLeavesNoFile) {
+  { ASSERT_TRUE(writer()); }
+  tamper(
+      "CREATE TABLE large (x); INSERT INTO large VALUES (zeroblob(4000000)); "
+      "PRAGMA user_version = 1");
+  const rlim_t limit = 1'000'000;  // no file can become larger
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit files{limit, limit};
+    if (::setrlimit(RLIMIT_FSIZE, &files) != 0) _exit(2);
+    const auto refused = writer();
+    if (!refused) fprintf(stderr, "%s\n", refused.error().message.c_str());
+    _exit(!refused && contains(refused.error().message, "backup before the schema change") ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "see the messages above";
+  EXPECT_FALSE(fs::exists(file_.string() + ".schema-1.backup.partial"));
 }
 
 TEST_F(StoreTest, AFailingMigrationChangesNothing) {

@@ -154,13 +154,7 @@ Status check_probes_free(const Methods& m, const Station& station) {
 
 // Error: two devices provide one channel. The columns of a script are known only when it runs.
 Status check_open_sources(const Station& station) {
-  std::vector<ChannelSource> sources;
-  for (const DeviceStatus& device : station.devices()) {
-    sources.push_back({device.info.name, {}});
-    for (const Channel& channel : device.info.channels)
-      sources.back().channels.push_back(channel.id);
-  }
-  return check_no_channel_twice(station.config().rig, sources);
+  return check_no_channel_twice(station.config().rig, open_sources(station.devices()));
 }
 
 void begin_run(const Methods& m, Station& station, RunRequest request, Reply reply) {

@@ -27,6 +27,25 @@ std::string file_stamp(std::string utc) {
   return utc;
 }
 
+// The columns of a script are known only when it runs. Adds a trouble to the first script if all
+// devices were open and none of them provides a channel of the rig.
+void add_missing_channel(const AxisConfig& config, std::vector<DeviceStatus>& devices) {
+  const std::vector<ChannelSource> sources = open_sources(devices);
+  const auto unknown = [](const ChannelSource& source) { return source.channels.empty(); };
+  if (std::any_of(sources.begin(), sources.end(), unknown)) return;
+  const Status complete = check_all_channels(config.rig, sources);
+  for (std::size_t i = 0; !complete && i < devices.size(); ++i) {
+    if (!config.devices[i].channels.empty()) continue;
+    std::string columns;
+    for (const std::string& channel : sources[i].channels)
+      columns += (columns.empty() ? "" : ", ") + channel;
+    devices[i].standing.push_back(
+        {Trouble::Kind::missing, sources[i].device,
+         complete.error().message + " (channels of this device: " + columns + ")", ""});
+    return;
+  }
+}
+
 }  // namespace
 
 Station::Station(AxisConfig config, PipelineOptions options, std::string configuration,
@@ -240,7 +259,18 @@ void Station::wake_devices() {
 std::vector<DeviceStatus> Station::devices() const {
   std::vector<DeviceStatus> all;
   for (const auto& acquisition : acquisitions_) all.push_back(acquisition->status());
+  add_missing_channel(config_, all);
   return all;
+}
+
+std::vector<ChannelSource> open_sources(const std::vector<DeviceStatus>& devices) {
+  std::vector<ChannelSource> sources;
+  for (const DeviceStatus& device : devices) {
+    sources.push_back({device.info.name, {}});
+    for (const Channel& channel : device.info.channels)
+      sources.back().channels.push_back(channel.id);
+  }
+  return sources;
 }
 
 bool Station::healthy(steady_clock::duration limit) const {

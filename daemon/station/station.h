@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "daemon/measure/configuration/config.h"
+#include "daemon/measure/configuration/sources.h"
 #include "daemon/measure/pipeline.h"
 #include "daemon/measure/run_request.h"
 #include "daemon/station/device/device_reader.h"
@@ -173,5 +174,8 @@ class Station {
   std::atomic<bool> resuming_{false};
   std::thread resume_thread_;
 };
+
+// The channels of the devices that are or were open.
+std::vector<ChannelSource> open_sources(const std::vector<DeviceStatus>& devices);
 
 }  // namespace mdof::daemon

@@ -196,6 +196,26 @@ class RunState(unittest.TestCase):
             with self.assertRaisesRegex(RpcError, 'channel "A" comes from two devices, "one" and "two"; remove the channel'):
                 client.call("run.start", axis="X")
 
+    def test_a_missing_column_of_a_script_is_a_trouble(self):
+        """Before, only mdof doctor reported it, and only if mdofd did not run."""
+        rig = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../data/devices/rig_X.toml")
+        with tempfile.TemporaryDirectory() as folder:
+            with open(f"{folder}/one.py", "w") as script:
+                script.write('import time\nprint("encoder_mm,A_um,B_um,C_um,D_um", flush=True)\n'
+                             'while True:\n    print("0,0,0,0,0", flush=True)\n    time.sleep(0.05)\n')
+            daemon = Daemon(MDOFD, folder, f'[[axis]]\nrig = "{rig}"\n[[axis.device]]\ndriver = "csv_stream"\nname = "one"\n'
+                                           f'command = ["python3", "{folder}/one.py"]\n')
+            self.addCleanup(daemon.stop)
+            client = daemon.start()
+            while not (device := client.call("device.list")["devices"][0])["scans"]:
+                time.sleep(0.02)
+            lines = [line for line in device["trouble"] if ": missing: " in line]
+            self.assertEqual(len(lines), 1, device)
+            self.assertRegex(lines[0], r'device "one": missing: no device provides channel "E" of .*rig_X.toml.* \(channels of this device: encoder, A, B, C, D\)')
+            started = client.call("run.start", axis="X")
+            self.assertIn(("trouble_at_start", "missing"), [(n["code"], n.get("kind")) for n in started["notices"]])
+            client.call("run.stop", run=started["run"], abort=True)
+
     def test_a_free_run_stopped_is_what_was_asked_for(self):
         watcher = self.watcher()
         run = self.client.call("run.start", axis="X")["run"]

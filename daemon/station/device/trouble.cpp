@@ -77,6 +77,8 @@ const char* to_string(Kind kind) {
       return "slow";
     case Kind::position:
       return "position";
+    case Kind::missing:
+      return "missing";
     case Kind::clock:
       return "clock";
     case Kind::unsolved:

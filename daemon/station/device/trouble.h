@@ -23,6 +23,7 @@ struct Trouble {
     suspect,   // the values of the device may be wrong, because an encoder has lost its datum
     slow,      // the device sends fewer scans than its nominal rate, or scans were lost
     position,  // the encoder sends no positions
+    missing,   // a script has no column for a channel of the rig
     clock,     // the time of the samples is uncertain
     unsolved,  // a stop has no errors because readings are missing
   } kind = Kind::lost;

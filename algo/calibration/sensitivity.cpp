@@ -39,6 +39,7 @@ struct Reading {
 std::vector<std::vector<Reading>> group_by_position(std::vector<Reading> all, double apart_m) {
   std::sort(all.begin(), all.end(),
             [](const Reading& a, const Reading& b) { return a.true_m < b.true_m; });
+  if (all.size() < 2) return std::vector<std::vector<Reading>>(all.size(), all);
   const double span_m = all.back().true_m - all.front().true_m;
   apart_m = std::max(apart_m, 0.2 * span_m / static_cast<double>(all.size() - 1));
   std::vector<std::vector<Reading>> places;
@@ -101,23 +102,52 @@ std::vector<std::string> undetectable_effects(const Rig& rig) {
   return sentences;
 }
 
-// Sorts by reading, and replaces the readings of one position by their mean.
-std::vector<Reading> places_of(std::vector<Reading> all, double apart_m) {
-  std::sort(all.begin(), all.end(),
-            [](const Reading& a, const Reading& b) { return a.read_m < b.read_m; });
-  std::vector<Reading> places;
-  for (std::size_t i = 0; i < all.size();) {
-    std::size_t end = i;
+// The mean of the readings of each position.
+std::vector<Reading> means_of(const std::vector<std::vector<Reading>>& places) {
+  std::vector<Reading> means;
+  for (const auto& place : places) {
     Reading sum{0, 0, 0};
-    for (; end < all.size() && all[end].read_m - all[i].read_m <= apart_m; ++end) {
-      sum.true_m += all[end].true_m;
-      sum.read_m += all[end].read_m;
+    for (const Reading& visit : place) {
+      sum.true_m += visit.true_m;
+      sum.read_m += visit.read_m;
     }
-    const auto n = static_cast<double>(end - i);
-    places.push_back({sum.true_m / n, sum.read_m / n, 0});
-    i = end;
+    const auto n = static_cast<double>(place.size());
+    means.push_back({sum.true_m / n, sum.read_m / n, 0});
   }
-  return places;
+  return means;
+}
+
+// Largest difference between the readings of one position, without the differences of their travel.
+double largest_difference(const std::vector<std::vector<Reading>>& places, double slope) {
+  double largest = 0;
+  for (const auto& place : places) {
+    const auto [low, high] = std::minmax_element(
+        place.begin(), place.end(), [slope](const Reading& a, const Reading& b) {
+          return a.read_m - slope * a.true_m < b.read_m - slope * b.true_m;
+        });
+    largest = std::max(largest, high->read_m - low->read_m - slope * (high->true_m - low->true_m));
+  }
+  return largest;
+}
+
+// Refuses a step in which the reading hardly changes, or changes too much: the line through all
+// stops can hide such a step.
+Status check_steps(const Probe& probe, const std::vector<Reading>& means) {
+  const double slack_m = kSamePositionShare * probe.range_m;
+  for (std::size_t i = 1; i < means.size(); ++i) {
+    const double step_m = means[i].true_m - means[i - 1].true_m;
+    const double change_m = means[i].read_m - means[i - 1].read_m;
+    if (change_m >= kLeast * step_m - slack_m && change_m <= kMost * step_m + slack_m) continue;
+    return fail(ErrorCode::check,
+                "probe \"" + probe.id + "\": the reading changes by " +
+                    plain_number(to_um(change_m), 4) + " um in a step of " +
+                    plain_number(to_um(step_m), 4) + " um, from the reading " +
+                    plain_number(to_um(means[i - 1].read_m), 4) + " um (limits of the change: " +
+                    plain_number(kLeast, 3) + " and " + plain_number(kMost, 3) +
+                    " of the step); the probe is at the end of its range, or the target did not "
+                    "move; measure only positions at which the reading follows the target");
+  }
+  return {};
 }
 
 Status check(const Probe& probe, const Line& line) {
@@ -148,7 +178,7 @@ void extend_to_range(const Probe& probe, double slope, SensitivityCalibration& f
 
 // Sets the proposed values of the rig. If the rig has um_per_V, the sensitivity is included in
 // um_per_V, and the table contains only the nonlinearity. Otherwise the table contains both.
-void propose(const Probe& probe, const std::vector<Reading>& places, const Line& line,
+void propose(const Probe& probe, const std::vector<Reading>& means, const Line& line,
              SensitivityCalibration& found) {
   const Calibration& c = probe.calibration;
   const double divisor = c.um_per_V ? line.slope : 1;
@@ -156,7 +186,7 @@ void propose(const Probe& probe, const std::vector<Reading>& places, const Line&
   found.offset_um = c.offset_um / divisor;
   const double zero_m = line.intercept / line.slope;
   const double sign = c.reads_gap ? -1 : 1;
-  for (const Reading& place : places) {
+  for (const Reading& place : means) {
     const double read_m = place.read_m / divisor;
     found.linearity.push_back({sign * to_um(read_m), sign * to_um(place.true_m + zero_m - read_m)});
   }
@@ -187,8 +217,9 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
   for (const TraverseStop& stop : traverse.stops)
     if (std::isfinite(stop.reading_m[probe]))
       all.push_back({stop.travel_m * along, stop.reading_m[probe], stop.u_reading_m[probe]});
-  const auto places = places_of(all, kSamePositionShare * own.range_m);
-  const double way_m = places.empty() ? 0 : places.back().read_m - places.front().read_m;
+  const auto places = group_by_position(all, kSamePositionShare * own.range_m);
+  const std::vector<Reading> means = means_of(places);
+  const double way_m = means.empty() ? 0 : std::abs(means.back().read_m - means.front().read_m);
   if (places.size() < kFewest || way_m < kShortest * own.range_m)
     return fail(ErrorCode::check,
                 "probe \"" + own.id + "\" has readings at " + std::to_string(places.size()) +
@@ -204,23 +235,28 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
   Line line = least_squares_line(x, y);
   line.intercept -= line.slope * all.front().true_m;
   MDOF_CHECK(check(own, line));
+  MDOF_CHECK(check_steps(own, means));
   SensitivityCalibration found;
   found.id = own.id;
   found.sensitivity_1 = line.slope;
   const SlopeUncertainty u =
-      slope_uncertainty(group_by_position(all, kSamePositionShare * own.range_m), line.slope,
-                        std::abs(along) * rig.uncertainty.encoder.u);
+      slope_uncertainty(places, line.slope, std::abs(along) * rig.uncertainty.encoder.u);
   found.u_sensitivity_1 = u.u;
   found.freedom = u.freedom;
   found.not_seen = undetectable_effects(rig);
+  const double difference_m = largest_difference(places, line.slope);
+  if (difference_m > kSamePositionShare * own.range_m)
+    found.not_seen.push_back("the differences of up to " + plain_number(to_um(difference_m), 3) +
+                             " um between stops at the same position (backlash of the encoder, or "
+                             "drift): the linearity contains their means");
   found.residual_sd_m = line.residual_sd;
-  found.from_m = places.front().read_m;
-  found.to_m = places.back().read_m;
+  found.from_m = means.front().read_m;
+  found.to_m = means.back().read_m;
   found.stops = all.size();
   for (const Reading& reading : all)
     found.linearity_m =
         std::max(found.linearity_m, std::abs(reading.read_m - line.at(reading.true_m)));
-  propose(own, places, line, found);
+  propose(own, means, line, found);
   return found;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -146,6 +147,24 @@ TEST(Sensitivity, ProposedTableCorrectsTheReadings) {
     }
 }
 
+// Stops at one position are one point of the table, also if backlash separates their readings.
+// Otherwise the table is a saw-tooth: 0.5 um of travel without a change of the corrected reading.
+TEST(Sensitivity, TableContainsTheMeanOfBothApproaches) {
+  const Rig rig = test::rig_x_with("A", "um_per_V = 10\n");
+  Traverse both = along_z([](double z) { return 1.01 * z; });
+  for (const TraverseStop& stop : along_z([](double z) { return 1.01 * z - 0.5e-6; }).stops)
+    both.stops.push_back(stop);
+  const auto found = fit_sensitivity(rig, kA, both);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->sensitivity_1, 1.01, 1e-9);
+  EXPECT_EQ(found->linearity.size(), 11U);
+  for (const auto& [reading_um, correction_um] : found->linearity)
+    EXPECT_NEAR(correction_um, 0, 1e-9) << reading_um;
+  EXPECT_NE(found->not_seen.back().find("up to 0.5 um between stops at the same position"),
+            std::string::npos)
+      << found->not_seen.back();
+}
+
 // The traverse covers ±12 um. The table continues with the same slope over the whole range: raw =
 // 100 ± (5 + 1.02 z).
 TEST(Sensitivity, TableWithoutScaleCoversTheRange) {
@@ -182,6 +201,8 @@ TEST(Sensitivity, RefusesImplausibleTraverses) {
   says(along_z([](double z) { return -z; }), "check the keys \"reads\" and \"measures\"");
   says(along_z([](double z) { return 2.5 * z; }), "um_per_V");
   says(along_z([](double) { return std::nan(""); }), "at 0 positions over 0 um");
+  says(along_z([](double z) { return std::min(z, 50e-6); }),
+       "changes by 2 um in a step of 16 um, from the reading 48 um");
   EXPECT_EQ(approaching_axis(rig, kA).value(), Axis::z);
   EXPECT_EQ(approaching_axis(rig, 3).value(), Axis::y);
 }

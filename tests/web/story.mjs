@@ -23,7 +23,17 @@ async function setUp(page) {
   await page.waitForFunction(() => document.querySelector(".probe .state").textContent.includes("in range"));
   await page.waitForFunction(() => /simulator-X[^]*20\d\d|simulator-X[^]*19\d\d/.test(document.querySelector(".setup").innerText));  // its rate, measured
   await accessible(page, "Set up");
+  assert.ok(await problemHeight_em(page) < 12, "the problem of a device is no tower of single words");
 }
+
+// Height of a row of the devices with a long problem, in letters.
+const problemHeight_em = (page) => page.evaluate(async () => {
+  const {setRows} = await import("/dom.js");
+  const devices = document.querySelector('[aria-label="Devices of this axis"]');
+  const said = "the device sends 278.4 scans per second instead of 300, and 107 scans were lost in 5 s; check the network or cable and the load";
+  setRows(devices, [devices.columns.map(([head]) => head === "problem" ? said : "simulator-X")]);
+  return devices.querySelector("tbody tr").offsetHeight / parseFloat(getComputedStyle(document.body).fontSize);
+});
 
 // Without a mouse: the link to the content, then the views.
 async function byKeyboard(page) {

@@ -58,7 +58,7 @@ function calibrations() {
 export function open(place) {
   const t = {
     why: table("Reasons", [["place", "w"], ["reason"]], []),
-    devices: table("Devices", [["device", "w"], ["axis"], ["driver"], ["state", "w"], ["rate/Hz", "n"], ["scans", "n"], ["lost", "n"], ["dropped blocks", "n"], ["reopened", "n"], ["last error"]], []),
+    devices: table("Devices", [["device", "w"], ["axis"], ["driver"], ["state", "w"], ["rate/Hz", "n"], ["scans", "n"], ["lost", "n"], ["dropped blocks", "n"], ["reopened", "n"], ["last error", "t"]], []),
     clocks: table("Clocks of the devices, compared with the clock of the mdofd computer", [["device", "w"], ["drift/ppm", "n"], ["jitter/ms", "n"], ["settled"], ["steps", "n"]], []),
     calibrations: table("Calibrations", [["calibrated item", "w"], ["certificate"], ["laboratory"], ["calibrated", "w"], ["due", "w"], ["state", "w"]], []),
   };

@@ -164,7 +164,7 @@ class Devices {
   before = new Map();  // device -> {scans, at}
   constructor() {
     this.table = table("Devices of this axis",
-      [["device", "w"], ["driver"], ["state", "w"], ["rate/Hz", "n"], ["nominal/Hz", "n"], ["lost scans", "n"], ["problem"]], []);
+      [["device", "w"], ["state", "w"], ["problem", "t"], ["driver"], ["rate/Hz", "n"], ["nominal/Hz", "n"], ["lost scans", "n"]], []);
     this.wrong = h("div", {});
     this.element = h("section", {class: "panel"}, h("h2", {}, "Devices"), this.table, this.wrong);
   }
@@ -182,8 +182,8 @@ class Devices {
     const now = performance.now(), last = this.before.get(d.device);
     this.before.set(d.device, {scans: d.scans, at: now});
     const rate = last && now > last.at ? (d.scans - last.scans) / (now - last.at) * 1000 : null;
-    return [d.device, d.driver, (d.state === "open" ? "● " : "■ ") + d.state, rate === null ? "–" : fixed(rate, 0),
-      fixed(d.rate_hz, 0), String(d.scans_lost), [d.error, ...d.trouble].filter(Boolean).join("; ") || "none"];
+    return [d.device, (d.state === "open" ? "● " : "■ ") + d.state, [d.error, ...d.trouble].filter(Boolean).join("; ") || "none",
+      d.driver, rate === null ? "–" : fixed(rate, 0), fixed(d.rate_hz, 0), String(d.scans_lost)];
   }
 }
 

@@ -171,7 +171,8 @@ std::vector<DriftProcess::Products> DriftProcess::products_of(const DriftDesign&
   for (std::size_t clock = 0; clock < kStarts.size(); ++clock) {
     Eigen::MatrixXd rows(y.rows(), kTerms);
     for (Eigen::Index i = 0; i < y.rows(); ++i)
-      rows.row(i) = terms(clock, design.visits()[static_cast<std::size_t>(i)].time_s).transpose();
+      rows.row(i) =
+          of_clock(clock, design.visits()[static_cast<std::size_t>(i)].time_s).transpose();
     const Eigen::MatrixXd between = design.centred(rows);
     products.push_back({between.transpose() * between, between.transpose() * centred,
                         rows.transpose() * rows / static_cast<double>(y.rows())});
@@ -186,7 +187,7 @@ Eigen::LLT<Eigen::MatrixXd> DriftProcess::normal_equations(const Products& produ
   return Eigen::LLT<Eigen::MatrixXd>(sum);
 }
 
-Eigen::VectorXd DriftProcess::terms(std::size_t clock, double time_s) const {
+Eigen::VectorXd DriftProcess::of_clock(std::size_t clock, double time_s) const {
   const double part = std::clamp((time_s - begin_s_) / length_s_, 0.0, 1.0);
   const double start = kStarts[clock];
   const double time =
@@ -201,26 +202,14 @@ Eigen::VectorXd DriftProcess::terms(std::size_t clock, double time_s) const {
   return out;
 }
 
-Eigen::VectorXd DriftProcess::all_terms(double time_s) const {
+Eigen::VectorXd DriftProcess::terms(double time_s) const {
   Eigen::VectorXd out(first_wave(kStarts.size()));
   for (std::size_t clock = 0; clock < kStarts.size(); ++clock) {
-    const Eigen::VectorXd of_clock = terms(clock, time_s);
-    out(0) = of_clock(0);
-    out.segment(first_wave(clock), kWaves) = of_clock.tail(kWaves);
+    const Eigen::VectorXd own = of_clock(clock, time_s);
+    out(0) = own(0);
+    out.segment(first_wave(clock), kWaves) = own.tail(kWaves);
   }
   return out;
-}
-
-Eigen::VectorXd DriftProcess::drift(double time_s) const {
-  return mean_.transpose() * all_terms(time_s);
-}
-
-double DriftProcess::u(Eigen::Index series, double time_s) const {
-  return parts(series, time_s).norm();
-}
-
-Eigen::VectorXd DriftProcess::parts(Eigen::Index series, double time_s) const {
-  return roots_[static_cast<std::size_t>(series)].transpose() * all_terms(time_s);
 }
 
 }  // namespace mdof::algo

@@ -38,11 +38,19 @@ class DriftProcess {
   // Degrees of freedom of u(). The models have different u, which reduces the degrees of freedom
   // (GUM G.4.2, Eq. G.3).
   double freedom(Eigen::Index series) const { return freedom_(series); }
-  Eigen::VectorXd drift(double time_s) const;          // of each series, since the first visit
-  double u(Eigen::Index series, double time_s) const;  // standard uncertainty of drift()
-  // Effects of independent parts of the uncertainty of drift(): the squares add to u². Part i of
-  // all series belongs to the same term of the drift.
-  Eigen::VectorXd parts(Eigen::Index series, double time_s) const;
+  // Returns the value of each term of the drift at a time; 0 at the first visit.
+  Eigen::VectorXd terms(double time_s) const;
+  // Drift of each series since the first visit, and its standard uncertainty, from terms().
+  Eigen::VectorXd drift(const Eigen::VectorXd& terms) const { return mean_.transpose() * terms; }
+  double u(Eigen::Index series, const Eigen::VectorXd& terms) const {
+    return (root(series).transpose() * terms).norm();
+  }
+  // Lower triangular root R of the covariance of the terms. The elements of Rᵀ terms() are the
+  // effects of independent parts of the uncertainty. Element i of all series belongs to the same
+  // term.
+  const Eigen::MatrixXd& root(Eigen::Index series) const {
+    return roots_[static_cast<std::size_t>(series)];
+  }
 
  private:
   struct Model {
@@ -57,8 +65,7 @@ class DriftProcess {
   static std::vector<Model> models();
   std::vector<Products> products_of(const DriftDesign& design, const Eigen::MatrixXd& y) const;
   static Eigen::LLT<Eigen::MatrixXd> normal_equations(const Products& products, const Model& model);
-  Eigen::VectorXd terms(std::size_t clock, double time_s) const;
-  Eigen::VectorXd all_terms(double time_s) const;
+  Eigen::VectorXd of_clock(std::size_t clock, double time_s) const;
 
   double begin_s_, length_s_;
   Eigen::VectorXd freedom_;

@@ -50,8 +50,7 @@ DriftFit::DriftFit(DriftDesign design, const Eigen::MatrixXd& y, const Eigen::Ve
   const auto significant = [](const SeriesDrift& drift) { return drift.significant(); };
   if (std::none_of(series_.begin(), series_.end(), significant)) return;
   process_.emplace(design_, y, noise2);
-  for (std::size_t k = 0; k < series_.size(); ++k)
-    if (series_[k].significant()) describe(k);
+  describe_significant();
 }
 
 SeriesDrift DriftFit::tested(Eigen::Index k, const std::vector<WeighedFit>& fits, double noise2,
@@ -73,18 +72,22 @@ SeriesDrift DriftFit::tested(Eigen::Index k, const std::vector<WeighedFit>& fits
   return out;
 }
 
-void DriftFit::describe(std::size_t series) {
-  SeriesDrift& of = series_[series];
-  const auto k = static_cast<Eigen::Index>(series);
-  of.change = process_->drift(design_.end_s())(k);
-  of.u_change = process_->u(k, design_.end_s());
-  double low = 0, high = 0;  // at the first visit
+void DriftFit::describe_significant() {
+  const auto n = static_cast<Eigen::Index>(series_.size());
+  Eigen::VectorXd low = Eigen::VectorXd::Zero(n), high = low;  // at the first visit
   for (const TimedVisit& visit : design_.visits()) {
-    const double here = process_->drift(visit.time_s)(k);
-    low = std::min(low, here);
-    high = std::max(high, here);
+    const Eigen::VectorXd here = process_->drift(process_->terms(visit.time_s));
+    low = low.cwiseMin(here);
+    high = high.cwiseMax(here);
   }
-  of.range = high - low;
+  const Eigen::VectorXd at_end = process_->terms(design_.end_s()), change = process_->drift(at_end);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    SeriesDrift& of = series_[static_cast<std::size_t>(k)];
+    if (!of.significant()) continue;
+    of.change = change(k);
+    of.u_change = process_->u(k, at_end);
+    of.range = high(k) - low(k);
+  }
 }
 
 bool DriftFit::removed(std::size_t series) const {
@@ -102,7 +105,7 @@ double DriftFit::freedom() const {
 Eigen::VectorXd DriftFit::drift(double time_s) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(series_.size()));
   if (!process_) return out;
-  const Eigen::VectorXd drift = process_->drift(time_s);
+  const Eigen::VectorXd drift = process_->drift(process_->terms(time_s));
   for (Eigen::Index k = 0; k < out.size(); ++k)
     if (removed(static_cast<std::size_t>(k))) out(k) = drift(k);
   return out;
@@ -113,11 +116,14 @@ std::vector<Eigen::MatrixXd> DriftFit::parts(const std::vector<double>& time_s) 
   std::vector<Eigen::MatrixXd> parts(time_s.size(), Eigen::MatrixXd::Zero(n, 0));
   if (!process_) return parts;
   const Eigen::MatrixXd few = few_parts(time_s);
+  std::vector<Eigen::MatrixXd> by_term;
+  for (Eigen::Index k = 0; k < n; ++k) by_term.emplace_back(process_->root(k) * few);
   for (std::size_t j = 0; j < parts.size(); ++j) {
     parts[j] = Eigen::MatrixXd::Zero(n, n * few.cols());
+    const Eigen::RowVectorXd terms = process_->terms(time_s[j]).transpose();
     for (Eigen::Index k = 0; k < n; ++k) {
       if (!removed(static_cast<std::size_t>(k))) continue;
-      const Eigen::RowVectorXd here = process_->parts(k, time_s[j]).transpose() * few;
+      const Eigen::RowVectorXd here = terms * by_term[static_cast<std::size_t>(k)];
       for (Eigen::Index i = 0; i < few.cols(); ++i)
         parts[j].row(k).segment(i * n, n) = here(i) * correlation_.row(k);
     }
@@ -129,13 +135,14 @@ std::vector<Eigen::MatrixXd> DriftFit::parts(const std::vector<double>& time_s) 
 // that contain all of the variance but kLeastShare: parts × combinations.
 Eigen::MatrixXd DriftFit::few_parts(const std::vector<double>& time_s) const {
   const std::size_t step = 1 + time_s.size() / kTimesToChoose;
+  const Eigen::VectorXd at_end = process_->terms(design_.end_s());
   std::vector<Eigen::VectorXd> left;
   double all = 0;
-  for (std::size_t k = 0; k < series_.size(); ++k) {
-    if (!removed(k)) continue;
-    const double u = process_->u(static_cast<Eigen::Index>(k), design_.end_s());
-    for (std::size_t j = 0; j < time_s.size() && u > 0; j += step) {
-      left.push_back(process_->parts(static_cast<Eigen::Index>(k), time_s[j]) / u);
+  for (std::size_t series = 0; series < series_.size(); ++series) {
+    const auto k = static_cast<Eigen::Index>(series);
+    const double u = process_->u(k, at_end);
+    for (std::size_t j = 0; j < time_s.size() && removed(series) && u > 0; j += step) {
+      left.emplace_back(process_->root(k).transpose() * process_->terms(time_s[j]) / u);
       all += left.back().squaredNorm();
     }
   }
@@ -151,8 +158,7 @@ Eigen::MatrixXd DriftFit::few_parts(const std::vector<double>& time_s) const {
       rest += of.squaredNorm();
     }
   }
-  Eigen::MatrixXd few(left.empty() ? 0 : left.front().size(),
-                      static_cast<Eigen::Index>(chosen.size()));
+  Eigen::MatrixXd few(at_end.size(), static_cast<Eigen::Index>(chosen.size()));
   for (std::size_t i = 0; i < chosen.size(); ++i) few.col(static_cast<Eigen::Index>(i)) = chosen[i];
   return few;
 }

@@ -56,7 +56,7 @@ class DriftFit {
  private:
   SeriesDrift tested(Eigen::Index series, const std::vector<WeighedFit>& fits, double noise2,
                      double critical_t) const;
-  void describe(std::size_t series);
+  void describe_significant();
   bool removed(std::size_t series) const;
   Eigen::MatrixXd few_parts(const std::vector<double>& time_s) const;
 

@@ -17,7 +17,7 @@ struct LocalSlope {
 
 // One element for each point of a run. `slope` is that of the natural cubic spline through the mean
 // errors of the targets, with the approach of the point. It is 0.87 of the true slope (root mean
-// square) if the errors are a wave of three target intervals, 0.97 for four, and 0.99 for six.
+// square) if the errors are a wave of three target intervals, 0.96 for four, and 0.99 for six.
 //
 // `unseen` is estimated from the changes of the chord from interval to interval, for the inner
 // targets together: 0 if these changes show a smooth form. At the end targets the slope of the

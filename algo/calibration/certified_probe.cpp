@@ -12,7 +12,9 @@ namespace {
 
 // Limits of the ratio of two um_per_V of the same probe.
 constexpr double kLeastRatio = 0.5, kMostRatio = 2;
-constexpr double kSameScale = 3;  // limit, times u: scales that differ by less count as equal
+constexpr double kNearRows = 0.05;  // distance of two readings that hysteresis can separate,
+                                    // relative to the length of the table
+constexpr double kSameScale = 3;    // limit, times u: scales that differ by less count as equal
 constexpr const char* kMeasured = "basic_measuredValue";
 constexpr const char* kReference = "basic_referenceValue";
 constexpr const char* kError = "basic_measurementError";
@@ -314,16 +316,25 @@ class CertificateReader {
   }
 
   // Subtracts the offset from the readings, sorts the rows, and shifts the corrections so that the
-  // correction is 0 at reading - offset = 0.
+  // correction is 0 at reading - offset = 0. Rows of both directions of motion would be a
+  // saw-tooth.
   Status about_zero(Rows& rows, long line) const {
     const double offset_um = found_.probe.offset_um.value_or(own_.calibration.offset_um);
     for (auto& row : rows) row[0] -= offset_um;
     std::sort(rows.begin(), rows.end());
-    for (std::size_t i = 1; i < rows.size(); ++i)
-      if (rows[i][0] <= rows[i - 1][0])
-        return bad_input(at(line) +
-                         "two rows of the table have the same reading; ask the laboratory for a "
-                         "table that was measured in one direction of motion");
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const double step_um = rows[i][0] - rows[i - 1][0];
+      const double moved_um = step_um + rows[i][1] - rows[i - 1][1];
+      if (step_um > kNearRows * (rows.back()[0] - rows.front()[0])) continue;
+      if (step_um > 0 && moved_um >= kLeastRatio * step_um) continue;
+      return bad_input(
+          at(line) + "two rows of the table have " +
+          (step_um > 0 ? "readings that differ by " + number(step_um) +
+                             " um, and almost the same displacement"
+                       : "the same reading") +
+          "; ask the laboratory for a table that was measured in one direction of motion, or for "
+          "the means of both directions");
+    }
     Calibration own;
     own.linearity = rows;
     const double at_zero_um = linearity_um(own, 0);

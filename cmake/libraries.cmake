@@ -27,5 +27,10 @@ function(mdof_library name)
   endif()
   add_library(mdof_${name} STATIC ${ARG_FILES})
   target_link_libraries(mdof_${name} PUBLIC mdof_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  if("mdof_hot" IN_LIST ARG_PRIVATE_LINK)
+    # mold takes the first copy of an inline function. Callers compiled without optimisation have such copies, too, so
+    # the library comes before all objects. Its files for AVX contain no inline functions that others could call.
+    target_link_options(mdof_${name} INTERFACE $<TARGET_FILE:mdof_${name}>)
+  endif()
   mdof_compile_together(mdof_${name})
 endfunction()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "schema/base/random.h"
 
@@ -11,15 +12,22 @@ namespace {
 constexpr std::size_t kPointsPerTrial =
     1000;  // approximate number of points of the path in each trial
 
-// Returns normally distributed random numbers with variance 1 for a trial.
-std::vector<double> drawn(std::uint64_t seed, std::size_t trial, std::size_t count) {
-  std::vector<double> xi;
+// Normally distributed random numbers with variance 1, one for each quantity: the errors of the
+// measured values or the unknown errors (`xi`), and the errors that turn the measured value in
+// another direction (`turn`).
+struct Trial {
+  std::vector<double> xi, turn;
+};
+
+Trial drawn(std::uint64_t seed, std::size_t trial, std::size_t count) {
+  Trial found;
   for (std::size_t q = 0; q < count; ++q) {
     const Philox words =
         philox({{static_cast<std::uint32_t>(trial), 0, static_cast<std::uint32_t>(q), 0}}, seed);
-    xi.push_back(gaussian(uniform(words[0], words[1])));
+    found.xi.push_back(gaussian(uniform(words[0], words[1])));
+    found.turn.push_back(gaussian(uniform(words[2], words[3])));
   }
-  return xi;
+  return found;
 }
 
 // Returns a field at all points as one list: components along the normals, or all
@@ -49,10 +57,12 @@ struct Effect {
   std::vector<double> u;
 };
 
-// The error of one cause, of the causes of a layer, or of all causes.
+// The error of one cause, of the causes of a layer, or of all causes. Each list of effects has one
+// effect for each xi.
 struct Sum {
   std::vector<double> value;
-  std::vector<Effect> effects;  // one for each xi
+  std::vector<Effect> measured;  // u of values that were measured
+  std::vector<Effect> unknown;   // u of causes whose value is unknown: the error itself
 };
 
 void add(const std::vector<double>& from, std::vector<double>& to) {
@@ -60,70 +70,99 @@ void add(const std::vector<double>& from, std::vector<double>& to) {
   for (std::size_t k = 0; k < from.size(); ++k) to[k] += from[k];
 }
 
-void add(const Sum& from, Sum& to) {
-  add(from.value, to.value);
-  for (const Effect& effect : from.effects) {
-    const auto same = std::find_if(to.effects.begin(), to.effects.end(),
-                                   [&](const Effect& e) { return e.xi == effect.xi; });
-    if (same == to.effects.end())
-      to.effects.push_back(effect);
+void add(const std::vector<Effect>& from, std::vector<Effect>& to) {
+  for (const Effect& effect : from) {
+    const auto same =
+        std::find_if(to.begin(), to.end(), [&](const Effect& e) { return e.xi == effect.xi; });
+    if (same == to.end())
+      to.push_back(effect);
     else
       add(effect.u, same->u);
   }
 }
 
+void add(const Sum& from, Sum& to) {
+  add(from.value, to.value);
+  add(from.measured, to.measured);
+  add(from.unknown, to.unknown);
+}
+
 // Cause c has the random number c. The common parts have the numbers after the causes.
 Sum sum_of_cause(const PartPath& path, const std::vector<PartCause>& causes, std::size_t c) {
-  Sum sum{seen(path, causes[c].value_m), {{c, seen(path, causes[c].u_m)}}};
+  Sum sum{seen(path, causes[c].value_m), {}, {}};
+  const bool is_unknown =
+      std::all_of(sum.value.begin(), sum.value.end(), [](double x) { return x == 0; });
+  std::vector<Effect>& effects = is_unknown ? sum.unknown : sum.measured;
+  effects.push_back({c, seen(path, causes[c].u_m)});
   for (const CommonPart& part : causes[c].common)
-    sum.effects.push_back({causes.size() + part.number, seen(path, part.u_m)});
+    effects.push_back({causes.size() + part.number, seen(path, part.u_m)});
   return sum;
 }
 
-bool is_unknown(const Sum& cause) {
-  return std::all_of(cause.value.begin(), cause.value.end(), [](double x) { return x == 0; });
-}
-
-// The mean square error of a sum over the points, as a function of the random numbers.
+// The mean square error of a sum over the points.
 class MeanSquare {
  public:
-  // `unknown`: the part of the sum with a known u and an unknown value.
-  MeanSquare(const Sum& sum, const Sum& unknown, double points)
-      : expected_(product(sum.value, sum.value, points)) {
-    const auto n = static_cast<Eigen::Index>(sum.effects.size());
-    for (const Effect& effect : unknown.effects) expected_ += product(effect.u, effect.u, points);
-    value_ = product(sum.value, sum.value, points);
-    mixed_ = Eigen::VectorXd(n);
-    squares_ = Eigen::MatrixXd(n, n);
-    for (Eigen::Index a = 0; a < n; ++a) {
-      const Effect& effect = sum.effects[static_cast<std::size_t>(a)];
-      xi_.push_back(effect.xi);
-      mixed_(a) = product(sum.value, effect.u, points);
+  MeanSquare(const Sum& sum, double points) : measured_(sum.measured.size()) {
+    std::vector<const std::vector<double>*> fields{&sum.value};
+    for (const auto* effects : {&sum.measured, &sum.unknown})
+      for (const Effect& effect : *effects) {
+        fields.push_back(&effect.u);
+        xi_.push_back(effect.xi);
+      }
+    const auto n = static_cast<Eigen::Index>(fields.size());
+    products_ = Eigen::MatrixXd(n, n);
+    for (Eigen::Index a = 0; a < n; ++a)
       for (Eigen::Index b = 0; b <= a; ++b)
-        squares_(a, b) = squares_(b, a) =
-            product(effect.u, sum.effects[static_cast<std::size_t>(b)].u, points);
-    }
+        products_(a, b) = products_(b, a) = product(*fields[static_cast<std::size_t>(a)],
+                                                    *fields[static_cast<std::size_t>(b)], points);
   }
 
-  // With the expected squares of the unknown causes, without other random errors.
-  double expected() const { return expected_; }
-
-  double drawn(const std::vector<double>& xi) const {
-    double square = value_;
-    for (std::size_t a = 0; a < xi_.size(); ++a) {
-      const auto i = static_cast<Eigen::Index>(a);
-      square += 2 * xi[xi_[a]] * mixed_(i);
-      for (std::size_t b = 0; b < xi_.size(); ++b)
-        square += xi[xi_[a]] * xi[xi_[b]] * squares_(i, static_cast<Eigen::Index>(b));
+  // The errors of the measured values increase the mean square, except for their part along the
+  // value, which has both signs (README.md). Unknown causes contribute their expected square.
+  double expected() const {
+    const double value = products_(0, 0);
+    double increase = 0, unknown = 0;
+    for (Eigen::Index k = 1; k < products_.rows(); ++k) {
+      if (k > static_cast<Eigen::Index>(measured_))
+        unknown += products_(k, k);
+      else if (value > 0)
+        increase += products_(k, k) - products_(0, k) * products_(0, k) / value;
     }
-    return square;
+    return std::max(0.0, value - increase) + unknown;
+  }
+
+  // One trial for the true mean square (README.md).
+  double drawn(const Trial& trial) const {
+    Eigen::VectorXd way = Eigen::VectorXd::Zero(products_.rows()), error = way, unknown = way;
+    way(0) = 1;
+    for (std::size_t k = 0; k < xi_.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k + 1);
+      if (k < measured_) {
+        way(i) = trial.turn[xi_[k]];
+        error(i) = trial.xi[xi_[k]];
+      } else {
+        unknown(i) = trial.xi[xi_[k]];
+      }
+    }
+    const double scale = true_scale(way, error);
+    const Eigen::VectorXd truth = scale * way + unknown;
+    return std::max(0.0, truth.dot(products_ * truth));
   }
 
  private:
-  double expected_ = 0, value_ = 0;
-  std::vector<std::size_t> xi_;
-  Eigen::VectorXd mixed_;
-  Eigen::MatrixXd squares_;
+  // Returns the largest factor s >= 0 for which |s way - error|^2 is the mean square of the
+  // measured values. If there is none, s makes |s way - error|^2 smallest.
+  double true_scale(const Eigen::VectorXd& way, const Eigen::VectorXd& error) const {
+    const Eigen::VectorXd along = products_ * way;
+    const double square = way.dot(along), mixed = error.dot(along);
+    if (square <= 0) return 0;
+    const double root = mixed * mixed - square * (error.dot(products_ * error) - products_(0, 0));
+    return std::max(0.0, (mixed + std::sqrt(std::max(0.0, root))) / square);
+  }
+
+  std::size_t measured_ = 0;     // number of effects of measured values
+  std::vector<std::size_t> xi_;  // of the effects: measured, then unknown
+  Eigen::MatrixXd products_;     // mean products of the value and the effects
 };
 
 struct Sums {
@@ -134,34 +173,19 @@ struct Sums {
 
 Sums sums_of(const PartPath& path, const std::vector<PartCause>& causes, std::size_t layers) {
   Sums sums;
-  std::vector<Sum> of_layer(layers), unknown(layers);
+  std::vector<Sum> of_layer(layers);
   const auto points = static_cast<double>(path.at_m.size());
   for (std::size_t c = 0; c < causes.size(); ++c) {
     const Sum cause = sum_of_cause(path, causes, c);
-    const Sum unknown_cause = is_unknown(cause) ? cause : Sum{};
-    sums.causes.emplace_back(cause, unknown_cause, points);
+    sums.causes.emplace_back(cause, points);
     add(cause, of_layer[causes[c].layer]);
-    add(unknown_cause, unknown[causes[c].layer]);
     add(cause, sums.all);
   }
-  for (std::size_t k = 0; k < layers; ++k)
-    sums.layers.emplace_back(of_layer[k], unknown[k], points);
-  for (const Effect& effect : sums.all.effects)
-    sums.random_numbers = std::max(sums.random_numbers, effect.xi + 1);
+  for (const Sum& layer : of_layer) sums.layers.emplace_back(layer, points);
+  for (const auto* effects : {&sums.all.measured, &sums.all.unknown})
+    for (const Effect& effect : *effects)
+      sums.random_numbers = std::max(sums.random_numbers, effect.xi + 1);
   return sums;
-}
-
-std::vector<double> expected_squares(const std::vector<MeanSquare>& sums) {
-  std::vector<double> squares;
-  for (const MeanSquare& sum : sums) squares.push_back(std::max(0.0, sum.expected()));
-  return squares;
-}
-
-std::vector<double> drawn_squares(const std::vector<MeanSquare>& sums,
-                                  const std::vector<double>& xi) {
-  std::vector<double> squares;
-  for (const MeanSquare& sum : sums) squares.push_back(std::max(0.0, sum.drawn(xi)));
-  return squares;
 }
 
 double sum_of(const std::vector<double>& values) {
@@ -170,48 +194,73 @@ double sum_of(const std::vector<double>& values) {
   return sum;
 }
 
-double quantile_95(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto at = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size()));
-  const auto k = std::min(at, static_cast<std::ptrdiff_t>(values.size()) - 1);
-  std::nth_element(values.begin(), values.begin() + k, values.end());
-  return values[static_cast<std::size_t>(k)];
+// Sorts the trials. Returns the interval that contains 95 % of the trials, with as many trials
+// below as above (JCGM 101).
+Interval interval_of(std::vector<double>& trials) {
+  std::sort(trials.begin(), trials.end());
+  const std::size_t outside = trials.size() / 40;  // on each side
+  return {trials[std::max<std::size_t>(1, outside) - 1],
+          trials[std::min(trials.size() - outside, trials.size() - 1)]};
 }
 
 void find_shares(const std::vector<MeanSquare>& sums, const Sums& all, const PartTrials& trials,
                  std::vector<PartShare>& shares) {
-  const std::vector<double> expected = expected_squares(sums);
+  std::vector<double> expected;
+  for (const MeanSquare& sum : sums) expected.push_back(sum.expected());
   const double whole = sum_of(expected);
-  for (const double square : expected)
-    shares.push_back({std::sqrt(square), 0, whole > 0 ? square / whole : 0, 0});
-  std::vector<std::vector<double>> off_share(shares.size()), off_rms(shares.size());
+  for (const double square : expected) {
+    const double rms_m = std::sqrt(square), share = whole > 0 ? square / whole : 0;
+    shares.push_back({rms_m, {rms_m, rms_m}, share, {share, share}});
+  }
+  if (trials.shares == 0) return;
+  std::vector<std::vector<double>> drawn_share(shares.size()), drawn_rms(shares.size());
   for (std::size_t trial = 0; trial < trials.shares; ++trial) {
-    const std::vector<double> squares =
-        drawn_squares(sums, drawn(trials.seed, trial, all.random_numbers));
+    const Trial random = drawn(trials.seed, trial, all.random_numbers);
+    std::vector<double> squares;
+    for (const MeanSquare& sum : sums) squares.push_back(sum.drawn(random));
     const double sum = sum_of(squares);
     for (std::size_t k = 0; k < shares.size(); ++k) {
-      off_share[k].push_back(std::abs((sum > 0 ? squares[k] / sum : 0) - shares[k].share));
-      off_rms[k].push_back(std::abs(std::sqrt(squares[k]) - shares[k].rms_m));
+      drawn_share[k].push_back(sum > 0 ? squares[k] / sum : 0);
+      drawn_rms[k].push_back(std::sqrt(squares[k]));
     }
   }
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    shares[k].U_share = quantile_95(std::move(off_share[k]));
-    shares[k].U_rms_m = quantile_95(std::move(off_rms[k]));
+    shares[k].share_interval = interval_of(drawn_share[k]);
+    shares[k].rms_interval_m = interval_of(drawn_rms[k]);
   }
 }
 
-// Returns the magnitude of the error at every `every`-th point. Without random numbers it is the
-// magnitude of the value.
-std::vector<double> sizes(const PartPath& path, const Sum& all, const std::vector<double>& xi,
-                          std::size_t every) {
-  const std::size_t width = path.normal.empty() ? 3 : 1;
+// Every `every`-th point of a list with `width` numbers for each point.
+std::vector<double> thinned(const std::vector<double>& list, std::size_t width, std::size_t every) {
   std::vector<double> found;
-  for (std::size_t k = 0; k < path.at_m.size(); k += every) {
+  for (std::size_t k = 0; k < list.size(); k += every * width)
+    for (std::size_t i = 0; i < width; ++i) found.push_back(list[k + i]);
+  return found;
+}
+
+std::vector<Effect> thinned(std::vector<Effect> effects, std::size_t width, std::size_t every) {
+  for (Effect& effect : effects) effect.u = thinned(effect.u, width, every);
+  return effects;
+}
+
+// The sum of the effects, as a list of `size` numbers.
+std::vector<double> drawn_field(const std::vector<Effect>& effects, const std::vector<double>& xi,
+                                std::size_t size) {
+  std::vector<double> field(size, 0.0);
+  for (const Effect& effect : effects)
+    for (std::size_t i = 0; i < size; ++i) field[i] += xi[effect.xi] * effect.u[i];
+  return field;
+}
+
+// The magnitude at each point of scale * value + sign * field.
+std::vector<double> sizes(const std::vector<double>& value, double scale,
+                          const std::vector<double>& field, double sign, std::size_t width) {
+  std::vector<double> found;
+  found.reserve(value.size() / width);
+  for (std::size_t k = 0; k < value.size(); k += width) {
     double square = 0;
-    for (std::size_t i = k * width; i < (k + 1) * width; ++i) {
-      double error = all.value[i];
-      if (!xi.empty())
-        for (const Effect& effect : all.effects) error += xi[effect.xi] * effect.u[i];
+    for (std::size_t i = k; i < k + width; ++i) {
+      const double error = scale * value[i] + sign * field[i];
       square += error * error;
     }
     found.push_back(std::sqrt(square));
@@ -219,20 +268,105 @@ std::vector<double> sizes(const PartPath& path, const Sum& all, const std::vecto
   return found;
 }
 
+// The number of points whose error does not exceed p95. The largest error is exceeded by no point.
+std::size_t points_within_95(std::size_t points) {
+  return std::min(static_cast<std::size_t>(0.95 * static_cast<double>(points)) + 1, points);
+}
+
+std::size_t all_points(std::size_t points) {
+  return points;
+}
+
+// The error that `within` points do not exceed.
+double figure_of(std::vector<double> sizes, std::size_t within) {
+  const auto k = sizes.begin() + static_cast<std::ptrdiff_t>(within) - 1;
+  std::nth_element(sizes.begin(), k, sizes.end());
+  return *k;
+}
+
+// Returns the largest factor s >= 0 for which `within` points have |s way - error| <= most_m.
+// Each point has an interval of s. If there is none, s makes the sum of |s way - error|^2
+// smallest.
+double true_scale(const std::vector<double>& way, const std::vector<double>& error,
+                  std::size_t width, std::size_t within, double most_m) {
+  std::vector<double> begins, ends;
+  double all_vv = 0, all_ve = 0;
+  for (std::size_t k = 0; k < way.size(); k += width) {
+    double vv = 0, ve = 0, ee = 0;
+    for (std::size_t i = k; i < k + width; ++i) {
+      vv += way[i] * way[i];
+      ve += way[i] * error[i];
+      ee += error[i] * error[i];
+    }
+    all_vv += vv;
+    all_ve += ve;
+    const double root = ve * ve - vv * (ee - most_m * most_m);
+    if (vv == 0 && ee <= most_m * most_m) --within;
+    if (vv == 0 || root < 0) continue;
+    begins.push_back((ve - std::sqrt(root)) / vv);
+    ends.push_back((ve + std::sqrt(root)) / vv);
+  }
+  std::sort(begins.begin(), begins.end(), std::greater<>());
+  std::sort(ends.begin(), ends.end(), std::greater<>());
+  // At ends[k], the intervals of k + 1 points have not ended, and those of `late` have not begun.
+  std::size_t late = 0;
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    while (late < begins.size() && begins[late] > ends[k]) ++late;
+    if (k + 1 - late >= within) return std::max(0.0, ends[k]);
+  }
+  return all_vv > 0 ? std::max(0.0, all_ve / all_vv) : 0;
+}
+
 // Returns the index of the point with the largest expected square of the error. The values of a
 // budget are 0, so the error without random numbers has no largest point.
-std::size_t worst_point(const Sum& all, const std::vector<double>& errors_m, std::size_t width) {
+std::size_t worst_point(const Sum& all, std::size_t width) {
   std::size_t worst = 0;
   double most = -1;
-  for (std::size_t k = 0; k < errors_m.size(); ++k) {
-    double square = errors_m[k] * errors_m[k];
-    for (const Effect& effect : all.effects)
-      for (std::size_t i = k * width; i < (k + 1) * width; ++i) square += std::pow(effect.u[i], 2);
+  for (std::size_t k = 0; k < all.value.size(); k += width) {
+    double square = 0;
+    for (std::size_t i = k; i < k + width; ++i) {
+      square += all.value[i] * all.value[i];
+      for (const auto* effects : {&all.measured, &all.unknown})
+        for (const Effect& effect : *effects) square += effect.u[i] * effect.u[i];
+    }
     if (square <= most) continue;
     most = square;
-    worst = k;
+    worst = k / width;
   }
   return worst;
+}
+
+// The median and the interval of the error that a share of the points does not exceed. `within`:
+// the number of these points among a number of points. The trials may use fewer points than the
+// path; they are compared with the figure of the values at the same points.
+void find_figure(const Sums& sums, std::size_t (*within)(std::size_t points),
+                 const PartTrials& trials, std::size_t width, std::size_t every, double& estimate_m,
+                 Interval& interval_m) {
+  const auto figure = [&](const std::vector<double>& sizes) {
+    return figure_of(sizes, within(sizes.size()));
+  };
+  const double whole_m = figure(sizes(sums.all.value, 1, sums.all.value, 0, width));
+  estimate_m = whole_m;
+  interval_m = {whole_m, whole_m};
+  if (trials.errors == 0) return;
+  const std::vector<double> value = thinned(sums.all.value, width, every);
+  const std::vector<Effect> measured = thinned(sums.all.measured, width, every),
+                            unknown = thinned(sums.all.unknown, width, every);
+  const double value_m = figure(sizes(value, 1, value, 0, width));
+  std::vector<double> found, spread;  // with and without the factor s
+  for (std::size_t trial = 0; trial < trials.errors; ++trial) {
+    const Trial random = drawn(trials.seed, trial, sums.random_numbers);
+    std::vector<double> way = drawn_field(measured, random.turn, value.size());
+    add(value, way);
+    const std::vector<double> error = drawn_field(unknown, random.xi, value.size());
+    const double scale = true_scale(way, drawn_field(measured, random.xi, value.size()), width,
+                                    within(value.size() / width), value_m);
+    found.push_back(whole_m - value_m + figure(sizes(way, scale, error, 1, width)));
+    spread.push_back(whole_m - value_m + figure(sizes(way, 1, error, 1, width)));
+  }
+  const Interval with_scale = interval_of(found), without = interval_of(spread);
+  interval_m = {std::min(with_scale.low, without.low), std::max(with_scale.high, without.high)};
+  estimate_m = found[found.size() / 2];
 }
 
 }  // namespace
@@ -243,37 +377,11 @@ PartError part_error(const PartPath& path, const std::vector<PartCause>& causes,
   const Sums sums = sums_of(path, causes, layers);
   find_shares(sums.layers, sums, trials, result.layers);
   find_shares(sums.causes, sums, trials, result.causes);
-  const std::vector<double> found = sizes(path, sums.all, {}, 1);
-  result.worst = worst_point(sums.all, found, path.normal.empty() ? 3 : 1);
-  result.max_m = *std::max_element(found.begin(), found.end());
-  result.p95_m = quantile_95(found);
-  // The trials may use fewer points than the estimate. So they are compared with the error at the
-  // same points without random numbers.
-  const std::size_t every = std::max<std::size_t>(1, path.at_m.size() / kPointsPerTrial);
-  const std::vector<double> thinned = sizes(path, sums.all, {}, every);
-  const double p95_m = quantile_95(thinned),
-               max_m = *std::max_element(thinned.begin(), thinned.end());
-  std::vector<double> drawn_p95, drawn_max;
-  for (std::size_t trial = 0; trial < trials.errors; ++trial) {
-    const std::vector<double> drawn_sizes =
-        sizes(path, sums.all, drawn(trials.seed, trial, sums.random_numbers), every);
-    drawn_p95.push_back(quantile_95(drawn_sizes));
-    drawn_max.push_back(*std::max_element(drawn_sizes.begin(), drawn_sizes.end()));
-  }
-  // A cause with a u and no value always increases the error, so the median of the trials is the
-  // estimate.
-  const auto take = [](std::vector<double> drawn, double thinned_m, double& estimate_m,
-                       double& U_m) {
-    if (drawn.empty()) return;
-    std::nth_element(drawn.begin(), drawn.begin() + static_cast<std::ptrdiff_t>(drawn.size() / 2),
-                     drawn.end());
-    const double median_m = drawn[drawn.size() / 2];
-    estimate_m += median_m - thinned_m;
-    for (double& m : drawn) m = std::abs(m - median_m);
-    U_m = quantile_95(std::move(drawn));
-  };
-  take(std::move(drawn_p95), p95_m, result.p95_m, result.U_p95_m);
-  take(std::move(drawn_max), max_m, result.max_m, result.U_max_m);
+  const std::size_t width = path.normal.empty() ? 3 : 1,
+                    every = std::max<std::size_t>(1, path.at_m.size() / kPointsPerTrial);
+  result.worst = worst_point(sums.all, width);
+  find_figure(sums, points_within_95, trials, width, every, result.p95_m, result.p95_interval_m);
+  find_figure(sums, all_points, trials, width, every, result.max_m, result.max_interval_m);
   return result;
 }
 

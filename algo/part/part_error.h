@@ -44,13 +44,24 @@ struct PartPath {
   std::vector<Eigen::Vector3d> normal;
 };
 
+// A probabilistically symmetric coverage interval (95 %).
+struct Interval {
+  double low = 0, high = 0;
+  double U() const { return (high - low) / 2; }
+};
+
 struct PartShare {
-  double rms_m = 0, U_rms_m = 0;  // rms error of the layer or cause, with the U of this rms
-  double share = 0, U_share = 0;  // share in the sum of all mean squares, with the U of this share
+  double rms_m = 0;  // rms error of the layer or cause
+  Interval rms_interval_m;
+  double share = 0;  // share in the sum of all mean squares
+  Interval share_interval;
 };
 
 struct PartError {
-  double p95_m = 0, U_p95_m = 0, max_m = 0, U_max_m = 0;
+  double p95_m = 0;
+  Interval p95_interval_m;
+  double max_m = 0;
+  Interval max_interval_m;
   // Index of the point with the largest expected square of the error, that is |sum of the values|²
   // + u². If no cause has a u, it is the point with the largest error.
   std::size_t worst = 0;

@@ -56,7 +56,7 @@ TEST(PartError, SharesMatchTheClosedForm) {
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(found.layers[k].share, mean_square(causes[k].value_m) / sum, 1e-12);
     EXPECT_NEAR(found.layers[k].rms_m, std::sqrt(mean_square(causes[k].value_m)), 1e-18);
-    EXPECT_EQ(found.layers[k].U_share, 0);
+    EXPECT_EQ(found.layers[k].share_interval.U(), 0);
   }
   // The largest error is at the end of the path, where all causes have the same sign.
   double most = 0;
@@ -87,53 +87,10 @@ TEST(PartError, AddsSignedCausesAndExpectedSquares) {
   EXPECT_NEAR(found.layers[1].rms_m, 2e-6, 1e-15);
   EXPECT_NEAR(found.layers[0].share, 0.5, 1e-12);
   EXPECT_NEAR(found.causes[0].share, 9. / 14, 1e-12);
-  // For a standard normal xi, |2 + 2 xi| - 2 (um) exceeds 1.645 u (u = 2 um) in one of twenty
-  // trials. It cannot be less than -2.
-  EXPECT_NEAR(found.U_max_m, 1.645 * 2e-6, 0.35e-6);
-}
-
-// 1,000 parts. Each cause is measured with its u, and the stated share is compared with the true
-// share. With a budget, the last cause is not measured, and only its u is known.
-void expect_planted_shares_within_U(bool with_budget) {
-  const double size[] = {2e-6, 1.5e-6, 1e-6, 1.2e-6}, u[] = {0.1e-6, 0.08e-6, 0.1e-6, 0.05e-6};
-  std::mt19937 engine(3);
-  std::normal_distribution<double> normal;
-  constexpr int kParts = 1000;
-  int within = 0, rms_within = 0;
-  for (int part = 0; part < kParts; ++part) {
-    std::vector<PartCause> causes;
-    double truth[4], sum = 0;
-    for (int k = 0; k < 4; ++k) {
-      const bool is_unknown = with_budget && k == 3;
-      const double draw = normal(engine);
-      causes.push_back({static_cast<std::size_t>(k), "c",
-                        times(shape(k), is_unknown ? 0 : size[k] + u[k] * draw),
-                        times(shape(k), is_unknown ? size[k] : u[k])});
-      sum += truth[k] = mean_square(times(shape(k), is_unknown ? size[k] * draw : size[k]));
-    }
-    PartTrials trials;
-    trials.seed = static_cast<std::uint64_t>(part);
-    trials.errors = 0;
-    const PartError found = part_error(path_of(true), causes, 4, trials);
-    for (std::size_t k = 0; k < 4; ++k) {
-      within += std::abs(found.layers[k].share - truth[k] / sum) <= found.layers[k].U_share ? 1 : 0;
-      rms_within +=
-          std::abs(found.layers[k].rms_m - std::sqrt(truth[k])) <= found.layers[k].U_rms_m ? 1 : 0;
-    }
-  }
-  const double share = 100.0 * within / (4 * kParts), rms = 100.0 * rms_within / (4 * kParts);
-  std::printf("true shares within U: %.2f %%, true RMS %.2f %% of %d parts\n", share, rms, kParts);
-  EXPECT_GE(share, 94);
-  EXPECT_LE(share, 96.5);
-  EXPECT_GE(rms, 94);
-  EXPECT_LE(rms, 96.5);
-}
-
-TEST(PartError, PlantedSharesAreWithinTheirU) {
-  expect_planted_shares_within_U(false);
-}
-TEST(PartError, SharesOfABudgetAreWithinTheirU) {
-  expect_planted_shares_within_U(true);
+  // For a standard normal xi, |2 + 2 xi| (um) is below 0.103 in 2.5 % of the trials (the density
+  // at -1 is 0.242), and above 5.92 in 2.5 %.
+  EXPECT_NEAR(found.max_interval_m.low, 0.103e-6, 0.08e-6);
+  EXPECT_NEAR(found.max_interval_m.high, 5.92e-6, 0.35e-6);
 }
 
 // The only cause has a u that is a share of its value. All sizes are proportional to |1 + share
@@ -145,12 +102,12 @@ TEST(PartError, UncertaintyOfOneCauseMatchesTheClosedForm) {
   for (const bool with_normals : {true, false}) {
     const PartError found =
         part_error(path_of(with_normals), causes, 1, {.seed = 3, .shares = 4000, .errors = 4000});
-    EXPECT_NEAR(found.U_p95_m / found.p95_m, 1.96 * share, 0.01);
-    EXPECT_NEAR(found.U_max_m / found.max_m, 1.96 * share, 0.01);
-    EXPECT_NEAR(found.layers[0].U_rms_m / found.layers[0].rms_m, 1.96 * share, 0.01);
-    EXPECT_NEAR(found.causes[0].U_rms_m / found.causes[0].rms_m, 1.96 * share, 0.01);
+    EXPECT_NEAR(found.p95_interval_m.U() / found.p95_m, 1.96 * share, 0.01);
+    EXPECT_NEAR(found.max_interval_m.U() / found.max_m, 1.96 * share, 0.01);
+    EXPECT_NEAR(found.layers[0].rms_interval_m.U() / found.layers[0].rms_m, 1.96 * share, 0.01);
+    EXPECT_NEAR(found.causes[0].rms_interval_m.U() / found.causes[0].rms_m, 1.96 * share, 0.01);
     EXPECT_EQ(found.layers[0].share, 1);
-    EXPECT_NEAR(found.layers[0].U_share, 0, 1e-12);
+    EXPECT_NEAR(found.layers[0].share_interval.U(), 0, 1e-12);
     // Expected: the 191st of 200 sorted sizes.
     std::vector<double> sizes;
     for (const Eigen::Vector3d& v : causes[0].value_m)
@@ -170,17 +127,53 @@ TEST(PartError, IsNotZeroIfOnlyUIsKnown) {
   // The median of |xi| is 0.6745.
   EXPECT_NEAR(found.max_m / largest, 0.6745, 0.03);
   EXPECT_GT(found.p95_m, 0.5 * found.max_m);
-  EXPECT_GT(found.U_max_m / largest, 1.0);
+  EXPECT_GT(found.max_interval_m.U() / largest, 1.0);
 }
 
-// The value of the cause is unknown, so its RMS is |xi| u. In 95 % of all trials this is within
-// 0.995 u of u: 2 (Φ(1.995) − Φ(0.005)) = 0.950.
+// The value of the cause is unknown, so its RMS is |xi| u: below 0.0313 u in 2.5 % of all trials,
+// and above 2.2414 u in 2.5 %.
 TEST(PartError, RmsOfAnUnknownCauseIsUncertain) {
   const std::vector<PartCause> causes = {{0, "screw", times(shape(2), 0), times(shape(2), 2e-6)}};
   const PartError found =
       part_error(path_of(true), causes, 1, {.seed = 3, .shares = 4000, .errors = 0});
-  EXPECT_NEAR(found.layers[0].U_rms_m / found.layers[0].rms_m, 0.995, 0.03);
-  EXPECT_NEAR(found.causes[0].U_rms_m / found.causes[0].rms_m, 0.995, 0.03);
+  for (const PartShare& share : {found.layers[0], found.causes[0]}) {
+    EXPECT_NEAR(share.rms_interval_m.low / share.rms_m, 0.0313, 0.01);
+    EXPECT_NEAR(share.rms_interval_m.high / share.rms_m, 2.2414, 0.06);
+  }
+}
+
+// A cause of u near zero: its share and RMS are 0 or more, and the other share is 1 or less.
+TEST(PartError, IntervalsContainOnlyPossibleValues) {
+  const std::vector<PartCause> causes = {
+      {0, "a", times(shape(1), 1e-6), times(shape(1), 0.1e-6)},
+      {1, "b", times(shape(2), 0.05e-6), times(shape(2), 0.1e-6)}};
+  const PartError found = part_error(path_of(true), causes, 2);
+  EXPECT_EQ(found.layers[1].share_interval.low, 0);
+  EXPECT_EQ(found.layers[1].rms_interval_m.low, 0);
+  EXPECT_EQ(found.layers[0].share_interval.high, 1);
+  // |v| + 1.96 u
+  EXPECT_NEAR(found.layers[1].rms_interval_m.high / found.layers[1].rms_m, 1 + 1.96 * 2, 0.15);
+}
+
+// Three measured causes of one layer, perpendicular to each other along the path: sizes 3, 0 and 0,
+// each with u = 1 (um RMS) and an error of 1. The measured square is 11; 2 is expected of errors
+// perpendicular to the value, and 1 along it. Two of them cannot be a part of the layer.
+TEST(PartError, ErrorsOfMeasuredValuesDoNotIncreaseTheRms) {
+  const auto wave = [](int turns) {
+    Field field;
+    for (std::size_t p = 0; p < kPoints; ++p)
+      field.emplace_back(
+          0, 0,
+          std::sqrt(2) * std::sin(2 * 3.14159265358979 * turns * static_cast<double>(p) / kPoints));
+    return field;
+  };
+  std::vector<PartCause> causes;
+  for (int k = 0; k < 3; ++k)
+    causes.push_back({0, "c", times(wave(k + 1), k == 0 ? 3e-6 : 1e-6), times(wave(k + 1), 1e-6)});
+  const PartError found = part_error(path_of(true), causes, 1);
+  EXPECT_NEAR(found.layers[0].rms_m, std::sqrt(11. - 2) * 1e-6, 1e-11);
+  EXPECT_NEAR(found.causes[0].rms_m, 3e-6, 1e-11);
+  EXPECT_NEAR(found.causes[1].rms_m, 1e-6, 1e-11);
 }
 
 // Two causes have the same mean square, and the first has the relative uncertainty r. The share of
@@ -195,10 +188,10 @@ TEST(PartError, UncertaintyOfAShareMatchesTheClosedForm) {
   for (const auto* shares : {&found.layers, &found.causes})
     for (std::size_t k = 0; k < 2; ++k) {
       EXPECT_NEAR((*shares)[k].share, 0.5, 1e-12);
-      EXPECT_NEAR((*shares)[k].U_share, 1.96 * share / 2, 0.001);
+      EXPECT_NEAR((*shares)[k].share_interval.U(), 1.96 * share / 2, 0.001);
     }
-  EXPECT_NEAR(found.layers[0].U_rms_m, 1.96 * share * 1e-6, 0.002e-6);
-  EXPECT_EQ(found.layers[1].U_rms_m, 0);
+  EXPECT_NEAR(found.layers[0].rms_interval_m.U(), 1.96 * share * 1e-6, 0.002e-6);
+  EXPECT_EQ(found.layers[1].rms_interval_m.U(), 0);
 }
 
 // A source acts on an angle. The error is its random number times the lever arm, so it is largest

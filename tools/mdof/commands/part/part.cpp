@@ -51,11 +51,15 @@ void clear_unknown_figures(FoundPart& found) {
   const auto forget = [](double& x) {
     if (x == 0) x = std::nan("");
   };
-  for (double* U : {&found.error.U_p95_m, &found.error.U_max_m}) forget(*U);
+  const auto forget_point = [](algo::Interval& interval) {
+    if (interval.U() == 0) interval = {std::nan(""), std::nan("")};
+  };
+  forget_point(found.error.p95_interval_m);
+  forget_point(found.error.max_interval_m);
   for (auto* shares : {&found.error.layers, &found.error.causes})
     for (algo::PartShare& share : *shares) {
-      forget(share.U_rms_m);
-      forget(share.U_share);
+      forget_point(share.rms_interval_m);
+      forget_point(share.share_interval);
     }
   for (algo::PartShare& left : found.left.layers) forget(left.rms_m);
   // Only the u of a compensated layer remains.
@@ -70,11 +74,23 @@ void clear_unknown_figures(FoundPart& found) {
   }
 }
 
+algo::Interval in_unit(const algo::Interval& interval_m) {
+  return {to_um(interval_m.low), to_um(interval_m.high)};
+}
+
+// Writes a value, its U and its interval. NaN: unknown.
+void write_figure(JsonWriter& json, const std::string& name, double value,
+                  const algo::Interval& interval) {
+  json.field(name, value).field("U_" + name, interval.U()).key("interval_" + name);
+  if (std::isnan(interval.low))
+    json.null();
+  else
+    json.begin_array().value(interval.low).value(interval.high).end_array();
+}
+
 void write_share(JsonWriter& json, const algo::PartShare& share) {
-  json.field("share", share.share)
-      .field("U_share", share.U_share)
-      .field("rms_um", to_um(share.rms_m))
-      .field("U_rms_um", to_um(share.U_rms_m));
+  write_figure(json, "share", share.share, share.share_interval);
+  write_figure(json, "rms_um", to_um(share.rms_m), in_unit(share.rms_interval_m));
 }
 
 // Number of points of the path at which the layer has no value; the value 0 is used there.
@@ -103,14 +119,10 @@ std::string part_json(const FoundPart& found) {
       .field("points", static_cast<std::uint64_t>(part.path.at_m.size()))
       .field("along_normals", !part.path.normal.empty())
       .key("error_um")
-      .begin_object()
-      .field("p95", to_um(found.error.p95_m))
-      .field("U_p95", to_um(found.error.U_p95_m))
-      .field("max", to_um(found.error.max_m))
-      .field("U_max", to_um(found.error.U_max_m))
-      .end_object()
-      .key("layers")
-      .begin_array();
+      .begin_object();
+  write_figure(json, "p95", to_um(found.error.p95_m), in_unit(found.error.p95_interval_m));
+  write_figure(json, "max", to_um(found.error.max_m), in_unit(found.error.max_interval_m));
+  json.end_object().key("layers").begin_array();
   for (const std::size_t k : found.layers) {
     const LoadedLayer& layer = part.layers[k];
     json.begin_object().field("name", layer.plan.name);
@@ -183,6 +195,20 @@ std::string assumptions_text(const LoadedPart& part) {
   return text;
 }
 
+std::string percent(double share) {
+  return fixed(100 * share, 1);
+}
+
+std::string interval_text(const std::string& low, const std::string& high) {
+  return low == "-" ? low : low + " to " + high;
+}
+std::string percent_text(const algo::Interval& shares) {
+  return interval_text(percent(shares.low), percent(shares.high));
+}
+std::string um_text(const algo::Interval& interval_m) {
+  return interval_text(in_um(interval_m.low), in_um(interval_m.high));
+}
+
 std::string part_text(const FoundPart& found) {
   const LoadedPart& part = found.part;
   const Eigen::Vector3d& worst = part.path.at_m[found.error.worst];
@@ -195,24 +221,26 @@ std::string part_text(const FoundPart& found) {
       ") at " + std::to_string(part.path.at_m.size()) +
       " points\n"
       "95 % of the points have an error below " +
-      in_um(found.error.p95_m) + " µm (U = " + in_um(found.error.U_p95_m) +
-      "); the largest error is " + in_um(found.error.max_m) +
-      " µm (U = " + in_um(found.error.U_max_m) + "); the error is largest at x " + in_mm(worst(0)) +
+      in_um(found.error.p95_m) + " µm (" + um_text(found.error.p95_interval_m) +
+      "); the largest error is " + in_um(found.error.max_m) + " µm (" +
+      um_text(found.error.max_interval_m) + "); the error is largest at x " + in_mm(worst(0)) +
       ", y " + in_mm(worst(1)) + ", z " + in_mm(worst(2)) + " mm\n";
-  TextTable layers({"layer", "share/%", "U/%", "RMS/µm", "U/µm", "residual/µm", "corrected by"});
+  TextTable layers({"layer", "share/%", "95 %", "RMS/µm", "95 %", "residual/µm", "corrected by"});
   for (const std::size_t k : found.layers) {
     const algo::PartShare& share = found.error.layers[k];
-    layers.add({part.layers[k].plan.name, fixed(100 * share.share, 1),
-                fixed(100 * share.U_share, 1), in_um(share.rms_m), in_um(share.U_rms_m),
+    layers.add({part.layers[k].plan.name, percent(share.share), percent_text(share.share_interval),
+                in_um(share.rms_m), um_text(share.rms_interval_m),
                 in_um(found.left.layers[k].rms_m), part.layers[k].compensated_by});
   }
-  TextTable causes({"cause", "layer", "share/%", "U/%", "RMS/µm"});
+  TextTable causes({"cause", "layer", "share/%", "95 %", "RMS/µm"});
   for (const std::size_t k : found.causes)
     causes.add({part.causes[k].name, part.layers[part.causes[k].layer].plan.name,
-                fixed(100 * found.error.causes[k].share, 1),
-                fixed(100 * found.error.causes[k].U_share, 1), in_um(found.error.causes[k].rms_m)});
+                percent(found.error.causes[k].share),
+                percent_text(found.error.causes[k].share_interval),
+                in_um(found.error.causes[k].rms_m)});
   return text + "\n" + layers.text(terminal_columns()) + "\n" + causes.text(terminal_columns()) +
          "share: contribution of a layer or cause to the sum of all mean square errors\n"
+         "95 %: interval that contains the true value with a probability of 95 %\n"
          "residual: RMS of the error that remains after the compensation of the layer\n" +
          assumptions_text(part) + notices_text(part) +
          missing_text(part.not_measured, part.no_u, terminal_columns());

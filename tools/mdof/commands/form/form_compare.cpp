@@ -1,6 +1,7 @@
 // mdof form compare A B: calculates the difference between two maps.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -36,9 +37,24 @@ struct Compared {
   algo::Comparison found;
   // Set if B, mirrored, is closer to A than in the pose found.
   std::optional<algo::MirroredMatch> mirrored;
+  algo::MapPose pose;  // with the shift of the middle of A
+  double x_middle_m = 0, y_middle_m = 0;
   std::size_t measured = 0;  // pixels of A
   double pixel_m = 0;        // smaller pitch of A in x and y
 };
+
+// The movement of B as a shift of the middle of A and a turn about it. About (0, 0), a small turn
+// of a map that is far away from (0, 0) would need a large shift.
+void set_pose_about_middle(const SurfaceMap& a, Compared& compared) {
+  const double x = (a.x_m(0) + a.x_m(a.nx - 1)) / 2, y = (a.y_m(0) + a.y_m(a.ny - 1)) / 2;
+  const algo::MapPose& pose = compared.found.pose;
+  const double sin = std::sin(pose.turn_rad), half = std::sin(pose.turn_rad / 2),
+               less = 2 * half * half;  // 1 - cos
+  compared.pose = {pose.shift_x_m - less * x - sin * y, pose.shift_y_m + sin * x - less * y,
+                   pose.turn_rad};
+  compared.x_middle_m = x;
+  compared.y_middle_m = y;
+}
 
 // Limits for notices. Noise and small differences in form shift the best pose by less than a pixel;
 // such a shift needs no notice.
@@ -84,10 +100,15 @@ std::string compare_json(const Compared& compared, const FormCompareCommand& o) 
       .field("rms_um", to_um(found.rms_m))
       .key("shift_mm")
       .begin_array()
-      .value(to_mm(found.pose.shift_x_m))
-      .value(to_mm(found.pose.shift_y_m))
+      .value(to_mm(compared.pose.shift_x_m))
+      .value(to_mm(compared.pose.shift_y_m))
       .end_array()
-      .field("turn_deg", found.pose.turn_rad * 180 / std::numbers::pi)
+      .field("turn_deg", compared.pose.turn_rad * 180 / std::numbers::pi)
+      .key("middle_mm")
+      .begin_array()
+      .value(to_mm(compared.x_middle_m))
+      .value(to_mm(compared.y_middle_m))
+      .end_array()
       .field("pixels", static_cast<std::uint64_t>(found.pixels))
       .field("register", o.register_how)
       .field("undetermined_directions", static_cast<std::uint64_t>(found.undetermined));
@@ -96,15 +117,17 @@ std::string compare_json(const Compared& compared, const FormCompareCommand& o) 
   return json.take();
 }
 
-std::string compare_text(const algo::Comparison& found, const FormCompareCommand& o) {
+std::string compare_text(const Compared& compared, const FormCompareCommand& o) {
+  const algo::Comparison& found = compared.found;
   std::string text = o.b + " - " + o.a + ": PV " + in_um(found.pv_m) + " µm, RMS " +
                      in_um(found.rms_m) + " µm about the mean, " + std::to_string(found.pixels) +
                      " pixels\n";
   if (o.register_how == "rigid")
-    text += "B is shifted by x " + in_mm(found.pose.shift_x_m) + " mm, y " +
-            in_mm(found.pose.shift_y_m) + " mm and turned by " +
-            fixed(found.pose.turn_rad * 180 / std::numbers::pi, 5) +
-            "° about (0, 0) relative to A\n";
+    text += "B is shifted by x " + in_mm(compared.pose.shift_x_m) + " mm, y " +
+            in_mm(compared.pose.shift_y_m) + " mm and turned by " +
+            fixed(compared.pose.turn_rad * 180 / std::numbers::pi, 5) +
+            "° about the middle of A (x " + in_mm(compared.x_middle_m) + " mm, y " +
+            in_mm(compared.y_middle_m) + " mm) relative to A\n";
   if (o.register_how != "none") text += "piston and tilt are removed\n";
   return text;
 }
@@ -120,12 +143,13 @@ Status form_compare(const FormCompareCommand& o) {
   MDOF_TRY(compared.found, algo::compare(a, b, register_from(o.register_how)));
   compared.measured = a.measured();
   compared.pixel_m = std::min(a.dx_m, a.dy_m);
+  set_pose_about_middle(a, compared);
   compared.mirrored = mirrored_match(a, b, compared.found);
   const algo::Comparison& found = compared.found;
   show_notices(notices_of(compared, o), true);
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
   MDOF_CHECK(plot_maps({{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
-  return o.json ? write_line(compare_json(compared, o)) : write_out(compare_text(found, o));
+  return o.json ? write_line(compare_json(compared, o)) : write_out(compare_text(compared, o));
 }
 
 Action declare_form_compare(CLI::App& command) {
@@ -158,7 +182,8 @@ Command form_compare_command() {
   return {.name = "form compare",
           .summary = "Calculate the difference of two height maps of a surface",
           .footer =
-              "The shift is the position of B relative to A.\n"
+              "The shift is the position of B relative to A at the middle of map A (between its "
+              "first and last pixel in x and y). B is turned about this middle.\n"
               "Examples:\n"
               "  mdof form compare before.csv after.csv\n"
               "  mdof form compare wanted.sdf cut.dat --register plane --json",

@@ -2,8 +2,6 @@
 
 #include <system_error>
 
-#include "schema/base/output/output_files.h"
-
 namespace mdof::charts {
 
 namespace fs = std::filesystem;
@@ -16,16 +14,22 @@ Status make_plot_folder(const fs::path& folder) {
                   (ec ? ec.message() : "a file has this name") + "; give another folder");
 }
 
-Result<std::vector<std::string>> write_charts(const std::vector<NamedChart>& charts,
-                                              const fs::path& folder) {
+Result<std::vector<std::string>> add_charts(const std::vector<NamedChart>& charts,
+                                            const fs::path& folder, OutputFiles& files) {
   MDOF_CHECK(make_plot_folder(folder));
-  OutputFiles files(Existing::replace);
   std::vector<std::string> paths;
   for (const NamedChart& chart : charts) {
     paths.push_back((folder / chart.file).string());
     MDOF_TRY(const std::size_t file, files.add(paths.back()));
     MDOF_CHECK(files.write(file, chart.svg));
   }
+  return paths;
+}
+
+Result<std::vector<std::string>> write_charts(const std::vector<NamedChart>& charts,
+                                              const fs::path& folder) {
+  OutputFiles files(Existing::replace);
+  MDOF_TRY(auto paths, add_charts(charts, folder, files));
   MDOF_CHECK(files.publish());
   return paths;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/base/output/output_files.h"
 #include "schema/base/result.h"
 
 namespace mdof::charts {
@@ -19,6 +20,12 @@ struct NamedChart {
 // (io): one of the files cannot be written; then none of the files is written.
 Result<std::vector<std::string>> write_charts(const std::vector<NamedChart>& charts,
                                               const std::filesystem::path& folder);
+
+// Creates the folder if it is missing, and adds all charts to `files`, which the caller publishes.
+// Returns their paths.
+Result<std::vector<std::string>> add_charts(const std::vector<NamedChart>& charts,
+                                            const std::filesystem::path& folder,
+                                            OutputFiles& files);
 
 // Creates the folder if it is missing. Error (io): the message states the remedy.
 Status make_plot_folder(const std::filesystem::path& folder);

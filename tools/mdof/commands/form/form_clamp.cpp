@@ -180,8 +180,8 @@ Status form_clamp(const FormClampCommand& o) {
     warn(
         "neither RELEASED nor --K is given: the whole clamping deformation is taken as elastic (K "
         "= 0)");
-  if (!o.out.empty()) MDOF_CHECK(save_map(found.clamping.elastic, o.out));
-  MDOF_CHECK(plot_maps({{"clamping", "Deformation by clamping", found.clamping.clamping},
+  MDOF_CHECK(save_maps(found.clamping.elastic, o.out,
+                       {{"clamping", "Deformation by clamping", found.clamping.clamping},
                         {"elastic", "Elastic part of the deformation", found.clamping.elastic},
                         {"plastic", "Plastic part of the deformation", found.clamping.plastic}},
                        o.plots));

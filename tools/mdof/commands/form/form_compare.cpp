@@ -147,8 +147,8 @@ Status form_compare(const FormCompareCommand& o) {
   compared.mirrored = mirrored_match(a, b, compared.found);
   const algo::Comparison& found = compared.found;
   show_notices(notices_of(compared, o), true);
-  if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
-  MDOF_CHECK(plot_maps({{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
+  MDOF_CHECK(save_maps(found.difference, o.out,
+                       {{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
   return o.json ? write_line(compare_json(compared, o)) : write_out(compare_text(compared, o));
 }
 

@@ -135,8 +135,8 @@ Status form_cut(const FormCutCommand& o) {
   warn_few_common_pixels(
       passes.wanted, found.pixels,
       "the next path has no height at the remaining pixels, and mdof form path bridges these gaps");
-  MDOF_CHECK(save_map(found.next, o.out));
-  MDOF_CHECK(plot_maps({{"next-path", "Path of the next pass", found.next}}, o.plots));
+  MDOF_CHECK(
+      save_maps(found.next, o.out, {{"next-path", "Path of the next pass", found.next}}, o.plots));
   return o.json ? write_line(cut_json(found, o)) : write_out(cut_text(found, o));
 }
 

@@ -80,8 +80,7 @@ Status form_scan(const FormScanCommand& o) {
     runs.push_back(number);
   }
   MDOF_TRY(const auto scan, load_scan(runs, pixel_m, o.database));
-  if (!o.out.empty()) MDOF_CHECK(save_map(scan.map, o.out));
-  MDOF_CHECK(plot_maps({{"map", scan.map.name, scan.map}}, o.plots));
+  MDOF_CHECK(save_maps(scan.map, o.out, {{"map", scan.map.name, scan.map}}, o.plots));
   return o.json ? write_line(scan_json(scan, runs)) : write_out(scan_text(scan));
 }
 

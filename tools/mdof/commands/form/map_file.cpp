@@ -162,23 +162,29 @@ Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options) 
   return map;
 }
 
-Status save_map(const SurfaceMap& map, const std::string& file) {
-  OutputFiles out(Existing::replace);
-  MDOF_TRY(const std::size_t number, out.add(file));
-  MDOF_CHECK(write_map_csv(map, [&](std::string_view text) { return out.write(number, text); }));
-  return out.publish();
-}
-
-Status plot_maps(const std::vector<DrawnMap>& maps, const std::string& folder) {
-  if (folder.empty()) return {};
-  std::vector<charts::NamedChart> drawn;
-  for (const DrawnMap& of : maps)
-    if (of.map.measured() > 0)
-      drawn.push_back(
-          {of.file + ".svg", charts::height_map_svg(of.map, of.title, output::Language::english)});
+Status save_maps(const SurfaceMap& map, const std::string& out, const std::vector<DrawnMap>& drawn,
+                 const std::string& folder) {
+  OutputFiles files(Existing::replace);
+  if (!out.empty()) {
+    MDOF_TRY(const std::size_t file, files.add(out));
+    MDOF_CHECK(write_map_csv(map, [&](std::string_view text) { return files.write(file, text); }));
+  }
+  std::vector<charts::NamedChart> drawings;
+  for (const DrawnMap& each : drawn)
+    if (folder.empty())
+      continue;
+    else if (each.map.measured() > 0)
+      drawings.push_back({each.file + ".svg",
+                          charts::height_map_svg(each.map, each.title, output::Language::english)});
     else
-      warn(of.title + ": not drawn, because no pixel has a height");
-  return write_plots(drawn, folder);
+      warn(each.title + ": not drawn, because no pixel has a height");
+  std::vector<std::string> plots;
+  if (!drawings.empty()) {
+    MDOF_TRY(plots, charts::add_charts(drawings, folder, files));
+  }
+  MDOF_CHECK(files.publish());
+  for (const std::string& plot : plots) say("plot: " + plot);
+  return {};
 }
 
 void write_um(JsonWriter& json, const char* key, double pv_m, double rms_m) {

@@ -49,17 +49,16 @@ Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options);
 Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
                                      std::optional<double> pixel_m, const std::string& database);
 
-// Writes the map as CSV. Replaces an existing file. If writing fails, the file is unchanged.
-Status save_map(const SurfaceMap& map, const std::string& file);
-
 // A map that is drawn. `file`: file name without ".svg".
 struct DrawnMap {
   std::string file, title;
   const SurfaceMap& map;
 };
-// Writes an SVG file for each map into `folder`. If `folder` is empty, writes no files. Prints a
-// message for each map without heights, which is left out.
-Status plot_maps(const std::vector<DrawnMap>& maps, const std::string& folder);
+// Writes `map` to the file `out` (CSV), and an SVG file for each drawn map into `folder`. An empty
+// name: not written. Replaces existing files. If a file cannot be written, no file is written.
+// Prints a message for each drawn map without heights, which is left out.
+Status save_maps(const SurfaceMap& map, const std::string& out, const std::vector<DrawnMap>& drawn,
+                 const std::string& folder);
 
 void write_um(JsonWriter& json, const char* key, double pv_m, double rms_m);  // {pv_um, rms_um}
 

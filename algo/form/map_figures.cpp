@@ -2,11 +2,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "algo/linear_algebra/least_squares.h"
 
 namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kSpeckShare = 100;  // the largest region has more pixels by this factor
+
+// Marks the pixels of the region of the pixel `first`. Returns their number.
+std::size_t mark_region(const SurfaceMap& map, std::size_t first, std::vector<std::uint8_t>& marks,
+                        std::uint8_t mark) {
+  std::vector<std::size_t> pending{first};
+  std::size_t pixels = 0;
+  const std::uint8_t before = marks[first];
+  marks[first] = mark;
+  while (!pending.empty()) {
+    const std::size_t i = pending.back() % map.nx, j = pending.back() / map.nx;
+    pending.pop_back();
+    ++pixels;
+    for (std::size_t v = j > 0 ? j - 1 : 0; v <= std::min(j + 1, map.ny - 1); ++v)
+      for (std::size_t u = i > 0 ? i - 1 : 0; u <= std::min(i + 1, map.nx - 1); ++u) {
+        const std::size_t k = v * map.nx + u;
+        if (marks[k] != before || std::isnan(map.z_m[k])) continue;
+        marks[k] = mark;
+        pending.push_back(k);
+      }
+  }
+  return pixels;
+}
+
+}  // namespace
 
 MapFigures figures_of(const SurfaceMap& map) {
   MapFigures figures;
@@ -69,6 +98,28 @@ void remove_plane(SurfaceMap& map) {
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)
       map.z_m[j * map.nx + i] -= plane.at(map.x_m(i), map.y_m(j));
+}
+
+SurfaceMap without_specks(SurfaceMap map, std::size_t& removed) {
+  constexpr std::uint8_t kNew = 0, kFound = 1, kSpeck = 2;
+  struct Region {
+    std::size_t first = 0, pixels = 0;
+  };
+  std::vector<std::uint8_t> marks(map.z_m.size(), kNew);
+  std::vector<Region> regions;
+  std::size_t most = 0;
+  for (std::size_t k = 0; k < map.z_m.size(); ++k) {
+    if (marks[k] != kNew || std::isnan(map.z_m[k])) continue;
+    regions.push_back({k, mark_region(map, k, marks, kFound)});
+    most = std::max(most, regions.back().pixels);
+  }
+  for (const Region& region : regions) {
+    if (region.pixels * kSpeckShare >= most) continue;
+    removed += mark_region(map, region.first, marks, kSpeck);
+  }
+  for (std::size_t k = 0; k < map.z_m.size(); ++k)
+    if (marks[k] == kSpeck) map.z_m[k] = SurfaceMap::kMissing;
+  return map;
 }
 
 }  // namespace mdof::algo

@@ -1,4 +1,5 @@
-// Peak to valley and root mean square of a map, and removal of its least-squares plane. SI.
+// Peak to valley and root mean square of a map, and removal of its least-squares plane and of
+// pixels that are separate from the part. SI.
 #pragma once
 
 #include <cstddef>
@@ -26,5 +27,10 @@ struct Plane {
 };
 Plane plane_of(const SurfaceMap& map);
 void remove_plane(SurfaceMap& map);
+
+// Removes regions of connected pixels (also by a corner) that have less than a hundredth of the
+// pixels of the largest region, such as a single wrong pixel beside the part. Adds the number of
+// removed pixels to `removed`.
+SurfaceMap without_specks(SurfaceMap map, std::size_t& removed);
 
 }  // namespace mdof::algo

@@ -142,6 +142,8 @@ TEST(Commands, OptionsInNoticesExist) {
       {NoticeCode::map_units_assumed, {"form clamp", "form cut", "form compare", "form path"}},
       {NoticeCode::map_movement_gains_little, {"form compare"}},
       {NoticeCode::path_centre_assumed, {"form path"}},
+      {NoticeCode::path_specks_ignored, {"form path"}},
+      {NoticeCode::path_hides_undulations, {"form path"}},
       {NoticeCode::path_mostly_bridged, {"form path"}},
       {NoticeCode::path_stroke_bridged, {"form path"}},
       {NoticeCode::made_of_several_probes, {"separate reversal", "separate shift"}}};

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "algo/form/map_figures.h"
 #include "algo/form/spiral_path.h"
 #include "algo/form/surface.h"
 #include "algo/form/turn_spectrum.h"
@@ -49,6 +50,7 @@ struct FoundPath {
   std::optional<algo::MotionAboveBand> left_out;
   double overshoot_m = 0;   // of interpolated heights beside steps of the map
   double centre_off_m = 0;  // distance of the mean pixel from an assumed centre; 0: not notable
+  std::size_t specks = 0;   // pixels that do not count for an assumed centre or outer radius
 };
 
 CLI::Validator whole_number_in(double least, double most) {
@@ -118,18 +120,24 @@ Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMa
 // hardly moves the mean of all pixels.
 constexpr double kPixelsOff = 0.1;
 
-double centre_off_m(const FormPathCommand& o, const SurfaceMap& map,
-                    const algo::SpiralRequest& request) {
-  if (!o.centre.empty() || scanned_run_number(o.map)) return 0;
+double centre_off_m(const SurfaceMap& map, const algo::SpiralRequest& request) {
   const algo::MapMiddle mean = algo::mean_pixel(map);
   const double off_m = std::hypot(mean.x_m - request.x_centre_m, mean.y_m - request.y_centre_m);
   return off_m > kPixelsOff * std::min(map.dx_m, map.dy_m) ? off_m : 0;
 }
 
+Status set_request(const FormPathCommand& o, const SurfaceMap& map, FoundPath& found) {
+  const bool is_centre_known = !o.centre.empty() || scanned_run_number(o.map);
+  const SurfaceMap part =
+      is_centre_known && o.outer_radius_mm ? map : algo::without_specks(map, found.specks);
+  MDOF_TRY(found.request, request_of(o, part));
+  if (!is_centre_known) found.centre_off_m = centre_off_m(part, found.request);
+  return {};
+}
+
 Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   FoundPath found;
-  MDOF_TRY(found.request, request_of(o, map));
-  found.centre_off_m = centre_off_m(o, map, found.request);
+  MDOF_CHECK(set_request(o, map, found));
   MDOF_TRY(const algo::SpiralPath path, algo::SpiralPath::over(map, found.request));
   const double per_s = o.speed_rpm / 60;
   algo::TurnSpectrum spectrum(found.request.points_per_turn,
@@ -179,26 +187,6 @@ std::optional<algo::FeedRoughness> feed_roughness_if_closed(const FoundPath& fou
 
 constexpr double kNotableOvershoot = 0.01;  // relative to the stroke on the part
 
-void warn_of_differences_from_surface(const FoundPath& found, const FormPathCommand& o) {
-  if (found.counts.too_sharp > 0)
-    warn(o.map + ": at " + std::to_string(found.counts.too_sharp) +
-         " points the tool radius is too large to reach the surface; the tool leaves material at "
-         "these points");
-  if (found.overshoot_m > kNotableOvershoot * found.stroke_on_part_m)
-    warn(o.map +
-         ": the heights of neighbouring pixels step, and beside these steps the path "
-         "overshoots by up to " +
-         in_um(found.overshoot_m) +
-         " um, although on_part is 1 there; remove false steps (phase jumps, spikes) from the map; "
-         "if the step is real, measure it with smaller pixels");
-  if (found.hidden_undulations > 0)
-    warn(o.map + ": the surface has " + std::to_string(found.hidden_undulations) +
-         " undulations per turn, which the path with " +
-         std::to_string(found.request.points_per_turn) +
-         " points per turn does not follow; use --points-per-rev " +
-         std::to_string(4 * found.hidden_undulations) + " or more");
-}
-
 // Limits for notices. If a part is long and narrow, the spiral is beside the part for most of each
 // turn. There the path bridges a gap, and its stroke may be a little larger than on the part.
 constexpr double kMostlyBridged = 0.9, kLargerBridgedStroke = 1.1;
@@ -213,6 +201,19 @@ Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
                              {{"x_mm", to_mm(request.x_centre_m)},
                               {"y_mm", to_mm(request.y_centre_m)},
                               {"off_um", to_um(found.centre_off_m)}}));
+  if (found.specks > 0)
+    notices.push_back(notice(NoticeCode::path_specks_ignored, o.map, {{"specks", found.specks}}));
+  if (counts.too_sharp > 0)
+    notices.push_back(
+        notice(NoticeCode::path_tool_too_large, o.map, {{"points", counts.too_sharp}}));
+  if (found.overshoot_m > kNotableOvershoot * found.stroke_on_part_m)
+    notices.push_back(
+        notice(NoticeCode::path_overshoots, o.map, {{"overshoot_um", to_um(found.overshoot_m)}}));
+  if (found.hidden_undulations > 0)
+    notices.push_back(notice(NoticeCode::path_hides_undulations, o.map,
+                             {{"undulations", found.hidden_undulations},
+                              {"points", request.points_per_turn},
+                              {"needed", 4 * found.hidden_undulations}}));
   if (request.tool_radius_m > 0 && !feed_roughness_if_closed(found))
     notices.push_back(
         notice(NoticeCode::feed_leaves_rings, "",
@@ -302,7 +303,6 @@ Status form_path(const FormPathCommand& o) {
   MDOF_CHECK(check_out(o.out, {o.map}));
   MDOF_TRY(const SurfaceMap map, load_map(o.map, o.maps));
   MDOF_TRY(const FoundPath found, write_path(o, map));
-  warn_of_differences_from_surface(found, o);
   show_notices(notices_of(found, o), true);
   MDOF_CHECK(o.json ? write_line(path_json(found, o)) : write_out(path_text(found, o)));
   if (o.bandwidth_hz && std::isnan(found.frequency_hz))

@@ -16,7 +16,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kPoints = 100;
+constexpr std::size_t kPlacesOfPath = 100;
 
 // A cause: `size` times one of the forms along the path, measured with `u`. If it is not measured,
 // the part has a random multiple of `u`, and `size` is not used.
@@ -27,7 +27,7 @@ struct Planted {
 };
 
 double form(std::size_t number, std::size_t point) {
-  const double t = static_cast<double>(point) / kPoints;
+  const double t = static_cast<double>(point) / kPlacesOfPath;
   switch (number) {
     case 0:
       return 2 * t - 1;
@@ -47,10 +47,10 @@ double form(std::size_t number, std::size_t point) {
 // The error of each point, in um.
 using Errors = std::vector<double>;
 
-double rms(const Errors& errors) {
+double rms_over_places(const Errors& errors) {
   double sum = 0;
   for (const double x : errors) sum += x * x;
-  return std::sqrt(sum / kPoints);
+  return std::sqrt(sum / kPlacesOfPath);
 }
 
 // Counts how often an interval contains the truth.
@@ -68,16 +68,16 @@ struct Counts {
   Count share, rms, p95, max;
 };
 
-struct Case {
+struct SimulatedPart {
   std::string name;
   std::vector<Planted> causes;
 };
 
 class Parts {
  public:
-  Parts(const Case& simulated, bool with_normals, unsigned seed)
+  Parts(const SimulatedPart& simulated, bool with_normals, unsigned seed)
       : case_(simulated), engine_(seed), seed_(seed) {
-    for (std::size_t p = 0; p < kPoints; ++p) {
+    for (std::size_t p = 0; p < kPlacesOfPath; ++p) {
       path_.at_m.emplace_back(static_cast<double>(p) * 1e-3, 0, 0);
       if (with_normals) path_.normal.emplace_back(0, 0, 1);
     }
@@ -87,15 +87,15 @@ class Parts {
     std::vector<PartCause> causes;
     std::size_t layers = 0;
     for (const Planted& planted : case_.causes) layers = std::max(layers, planted.layer + 1);
-    std::vector<Errors> of_layer(layers, Errors(kPoints, 0.0));
-    Errors all(kPoints, 0.0);
+    std::vector<Errors> of_layer(layers, Errors(kPlacesOfPath, 0.0));
+    Errors all(kPlacesOfPath, 0.0);
     for (const Planted& planted : case_.causes) {
       const double off = planted.u * normal_(engine_);
       const double truth = planted.is_measured ? planted.size : off,
                    value = planted.is_measured ? planted.size + off : 0;
-      causes.push_back(new_cause("c", kPoints));
+      causes.push_back(new_cause("c", kPlacesOfPath));
       causes.back().layer = planted.layer;
-      for (std::size_t p = 0; p < kPoints; ++p) {
+      for (std::size_t p = 0; p < kPlacesOfPath; ++p) {
         const double f = form(planted.form, p);
         // Without normals, an error has two components.
         const Eigen::Vector3d along =
@@ -109,10 +109,10 @@ class Parts {
     const PartError found =
         part_error(path_, causes, layers, {.seed = seed_ * 100'000ull + part_++, .shares = 1000});
     double sum = 0;
-    for (const Errors& errors : of_layer) sum += rms(errors) * rms(errors);
+    for (const Errors& errors : of_layer) sum += rms_over_places(errors) * rms_over_places(errors);
     for (std::size_t k = 0; k < layers; ++k) {
       const PartShare& layer = found.layers[k];
-      const double truth = rms(of_layer[k]);
+      const double truth = rms_over_places(of_layer[k]);
       if (sum > 0)
         counts.share.add(layer.share_interval.low, truth * truth / sum, layer.share_interval.high);
       counts.rms.add(1e6 * layer.rms_interval_m.low, truth, 1e6 * layer.rms_interval_m.high);
@@ -124,14 +124,14 @@ class Parts {
   }
 
  private:
-  const Case& case_;
+  const SimulatedPart& case_;
   std::mt19937 engine_;
   std::normal_distribution<double> normal_;
   std::uint64_t seed_, part_ = 0;
   PartPath path_;
 };
 
-const std::vector<Case> kCases = {
+const std::vector<SimulatedPart> kSimulatedParts = {
     {"errors large against u", {{0, 0, 2, .1}, {1, 1, 1.5, .08}, {2, 2, 1, .1}, {3, 3, 1.2, .05}}},
     {"errors equal to u", {{0, 0, 1, 1}, {1, 1, 1, 1}, {2, 2, 1, 1}, {3, 3, 1, 1}}},
     {"errors of two u", {{0, 0, 2, 1}, {1, 1, 2, 1}, {2, 2, 2, 1}, {3, 3, 2, 1}}},
@@ -156,7 +156,7 @@ TEST(PartCoverage, IntervalsContainTheTruth) {
   const int parts = asked ? std::atoi(asked) : 40;
   ASSERT_GT(parts, 0);
   std::printf("%-40s %8s %8s %8s %8s\n", "within the interval, %", "share", "RMS", "p95", "max");
-  for (const Case& simulated : kCases)
+  for (const SimulatedPart& simulated : kSimulatedParts)
     for (const bool with_normals : {true, false}) {
       Counts counts;
       Parts simulation(simulated, with_normals, with_normals ? 3 : 4);

@@ -195,15 +195,15 @@ std::string assumptions_text(const LoadedPart& part) {
   return text;
 }
 
-std::string percent(double share) {
+std::string share_text(double share) {
   return fixed(100 * share, 1);
 }
 
 std::string interval_text(const std::string& low, const std::string& high) {
   return low == "-" ? low : low + " to " + high;
 }
-std::string percent_text(const algo::Interval& shares) {
-  return interval_text(percent(shares.low), percent(shares.high));
+std::string shares_text(const algo::Interval& shares) {
+  return interval_text(share_text(shares.low), share_text(shares.high));
 }
 std::string um_text(const algo::Interval& interval_m) {
   return interval_text(in_um(interval_m.low), in_um(interval_m.high));
@@ -228,15 +228,16 @@ std::string part_text(const FoundPart& found) {
   TextTable layers({"layer", "share/%", "95 %", "RMS/µm", "95 %", "residual/µm", "corrected by"});
   for (const std::size_t k : found.layers) {
     const algo::PartShare& share = found.error.layers[k];
-    layers.add({part.layers[k].plan.name, percent(share.share), percent_text(share.share_interval),
-                in_um(share.rms_m), um_text(share.rms_interval_m),
-                in_um(found.left.layers[k].rms_m), part.layers[k].compensated_by});
+    layers.add({part.layers[k].plan.name, share_text(share.share),
+                shares_text(share.share_interval), in_um(share.rms_m),
+                um_text(share.rms_interval_m), in_um(found.left.layers[k].rms_m),
+                part.layers[k].compensated_by});
   }
   TextTable causes({"cause", "layer", "share/%", "95 %", "RMS/µm"});
   for (const std::size_t k : found.causes)
     causes.add({part.causes[k].name, part.layers[part.causes[k].layer].plan.name,
-                percent(found.error.causes[k].share),
-                percent_text(found.error.causes[k].share_interval),
+                share_text(found.error.causes[k].share),
+                shares_text(found.error.causes[k].share_interval),
                 in_um(found.error.causes[k].rms_m)});
   return text + "\n" + layers.text(terminal_columns()) + "\n" + causes.text(terminal_columns()) +
          "share: contribution of a layer or cause to the sum of all mean square errors\n"

@@ -301,7 +301,7 @@ double true_scale(const std::vector<double>& way, const std::vector<double>& err
     all_vv += vv;
     all_ve += ve;
     const double root = ve * ve - vv * (ee - most_m * most_m);
-    if (vv == 0 && ee <= most_m * most_m) --within;
+    if (vv == 0 && within > 0 && ee <= most_m * most_m) --within;
     if (vv == 0 || root < 0) continue;
     begins.push_back((ve - std::sqrt(root)) / vv);
     ends.push_back((ve + std::sqrt(root)) / vv);
@@ -336,6 +336,12 @@ std::size_t worst_point(const Sum& all, std::size_t width) {
   return worst;
 }
 
+bool has_u(const std::vector<Effect>& effects) {
+  return std::any_of(effects.begin(), effects.end(), [](const Effect& effect) {
+    return std::any_of(effect.u.begin(), effect.u.end(), [](double u) { return u != 0; });
+  });
+}
+
 // The median and the interval of the error that a share of the points does not exceed. `within`:
 // the number of these points among a number of points. The trials may use fewer points than the
 // path; they are compared with the figure of the values at the same points.
@@ -348,7 +354,8 @@ void find_figure(const Sums& sums, std::size_t (*within)(std::size_t points),
   const double whole_m = figure(sizes(sums.all.value, 1, sums.all.value, 0, width));
   estimate_m = whole_m;
   interval_m = {whole_m, whole_m};
-  if (trials.errors == 0) return;
+  // Without u, trials would give an interval of the width of the rounding errors.
+  if (trials.errors == 0 || !(has_u(sums.all.measured) || has_u(sums.all.unknown))) return;
   const std::vector<double> value = thinned(sums.all.value, width, every);
   const std::vector<Effect> measured = thinned(sums.all.measured, width, every),
                             unknown = thinned(sums.all.unknown, width, every);

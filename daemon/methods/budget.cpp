@@ -152,8 +152,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                   "...covers, figures: {{figure}: {before: stated, after: stated, change!: stated, "
                   "effect, change_at_targets}}, points: [{position_mm: number, forward: "
                   "compared_errors, reverse: "
-                  "compared_errors, reversal: compared_errors}], effect_reason?, "
-                  "points_reason?, ...notices}",
+                  "compared_errors, reversal: compared_errors}], points_reason?, ...notices}",
        .example = R"({"before": 1, "after": 2})",
        .handler = on_query(m, compare)});
   table.add(

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "algo/sequence/usable_runs.h"
-#include "daemon/measure/gate/gate.h"
 #include "daemon/measure/imported/imported_run.h"
 #include "daemon/measure/imported/positioning_figures.h"
 #include "daemon/measure/several_runs/change_at_targets.h"
@@ -144,16 +143,6 @@ void add_change_at_targets(Comparison& found) {
   }
 }
 
-// An effect is a decision, and a doubtful run permits no decision.
-void withdraw_effects_of_doubtful(Comparison& found, const Run& before, const Run& after) {
-  for (const Run* run : {&before, &after}) {
-    const std::string reason = doubt_reason(*run);
-    if (reason.empty()) continue;
-    found.effect_reason += (found.effect_reason.empty() ? "" : "; ") + reason;
-    for (ComparedFigure& figure : found.figures) figure.effect = Effect::unknown;
-  }
-}
-
 // Error: a run is not imported, or contains another error than positioning.
 Status check_positioning(const Run& before, const Run& after) {
   for (const Run* run : {&before, &after}) {
@@ -244,11 +233,8 @@ Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& re
                      letter(before.header.axis) + ", but run " + std::to_string(request.after) +
                      " measures axis " + letter(after.header.axis) +
                      "; compare two runs of the same axis");
-  if (is_imported(before.header) || is_imported(after.header)) {
-    MDOF_TRY(Comparison found, compare_positioning(store, before, after));
-    withdraw_effects_of_doubtful(found, before, after);
-    return found;
-  }
+  if (is_imported(before.header) || is_imported(after.header))
+    return compare_positioning(store, before, after);
   MDOF_TRY(auto first, run_budgets(store, {request.before, request.reference, "", {}, {}}));
   MDOF_TRY(auto second, run_budgets(store, {request.after, request.reference, "", {}, {}}));
   Comparison found;
@@ -262,7 +248,6 @@ Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& re
   MDOF_CHECK(add_figures(found, first.budgets, second.budgets));
   add_points(store, before, after, request.reference, found);
   add_change_at_targets(found);
-  withdraw_effects_of_doubtful(found, before, after);
   for (Notice& notice : second.notices) found.notices.push_back(std::move(notice));
   return found;
 }
@@ -298,7 +283,6 @@ std::string comparison_json(const Comparison& c) {
   }
   json.end_object();
   write_compared_points(json, c.points);
-  if (!c.effect_reason.empty()) json.field("effect_reason", c.effect_reason);
   if (!c.no_points_reason.empty()) json.field("points_reason", c.no_points_reason);
   Notices notices = c.differences;
   append(notices, c.notices);

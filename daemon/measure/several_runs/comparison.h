@@ -15,7 +15,7 @@ enum class Effect {
   increased,
   not_shown,  // the change of the figure is not larger than U of the change
   changed,    // as not_shown, but the errors at the targets have changed by more than their U
-  unknown,    // U of the change is unknown, or a run is doubtful (Comparison::effect_reason)
+  unknown,    // U of the change is unknown
 };
 const char* to_string(Effect effect);  // "reduced", "increased", "not shown", "changed", "unknown"
 
@@ -46,7 +46,6 @@ struct Comparison {
   bool simulated = false;
   bool is_imported = false;  // true: runs of positioning; `stated` then has no meaning
   ComparedPoints points;
-  std::string effect_reason;  // doubt_reason() of the runs: why all effects are unknown; or empty
   std::string no_points_reason;  // empty if `points` exist
 };
 // Compares two measured runs, or two imported runs of positioning. Errors:

@@ -47,7 +47,6 @@ void write_comparison(Html& html, const daemon::Comparison& comparison, Language
               phrase(Phrase::after_run, language, {std::to_string(comparison.after)}),
               of(Phrase::change), of(Phrase::effect)},
              rows, "numbers");
-  if (!comparison.effect_reason.empty()) html.element("p", comparison.effect_reason);
   html.element("p", of(Phrase::change_explained));
   html.element("p", phrase(Phrase::u_covers, language, {words::text(covers(changes), language)}));
   for (const Notice& each : comparison.differences) html.element("p", words::text(each, language));

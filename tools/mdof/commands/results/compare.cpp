@@ -85,9 +85,6 @@ std::string comparison_text(const daemon::Comparison& c) {
                      table.text(terminal_columns());
   for (const Notice& each : c.differences)
     text += wrapped("note: " + words::text(each), terminal_columns()) + "\n";
-  if (!c.effect_reason.empty())
-    text += wrapped("The effect is unknown, because " + c.effect_reason + ".", terminal_columns()) +
-            "\n";
   return text +
          wrapped("± is the standard uncertainty u, U the expanded uncertainty (95 %). u contains " +
                      covers_text(c) +

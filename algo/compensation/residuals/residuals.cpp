@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kTargetWindowShare = 0.02;  // of the smaller interval beside the target
 // Residuals with a larger share of the applied values are similar to them.
-constexpr double kLargestShare = 0.5;
+constexpr double kLargestShare = 0.75;
 // The share is calculated if the applied values are larger than this number of u.
 constexpr double kLeastInU = 4;
 

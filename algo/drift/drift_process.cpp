@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "algo/linear_algebra/covariance_root.h"
 #include "algo/sensitivity/plan/functions.h"
 #include "schema/base/random.h"
 
@@ -54,19 +55,6 @@ Eigen::Index first_wave(std::size_t clock) {
 }
 
 }  // namespace
-
-Eigen::MatrixXd root_of(const Eigen::MatrixXd& S) {
-  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(S.rows(), S.rows());
-  for (Eigen::Index a = 0; a < S.rows(); ++a)
-    for (Eigen::Index b = 0; b <= a; ++b) {
-      const double left = S(a, b) - root.row(a).head(b).dot(root.row(b).head(b));
-      if (a == b)
-        root(a, a) = std::sqrt(std::max(left, 0.0));
-      else if (root(b, b) > 0)
-        root(a, b) = left / root(b, b);
-    }
-  return root;
-}
 
 // The trend a t, the first term, has no known variance.
 std::vector<DriftProcess::Model> DriftProcess::models() {
@@ -156,7 +144,8 @@ DriftProcess::DriftProcess(const DriftDesign& design, const Eigen::MatrixXd& y,
       to += weights(m, k) * off * off.transpose();
     }
   }
-  for (const Eigen::MatrixXd& covariance : covariances) roots_.push_back(root_of(covariance));
+  for (const Eigen::MatrixXd& covariance : covariances)
+    roots_.push_back(covariance_root(covariance));
   freedom_ = Eigen::VectorXd::Constant(series, freedom);
   for (Eigen::Index k = 0; k < series; ++k)
     if (variance(k) > 0)

@@ -24,9 +24,6 @@ namespace mdof::algo {
 
 inline constexpr double kLeastNoise2 = 1e-24;  // (1 pm)², for readings without noise
 
-// Lower triangular L with L Lᵀ = S; values that rounding makes negative are set to 0.
-Eigen::MatrixXd root_of(const Eigen::MatrixXd& S);
-
 class DriftProcess {
  public:
   // `y`: visits × series. `noise2`: for each series the mean u² of its readings; the variance of

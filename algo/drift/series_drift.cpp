@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "algo/linear_algebra/covariance_root.h"
 #include "algo/sensitivity/plan/functions.h"
 
 namespace mdof::algo {
@@ -41,8 +42,8 @@ DriftFit::DriftFit(DriftDesign design, const Eigen::MatrixXd& y, const Eigen::Ve
     if (WeighedFit fit = weighed_fit(rows, noise); fit.solved) fits.push_back(std::move(fit));
   if (fits.empty()) return;
   const Eigen::VectorXd size = fits.front().left.diagonal().cwiseMax(kLeastNoise2).cwiseSqrt();
-  correlation_ =
-      root_of(size.asDiagonal().inverse() * fits.front().left * size.asDiagonal().inverse());
+  correlation_ = covariance_root(Eigen::MatrixXd(size.asDiagonal().inverse() * fits.front().left *
+                                                 size.asDiagonal().inverse()));
   const double tests = design_.orders() * static_cast<double>(y.cols());
   const double t = critical_t(kDriftLevel / tests, freedom_);
   for (Eigen::Index k = 0; k < y.cols(); ++k)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algo/compensation/between_targets.h"
+#include "algo/linear_algebra/covariance_root.h"
 
 namespace mdof::algo {
 namespace {
@@ -18,28 +19,6 @@ double value_at(const ErrorFunction& f, const TablePlace& place, MachineApproach
 }
 
 using Matrix6 = Eigen::Matrix<double, kBodyErrors, kBodyErrors>;
-
-// The lower triangle L with L Lᵀ = covariance (Cholesky's method). A pivot that is only rounding is
-// taken as 0. Each element is limited to the remaining variance, because rounding can make the
-// covariance indefinite.
-Matrix6 root_of(const Matrix6& covariance) {
-  constexpr double kNothing = 1e-12;  // a pivot below this share of the variance is rounding
-  Matrix6 L = Matrix6::Zero();
-  const auto left = [&](Eigen::Index k, Eigen::Index q) {
-    return covariance(k, k) - L.row(k).head(q).squaredNorm();
-  };
-  for (Eigen::Index q = 0; q < L.rows(); ++q) {
-    const double pivot = left(q, q);
-    if (!(pivot > kNothing * covariance(q, q))) continue;
-    L(q, q) = std::sqrt(pivot);
-    for (Eigen::Index k = q + 1; k < L.rows(); ++k) {
-      const double most = std::sqrt(std::max(0.0, left(k, q)));
-      const double part = (covariance(k, q) - L.row(k).head(q).dot(L.row(q).head(q))) / L(q, q);
-      L(k, q) = std::clamp(part, -most, most);
-    }
-  }
-  return L;
-}
 
 Matrix6 matrix_of(const Covariance6& covariance) {
   Matrix6 matrix;
@@ -123,8 +102,8 @@ void set_uncertainty(const MachineFrame& frame, double at, FrameValues& v) {
     }
     if (!f.u.empty()) all(kk, kk) += squared(u_interpolation(f, place, at));
   }
-  v.u_parts = root_of(all);
-  v.noise_parts = root_of(noise);
+  v.u_parts = covariance_root(all);
+  v.noise_parts = covariance_root(noise);
 }
 
 // Rotation of the axis line by its location errors EA0, EB0, EC0.

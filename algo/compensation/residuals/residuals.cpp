@@ -50,7 +50,7 @@ Status check_same_set_up(const CompensationTable& applied, const CompensationTab
   if (applied.has_positioning())
     return bad_input(name +
                      " contains positioning errors, which the probes do not measure; give a "
-                     "table from runs that mdof measured");
+                     "table from measured runs");
   if (applied.sides != table.sides || applied.machine != table.machine ||
       applied.stated != table.stated)
     return bad_input(name +

@@ -170,14 +170,14 @@ Status save_maps(const SurfaceMap& map, const std::string& out, const std::vecto
     MDOF_CHECK(write_map_csv(map, [&](std::string_view text) { return files.write(file, text); }));
   }
   std::vector<charts::NamedChart> drawings;
-  for (const DrawnMap& each : drawn)
-    if (folder.empty())
-      continue;
-    else if (each.map.measured() > 0)
+  for (const DrawnMap& each : drawn) {
+    if (folder.empty()) break;
+    if (each.map.measured() > 0)
       drawings.push_back({each.file + ".svg",
                           charts::height_map_svg(each.map, each.title, output::Language::english)});
     else
       warn(each.title + ": not drawn, because no pixel has a height");
+  }
   std::vector<std::string> plots;
   if (!drawings.empty()) {
     MDOF_TRY(plots, charts::add_charts(drawings, folder, files));

@@ -201,7 +201,7 @@ void Fit::report_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
   }
   const double u1 = u(kTowards1), u2 = u(kTowards2);
   out.u_direction_rad = std::isnan(u1) || std::isnan(u2) ? std::nan("") : std::max(u1, u2);
-  out.zero_m = found(unknown_of(k, kZero));
+  out.zero_m = out.zero_seen ? found(unknown_of(k, kZero)) : 0;
   out.u_zero_m = out.zero_seen ? u(kZero) : std::nan("");
   out.scale_1 = found(unknown_of(k, kScale));
   out.u_scale_1 = u(kScale);

@@ -65,6 +65,25 @@ TEST(MountingRecord, StatesPositionsAndUncertainties) {
   EXPECT_NEAR(found.tilt_rad, most, 0.02 * most);
 }
 
+// Along X alone, the zeros of B and C (both at x = 0) and the tilt about X have the same effect.
+TEST(MountingRecord, KeepsTheZeroOfTheRigIfItIsNotSeen) {
+  std::mt19937_64 rng(21);
+  test::TiltedTarget target(rng, 50e-6, 0, 3e-6);
+  target.clamp(6, 5e-3, rng);
+  auto logs = target.logs(rng);
+  for (Clamping& clamping : logs)
+    std::erase_if(clamping.traverses, [](const Traverse& t) { return t.axis != Axis::x; });
+  const auto fit = fit_mounting(rig_of_record(), logs);
+  ASSERT_TRUE(fit) << fit.error().message;
+  int unseen = 0;
+  for (const MountedProbe& probe : fit->found.probes) {
+    if (probe.zero_seen) continue;
+    EXPECT_EQ(probe.zero_m, 0) << probe.id;
+    ++unseen;
+  }
+  EXPECT_GE(unseen, 2);
+}
+
 // The matrix is symmetric. Its diagonal contains the variances of the single quantities of the
 // probes.
 TEST(MountingRecord, MatrixContainsThePositionUncertainties) {

@@ -89,11 +89,13 @@ bool rises(const Calibration& c, const std::array<double, 2>& range) {
   return true;
 }
 
-// A requested linearity correction must be declared and must include all possible readings. The
-// corrected reading must increase with the reading.
-void check_linearity(TomlTable& table, const Probe& probe) {
+// The corrected reading must increase with the reading. `requested`: the linearity correction must
+// be declared and must include all possible readings. Otherwise, a polynomial may be made for a
+// part of the readings.
+void check_linearity(TomlTable& table, const Probe& probe, bool requested) {
   const Calibration& c = probe.calibration;
   const char* key = c.polynomial_um.empty() ? "linearity" : "polynomial_um";
+  if (c.linearity.empty() && !requested) return;
   if (c.linearity.empty() && c.polynomial_um.empty())
     return table.reject(key,
                         "is missing, but [corrections] linearity = true needs this key for each "
@@ -103,8 +105,8 @@ void check_linearity(TomlTable& table, const Probe& probe) {
     return table.reject(
         key,
         "is not monotonic, so two readings would give the same displacement; correct "
-        "the values (reading and correction in um)");
-  if (c.linearity.empty()) return;
+        "the values (reading and correction in um), or repeat the calibration that gives them");
+  if (c.linearity.empty() || !requested) return;
   const double middle = (range[0] + range[1]) / 2, half = kRangeCovered * (range[1] - middle);
   if (c.linearity.front()[0] <= middle - half && c.linearity.back()[0] >= middle + half) return;
   table.reject(key, "covers readings from " + plain_number(c.linearity.front()[0], 6) + " to " +
@@ -132,7 +134,8 @@ void check_needs(TomlTable& root, std::vector<TomlTable>& tables, const Rig& rig
                  const RigPhysics& physics) {
   for (std::size_t k = 0; k < tables.size(); ++k) {
     const ProbePhysics& probe = physics.probes[k];
-    if (physics.linearity.value_or(false)) check_linearity(tables[k], rig.probes[k]);
+    if (physics.linearity.value_or(true))
+      check_linearity(tables[k], rig.probes[k], physics.linearity.has_value());
     if (physics.tilt) need(tables[k], "sensing_radius_mm", probe.sensing_radius_m > 0, "tilt");
     if (physics.tilt) need(tables[k], "standoff_um", probe.standoff_m > 0, "tilt");
     if (physics.dielectric) need(tables[k], "standoff_um", probe.standoff_m > 0, "dielectric");

@@ -176,6 +176,15 @@ double chi_square_of(const Equations& e, const Solution& solution, const VectorX
   return misfit.squaredNorm() - moved.dot(LeastSquares(normal).solve(moved));
 }
 
+// χ² test of the readings without any shape of the target.
+bool agrees_without_target(Equations e) {
+  e.A.middleCols(e.machine(), e.target()).setZero();
+  const Solution solution = solve(e);
+  const VectorXd left = e.errors - e.A * (solution.from_readings * e.errors);
+  const auto freedom = static_cast<int>(e.A.rows() - solution.rank);
+  return freedom > 0 && chi_square_of(e, solution, left) <= chi_square_limit(freedom);
+}
+
 std::string declared_text(const Separation& result, const Equations& e) {
   if (e.declared.cols() > 0) return " and the declared uncertainties";
   return result.noise_only
@@ -193,6 +202,8 @@ ReadingUncertainty judge(const Equations& e, const Solution& solution, Separatio
     if (freedom > 0 && chi_square > chi_square_limit(static_cast<int>(freedom)))
       result.notices.push_back(notice(NoticeCode::set_ups_contradict, "",
                                       {{"chi_square", chi_square}, {"freedom", freedom}}));
+    else if (agrees_without_target(e))
+      result.notices.push_back(notice(NoticeCode::target_shows_no_shape));
     return {e.u};
   }
   result.u_reason =

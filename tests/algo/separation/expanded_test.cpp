@@ -53,6 +53,28 @@ TEST(SeparationExpanded, UCoversTheTruthWithStudentsT) {
   }
 }
 
+// A target that was not turned and shifted looks like a flat target: all its shape is in the error
+// of the machine.
+TEST(SeparationExpanded, ReportsATargetThatShowsNoShape) {
+  const auto with_shapes = [](double of_machine, double of_target) {
+    auto request = noise_only(12, 1);
+    for (auto& set_up : request.set_ups) {
+      set_up.u_m.assign(12, kNoise_m);
+      for (std::size_t i = 0; i < 12; ++i) {
+        const double c = -set_up.position_m[i] - set_up.shift_m;
+        set_up.error_m[i] += of_machine * std::sin(400 * set_up.position_m[i]) +
+                             set_up.turn.height_sign * of_target * std::cos(250 * c);
+      }
+    }
+    return separate(request).value().notices;
+  };
+  const auto found = with_shapes(1e-6, 0);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].code, NoticeCode::target_shows_no_shape);
+  EXPECT_EQ(found[0].severity, Severity::information);
+  EXPECT_TRUE(with_shapes(1e-6, 100e-9).empty());
+}
+
 // The factors 12.71 and 1.960 are from GUM table G.2. For values between them, the degrees of
 // freedom follow from equation G.2b.
 TEST(SeparationExpanded, DeclaredUHasInfiniteDegreesOfFreedom) {

@@ -10,8 +10,7 @@ struct PositioningConditions {
   // the travel. The distribution is rectangular with the standard uncertainty a/√3.
   double device_limit_m = kNoFigure;
   // E_VE: range of the readings while the axis is at rest for the duration of the test; U(k = 2) =
-  // 0.6 E_VE. The factor 0.6 is quoted from memory and was not checked against the text of the
-  // report.
+  // 0.6 E_VE. A rectangular distribution with this range has U(k = 2) = E_VE/√3 = 0.58 E_VE.
   double drift_range_m = kNoFigure;
 };
 

@@ -21,6 +21,7 @@
 #include "schema/imported/series.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
+#include "schema/uncertainty/budget_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -77,7 +78,19 @@ Status draw_file(const drivers::PositioningCsv& csv, const Positioning& figures,
   return write_plots({{"iso230-2.svg", charts::positioning_svg(picture, language)}}, folder);
 }
 
-Status iso230_of_readings(const Iso230Command& command, const drivers::PositioningCsv& csv) {
+// The U of the readings' scatter and of the uncertainty that the import declared.
+std::string uncertainty_text(const StatedFigures& figures) {
+  std::string text;
+  for (const Budget& budget : figures.budgets)
+    text += (text.empty() ? "U (95 %): " : ", ") +
+            budget.figure.substr(0, budget.figure.rfind('_')) + " " +
+            um_to_place(budget.U, budget.U) + " µm";
+  return text + "\nu covers " + covers_text(figures.budgets) + "\n";
+}
+
+// `declared`: the figures of a run whose import declared u; otherwise no figures.
+Status iso230_of_readings(const Iso230Command& command, const drivers::PositioningCsv& csv,
+                          const StatedFigures& declared = {}) {
   auto figures = algo::positioning(csv.readings);
   if (!figures) return in_context(csv.source, std::move(figures.error()));
   Notices notices = algo::plan_notices(*figures, from_mm(command.scale_period_mm));
@@ -89,13 +102,19 @@ Status iso230_of_readings(const Iso230Command& command, const drivers::Positioni
     const PositioningColumn column{"deviation", false, std::move(*figures)};
     return write_out(simulated_notice(csv.simulated) +
                      parameters_text({column}, terminal_columns()) + "\n" +
-                     targets_text(column, terminal_columns()) + "\n" + uncertainty_text(U));
+                     targets_text(column, terminal_columns()) + "\n" +
+                     (declared.budgets.empty() ? uncertainty_text(U) : uncertainty_text(declared)));
   }
   JsonWriter json;
   json.begin_object().field("simulated", csv.simulated);
   write_positioning(json, *figures, false);
-  json.key("uncertainty");
-  U ? write_positioning_uncertainty(json, *U) : static_cast<void>(json.null());
+  if (!declared.budgets.empty()) {
+    write_stated(json, declared);
+    write_covers(json, declared.budgets);
+  } else {
+    json.key("uncertainty");
+    U ? write_positioning_uncertainty(json, *U) : static_cast<void>(json.null());
+  }
   json.end_object();
   return write_line(with_notices(json.take(), notices, words::text));
 }
@@ -144,7 +163,15 @@ Status iso230_of_run(const Iso230Command& command) {
   MDOF_TRY(const Run run, daemon::restated_run(store, id, reference));
   if (is_imported(run.header)) {
     MDOF_TRY(const auto readings, readings_of_imported(run));
-    return iso230_of_readings(command, readings);
+    StatedFigures figures = daemon::positioning_figures(run);
+    const bool declares_u =
+        !figures.budgets.empty() && figures.budgets.front().not_declared.empty();
+    if (!declares_u) return iso230_of_readings(command, readings);
+    if (uncertainty_of(command))
+      return fail(ErrorCode::usage,
+                  "--device-limit-um and --drift-um do not apply to run " + std::to_string(id) +
+                      ": its import declared the uncertainty of the readings (--u-um)");
+    return iso230_of_readings(command, readings, figures);
   }
   if (uncertainty_of(command))
     return fail(ErrorCode::usage,

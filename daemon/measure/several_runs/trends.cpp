@@ -35,15 +35,20 @@ std::string kind_of(const RunHeader& run) {
          (options.on_the_fly ? "on the fly " : "") + run.provenance.rig_text;
 }
 
-void leave_out(std::vector<std::string>& sentences, const std::vector<std::int64_t>& runs,
-               const std::string& why) {
-  if (runs.empty()) return;
+// "4, 5 and 2 more"
+std::string listed(const std::vector<std::int64_t>& runs) {
   constexpr std::size_t kNamed = 8;
-  std::string text = runs.size() == 1 ? "run " : "runs ";
+  std::string text;
   for (std::size_t i = 0; i < std::min(runs.size(), kNamed); ++i)
     text += (i == 0 ? "" : ", ") + std::to_string(runs[i]);
   if (runs.size() > kNamed) text += " and " + std::to_string(runs.size() - kNamed) + " more";
-  sentences.push_back(text + ": " + why);
+  return text;
+}
+
+void leave_out(std::vector<std::string>& sentences, const std::vector<std::int64_t>& runs,
+               const std::string& why) {
+  if (runs.empty()) return;
+  sentences.push_back((runs.size() == 1 ? "run " : "runs ") + listed(runs) + ": " + why);
 }
 
 bool earlier(const RunHeader& a, const RunHeader& b) {
@@ -56,6 +61,23 @@ struct Chosen {
   std::vector<std::string> left_out;
   Notices notices;
 };
+
+// A chart with many runs would show hundreds of inherited notices, so one notice has their codes.
+void report_doubtful(Chosen& chosen) {
+  std::vector<std::int64_t> doubtful;
+  std::set<std::string> codes;
+  for (const RunHeader& run : chosen.runs) {
+    const Notices notices = without_information(run.notices);
+    if (!notices.empty()) doubtful.push_back(run.id);
+    for (const Notice& n : notices) codes.insert(to_string(n.code));
+  }
+  if (doubtful.empty()) return;
+  std::string names;
+  for (const std::string& code : codes) names += (names.empty() ? "" : ", ") + code;
+  chosen.notices.push_back(
+      notice(NoticeCode::trend_of_doubtful_runs, "",
+             {{"runs", doubtful.size()}, {"ids", listed(doubtful)}, {"codes", names}}));
+}
 
 // Among the runs with the rig of the newest run: the newest run whose kind has enough runs for a
 // chart. If no kind has enough runs: the newest run. The chart therefore does not disappear after a
@@ -137,6 +159,7 @@ Result<Chosen> choose(store::Store& store, Axis axis, const TrendRequest& reques
   leave_out(chosen.left_out, unwanted, "left out on request");
   std::sort(chosen.runs.begin(), chosen.runs.end(), earlier);
   choose_kind(chosen, mixed);
+  report_doubtful(chosen);
   const auto undated = std::count_if(
       chosen.runs.begin(), chosen.runs.end(),
       [](const RunHeader& run) { return !run.start_known && !is_date(run.started_utc); });

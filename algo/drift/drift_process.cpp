@@ -82,66 +82,78 @@ double DriftProcess::freedom_of_noise(const DriftDesign& design) {
   return design.visits_minus_places() - 1;
 }
 
+// `squares`: for each series the sum of the squares of the readings, minus the means of the places.
+DriftProcess::Fits DriftProcess::fits_of(const std::vector<Model>& models,
+                                         const std::vector<Products>& products,
+                                         const Eigen::VectorXd& squares, double freedom) {
+  const auto count = static_cast<Eigen::Index>(models.size()), series = squares.size();
+  Fits fits{{}, Eigen::MatrixXd(count, series), Eigen::MatrixXd(count, series)};
+  for (Eigen::Index m = 0; m < count; ++m) {
+    const Model& model = models[static_cast<std::size_t>(m)];
+    const Products& of = products[model.clock];
+    const Eigen::LLT<Eigen::MatrixXd> root = normal_equations(of, model);
+    fits.terms.emplace_back(root.solve(of.by_series));
+    double log_determinants = model.log_variances;
+    for (Eigen::Index i = 0; i < kTerms; ++i)
+      log_determinants += 2 * natural_log(root.matrixLLT()(i, i));
+    for (Eigen::Index k = 0; k < series; ++k) {
+      const double left = squares(k) - of.by_series.col(k).dot(fits.terms.back().col(k));
+      fits.noise2(m, k) = std::max(left / freedom, kLeastNoise2);
+      fits.weights(m, k) = -(log_determinants + freedom * natural_log(fits.noise2(m, k))) / 2;
+    }
+  }
+  for (Eigen::Index k = 0; k < series; ++k) normalize_weights(fits.weights.col(k));
+  return fits;
+}
+
+// Returns the terms of a model among the terms of all kinds of time; the other terms are 0.
+Eigen::VectorXd DriftProcess::in_all_terms(const Model& model, const Eigen::VectorXd& terms) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(first_wave(kStarts.size()));
+  all(0) = terms(0);
+  all.segment(first_wave(model.clock), kWaves) = terms.tail(kWaves);
+  return all;
+}
+
 DriftProcess::DriftProcess(const DriftDesign& design, const Eigen::MatrixXd& y,
                            const Eigen::VectorXd& noise2)
     : begin_s_(design.begin_s()), length_s_(design.end_s() - design.begin_s()) {
   const std::vector<Products> products = products_of(design, y);
   const std::vector<Model> all = models();
-  const Eigen::VectorXd squares = design.centred(y).colwise().squaredNorm();
   const double freedom = freedom_of_noise(design);
-  const auto series = y.cols(), count = static_cast<Eigen::Index>(all.size());
-  std::vector<Eigen::MatrixXd> means;  // of each model: terms × series
-  Eigen::MatrixXd noise(count, series), weights(count, series);
-  for (Eigen::Index m = 0; m < count; ++m) {
-    const Model& model = all[static_cast<std::size_t>(m)];
-    const Products& of = products[model.clock];
-    const Eigen::LLT<Eigen::MatrixXd> root = normal_equations(of, model);
-    means.emplace_back(root.solve(of.by_series));
-    double log_determinants = model.log_variances;
-    for (Eigen::Index i = 0; i < kTerms; ++i)
-      log_determinants += 2 * natural_log(root.matrixLLT()(i, i));
-    for (Eigen::Index k = 0; k < series; ++k) {
-      const double left = squares(k) - of.by_series.col(k).dot(means.back().col(k));
-      noise(m, k) = std::max(left / freedom, kLeastNoise2);
-      weights(m, k) = -(log_determinants + freedom * natural_log(noise(m, k))) / 2;
-    }
-  }
-  for (Eigen::Index k = 0; k < series; ++k) normalize_weights(weights.col(k));
-  const auto in_whole = [&](Eigen::Index m, Eigen::Index k) {
-    const Eigen::VectorXd own = means[static_cast<std::size_t>(m)].col(k);
-    Eigen::VectorXd out = Eigen::VectorXd::Zero(first_wave(kStarts.size()));
-    out(0) = own(0);
-    out.segment(first_wave(all[static_cast<std::size_t>(m)].clock), kWaves) = own.tail(kWaves);
-    return out;
-  };
+  const Fits fits = fits_of(all, products, design.centred(y).colwise().squaredNorm(), freedom);
+  const auto series = y.cols();
   const Eigen::Index whole = first_wave(kStarts.size());
   mean_ = Eigen::MatrixXd::Zero(whole, series);
-  for (Eigen::Index m = 0; m < count; ++m)
-    for (Eigen::Index k = 0; k < series; ++k)
-      if (weights(m, k) > 0) mean_.col(k) += weights(m, k) * in_whole(m, k);
   std::vector<Eigen::MatrixXd> covariances(static_cast<std::size_t>(series),
                                            Eigen::MatrixXd::Zero(whole, whole));
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(series), square = variance;
-  for (Eigen::Index m = 0; m < count; ++m) {
-    if (!(weights.row(m).maxCoeff() > 0)) continue;
-    const Model& model = all[static_cast<std::size_t>(m)];
-    const Eigen::MatrixXd own = normal_equations(products[model.clock], model)
-                                    .solve(Eigen::MatrixXd::Identity(kTerms, kTerms));
-    const double of_drift = own.cwiseProduct(products[model.clock].mean_square).sum();
-    const Eigen::Index first = first_wave(model.clock);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto m = static_cast<Eigen::Index>(i);
+    for (Eigen::Index k = 0; k < series; ++k)
+      if (fits.weights(m, k) > 0)
+        mean_.col(k) += fits.weights(m, k) * in_all_terms(all[i], fits.terms[i].col(k));
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto m = static_cast<Eigen::Index>(i);
+    if (!(fits.weights.row(m).maxCoeff() > 0)) continue;
+    const Products& of = products[all[i].clock];
+    const Eigen::MatrixXd own =
+        normal_equations(of, all[i]).solve(Eigen::MatrixXd::Identity(kTerms, kTerms));
+    const double of_drift = own.cwiseProduct(of.mean_square).sum();
+    const Eigen::Index first = first_wave(all[i].clock);
     for (Eigen::Index k = 0; k < series; ++k) {
-      if (!(weights(m, k) > 0)) continue;
+      if (!(fits.weights(m, k) > 0)) continue;
       Eigen::MatrixXd& to = covariances[static_cast<std::size_t>(k)];
-      const double noise_of_model = std::max(noise(m, k), noise2(k));
-      const double by = weights(m, k) * noise_of_model, here = noise_of_model * of_drift;
-      variance(k) += weights(m, k) * here;
-      square(k) += weights(m, k) * here * here;
+      const double noise_of_model = std::max(fits.noise2(m, k), noise2(k));
+      const double by = fits.weights(m, k) * noise_of_model, here = noise_of_model * of_drift;
+      variance(k) += fits.weights(m, k) * here;
+      square(k) += fits.weights(m, k) * here * here;
       to(0, 0) += by * own(0, 0);
       to.block(first, 0, kWaves, 1) += by * own.block(1, 0, kWaves, 1);
       to.block(0, first, 1, kWaves) += by * own.block(0, 1, 1, kWaves);
       to.block(first, first, kWaves, kWaves) += by * own.block(1, 1, kWaves, kWaves);
-      const Eigen::VectorXd off = in_whole(m, k) - mean_.col(k);
-      to += weights(m, k) * off * off.transpose();
+      const Eigen::VectorXd off = in_all_terms(all[i], fits.terms[i].col(k)) - mean_.col(k);
+      to += fits.weights(m, k) * off * off.transpose();
     }
   }
   for (const Eigen::MatrixXd& covariance : covariances)

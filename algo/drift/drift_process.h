@@ -59,7 +59,16 @@ class DriftProcess {
     Eigen::MatrixXd terms, by_series;
     Eigen::MatrixXd mean_square;  // of the terms at the visits, without subtraction of a mean
   };
+  // The fits of all models: the terms of each model (terms of its kind of time × series), the
+  // variance of the white noise, and the weight (models × series).
+  struct Fits {
+    std::vector<Eigen::MatrixXd> terms;
+    Eigen::MatrixXd noise2, weights;
+  };
   static std::vector<Model> models();
+  static Fits fits_of(const std::vector<Model>& models, const std::vector<Products>& products,
+                      const Eigen::VectorXd& squares, double freedom);
+  static Eigen::VectorXd in_all_terms(const Model& model, const Eigen::VectorXd& terms);
   std::vector<Products> products_of(const DriftDesign& design, const Eigen::MatrixXd& y) const;
   static Eigen::LLT<Eigen::MatrixXd> normal_equations(const Products& products, const Model& model);
   Eigen::VectorXd of_clock(std::size_t clock, double time_s) const;

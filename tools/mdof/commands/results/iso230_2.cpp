@@ -166,11 +166,7 @@ Status iso230_of_run(const Iso230Command& command) {
     StatedFigures figures = daemon::positioning_figures(run);
     const bool declares_u =
         !figures.budgets.empty() && figures.budgets.front().not_declared.empty();
-    if (!declares_u) return iso230_of_readings(command, readings);
-    if (uncertainty_of(command))
-      return fail(ErrorCode::usage,
-                  "--device-limit-um and --drift-um do not apply to run " + std::to_string(id) +
-                      ": its import declared the uncertainty of the readings (--u-um)");
+    if (!declares_u || uncertainty_of(command)) return iso230_of_readings(command, readings);
     return iso230_of_readings(command, readings, figures);
   }
   if (uncertainty_of(command))

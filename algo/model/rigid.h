@@ -22,9 +22,9 @@ Eigen::VectorXd rigid_readings(const Fixture& fixture, double travel_m, const Er
 // height map is neglected.
 Eigen::MatrixXd rigid_jacobian(const Fixture& fixture, double travel_m, const Errors5& local);
 
-// Solves the five errors by weighted Gauss-Newton iteration. `readings_m` and `weights` (1/u², or
-// 1) have one value for each probe; a probe with the weight 0 is not used. The caller ensures that
-// the probes in use determine all five errors.
+// Solves the five errors by weighted Gauss-Newton iteration. `readings_m` and `weights` have one
+// value for each probe; a probe with the weight 0 is not used. The caller ensures that the probes
+// in use determine all five errors.
 AxisErrors solve_rigid(const Fixture& fixture, double travel_m,
                        const std::vector<double>& readings_m, const std::vector<double>& weights);
 

@@ -15,10 +15,13 @@ std::vector<bool> usable(const std::vector<double>& readings_m) {
   return use;
 }
 
-// Returns the weights of the probes: 1/u² if all u are known, otherwise equal weights; 0 for a lost
-// probe.
+// Returns the weights of the probes; 0 for a lost probe. With more than five probes, all weights
+// are equal: with weights from the noise of a stop, the constant zero of a redundant probe would
+// have another effect at each stop, and would look like an error of the axis. With five probes,
+// weights change the rounding only. They are 1/u² if all u are known, so that old recordings keep
+// their bits.
 std::vector<double> make_weights(const std::vector<bool>& use, const std::vector<double>& u_m) {
-  bool known = u_m.size() == use.size();
+  bool known = u_m.size() == use.size() && std::count(use.begin(), use.end(), true) == kErrorCount;
   for (std::size_t i = 0; known && i < use.size(); ++i) known = !use[i] || u_m[i] > 0;
   std::vector<double> weights(use.size());
   for (std::size_t i = 0; i < use.size(); ++i) {

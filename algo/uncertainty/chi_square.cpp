@@ -41,21 +41,6 @@ bool Agreement::explained() const {
 }
 
 Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
-                    const std::vector<double>& u_m, const AxisErrors& errors) {
-  Agreement result;
-  if (!errors.valid || solver.model() != Model::rigid) return result;
-  const Eigen::VectorXd model = rigid_readings(solver.fixture(), travel_m, errors.local);
-  result.freedom = -5;
-  for (std::size_t k = 0; k < readings_m.size(); ++k) {
-    if (!std::isfinite(readings_m[k])) continue;
-    const double left = (readings_m[k] - model(static_cast<Eigen::Index>(k))) / u_m[k];
-    result.chi_square += left * left;
-    ++result.freedom;
-  }
-  return result;
-}
-
-Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
                     const Eigen::MatrixXd& covariance, const AxisErrors& errors) {
   if (!errors.valid || solver.model() != Model::rigid) return {};
   std::vector<Eigen::Index> used;
@@ -112,12 +97,14 @@ bool Residuals::explained(const MeasuredPoint& p, const std::vector<double>& rea
                           const AxisErrors& errors) const {
   const double travel_m = sides_.target_travel_m(p.point.position_m);
   const std::vector<double> u_m = allowed(p.point.probe_u_m);
-  if (agreement(solver_, travel_m, readings_m, u_m, errors).explained()) return true;
+  Eigen::MatrixXd covariance =
+      Eigen::Map<const Eigen::VectorXd>(u_m.data(), static_cast<Eigen::Index>(u_m.size()))
+          .cwiseAbs2()
+          .asDiagonal();
+  if (agreement(solver_, travel_m, readings_m, covariance, errors).explained()) return true;
   if (!rig_) return false;
-  Eigen::MatrixXd covariance = declared_covariance(
-      *rig_, solver_, travel_m, errors.local, readings_m, ns_to_s(p.point.begin_ns - start_ns_));
-  for (std::size_t k = 0; k < u_m.size(); ++k)
-    covariance(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) += u_m[k] * u_m[k];
+  covariance += declared_covariance(*rig_, solver_, travel_m, errors.local, readings_m,
+                                    ns_to_s(p.point.begin_ns - start_ns_));
   return agreement(solver_, travel_m, readings_m, covariance, errors).explained();
 }
 
@@ -130,16 +117,15 @@ double Residuals::misfit_without(std::size_t probe, const MeasuredPoint& p,
   const double travel_m = sides_.target_travel_m(p.point.position_m);
   std::vector<double> readings_m = p.point.probe_m;
   readings_m[probe] = kNaN;
-  const std::vector<double> u_m = allowed(p.point.probe_u_m);
-  const AxisErrors errors = solver_.solve(travel_m, readings_m, u_m);
+  const AxisErrors errors = solver_.solve_without_covariance(travel_m, readings_m, {});
   if (!errors.valid) return std::numeric_limits<double>::infinity();
   if (!explained(p, readings_m, errors)) return std::numeric_limits<double>::infinity();
   double sum = 0;
   std::size_t n = 0;
   for (const MeasuredPoint& other : all) {
     if (other.target != p.target || flagged(other) || !other.errors.valid) continue;
-    const auto sound = solver_.solve(sides_.target_travel_m(other.point.position_m),
-                                     other.point.probe_m, allowed(other.point.probe_u_m));
+    const auto sound = solver_.solve_without_covariance(
+        sides_.target_travel_m(other.point.position_m), other.point.probe_m, {});
     sum += square_distance(errors.local, sound.local);
     ++n;
   }

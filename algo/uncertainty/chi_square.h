@@ -16,19 +16,14 @@
 namespace mdof::algo {
 
 struct Agreement {
-  int freedom = 0;        // number of probes in use - 5; 0: no test is possible
-  double chi_square = 0;  // sum of (residual / u)²
+  int freedom = 0;  // number of probes in use - 5; 0: no test is possible
+  double chi_square = 0;
   bool explained() const;
 };
 
-// `u_m`: standard uncertainty of each reading, not 0. `errors`: solution of the rigid model, with
-// the origin of the carriage as reference point.
-Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
-                    const std::vector<double>& u_m, const AxisErrors& errors);
-
-// The same with a covariance of the readings, m², for correlated probes. χ² is calculated from the
-// part of the readings that five errors cannot explain. The model is linearised at `travel_m` and
-// `errors`.
+// `covariance`: of the readings, m². `errors`: solution of the rigid model, with the origin of the
+// carriage as reference point. χ² is calculated from the part of the readings that five errors
+// cannot explain. The model is linearised at `travel_m` and `errors`.
 Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,
                     const Eigen::MatrixXd& covariance, const AxisErrors& errors);
 

@@ -120,7 +120,7 @@ void write_run_positioning_uncertainty(JsonWriter& json, const RunPositioningUnc
     figures(std::string("U_") + of.name, U.*of.U);
   json.field("U_A_reason", U.kWhyNotOfA);
   write_covers(json, U.covers, U.not_declared);
-  json.field("R_is_of", "these visits").end_object();
+  json.field("R_is_of", "the approaches of this run").end_object();
 }
 
 void write_positioning_uncertainty(JsonWriter& json, const PositioningUncertainty& U) {

@@ -12,13 +12,13 @@ namespace {
 
 constexpr const char* kHead =
     "This list explains the members of the JSON documents and the columns of the CSV files that "
-    "mdof and mdofd write. A document that both programs write has the same members in both. A "
+    "mdof and mdofd write. If both programs write the same document, its members are the same. A "
     "name ends in the unit of its value. A name has one row; if its meaning depends on the "
-    "command, the row gives each meaning. In names, {linear} is X, Y or Z; {angular} is A, B or "
-    "C; {axis} is X, Y, Z, A, B or C; {small} is x, y or z; {approach} is forward, reverse or "
-    "mean; {probe} is the id of a probe; {number} is a number; {figure} is the name of a result; "
-    "{field} is another name of this list. Types are those of JSON; [number] is an array of "
-    "numbers, a|b is a or b.";
+    "command, the row gives each meaning. In names, {linear} is X, Y or Z; {angular} is A, B or C; "
+    "{axis} is X, Y, Z, A, B or C; {small} is x, y or z; {approach} is forward, reverse or mean; "
+    "{probe} is the id of a probe; {number} is a number; {figure} is the name of a result; {field} "
+    "is another name of this list. Types are those of JSON; [number] is an array of numbers, a|b "
+    "is a or b.";
 
 std::string type_text(const Field& row) {
   return std::string(row.type) + (row.null.empty() ? "" : "|null");

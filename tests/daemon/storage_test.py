@@ -191,7 +191,7 @@ class SmallDisk(Served):
         lines = [n["text"] for n in notices]
         self.assertEqual(len(set(lines)), len(lines), lines)
         refused, = (n["text"] for n in notices if n["code"] == "end_refused")
-        self.assertIn("; to measure the missing points, use: mdof record --resume", refused)
+        self.assertIn(". To measure the missing points, use: mdof record --resume", refused)
         self.assertNotIn(".;", refused)
         resumed = client.call("run.resume", run=run)["run"]
         client.call("run.stop", run=resumed, abort=True)

@@ -147,7 +147,8 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                   {"after", ParamType::integer, "id of the run after the compensation", true},
                   reference},
        .result = "two imported runs of positioning errors have the figures E, E_forward, E_reverse "
-                 "and B of ISO 230-2; the notices also name other differences between the runs",
+                 "and B of ISO 230-2; the notices also contain other differences between the "
+                 "runs",
        .members = "{axis, before: integer, after: integer, ...reference?, coverage, simulated, "
                   "...covers, figures: {{figure}: {before: stated, after: stated, change!: stated, "
                   "effect, change_at_targets}}, points: [{position_mm: number, forward: "

@@ -29,7 +29,7 @@ using rpc::Reply;
 
 constexpr const char* kSense =
     "error = actual - nominal position of the moving body; the correction is added to the command "
-    "of one axis: the second letter of the name of the error (EYX: Y)";
+    "of the axis that is the second letter in the name of the error (EYX: Y)";
 constexpr std::int64_t kMaxGridPage = 100;
 
 Result<const store::ActiveTable*> active_table(const Methods& m, const Params& params) {
@@ -255,9 +255,9 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                           "free text that explains the change; stored in the history", false,
                           "\"\""};
   const rpc::Param expected{"expected_generation", ParamType::integer,
-                            "generation that compensation.status returned before you decided; if "
-                            "any active table has changed since then, the call fails with error "
-                            "-32001, names the active tables and changes nothing",
+                            "generation that compensation.status returned before the decision. If "
+                            "any active table has changed since then, the call changes nothing and "
+                            "fails with error -32001; the message names the active tables",
                             false};
   std::vector<rpc::Param> build_params{
       {"runs", ParamType::array, "ids of runs of one axis with the same targets", true},
@@ -328,8 +328,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                    "fails with error -32001",
                    false},
                   {"u_parts", ParamType::boolean,
-                   "for the volume: also return the two parts of u of each node, u_common (causes "
-                   "that all nodes have in common) and u_independent",
+                   "for the volume: also return the two parts of u of each node: u_common (causes "
+                   "common to all nodes) and u_independent (noise)",
                    false, "false"}},
        .result = "points of the volume: X, Y, Z in mm, three corrections and three u in um; with "
                  "u_parts also three u_common and three u_independent",

@@ -342,7 +342,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
        .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});
   table.add({.name = "run.resume",
              .summary = "Continues a run that ended early. The new run begins with the recorded "
-                        "samples of the old run and supersedes the old run.",
+                        "samples of the old run and replaces the old run.",
              .params = {run},
              .members = "started_run",
              .example = R"({"run": 1})",
@@ -371,7 +371,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
        .handler = on_query(m, list_runs)});
   table.add({.name = "run.get",
              .summary = "Returns a run without its points: header, provenance, straightness, "
-                        "angles, plausibility, and who started and stopped the run.",
+                        "angles, plausibility, and the users who started and stopped the run.",
              .params = {run, reference},
              .result = "an imported run of positioning errors has the figures E and B of ISO "
                        "230-2, or the range of its values",

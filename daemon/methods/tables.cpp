@@ -99,8 +99,9 @@ void add_tables_methods(rpc::MethodTable& table, Methods& m) {
                   {"axis", ParamType::string,
                    "X, Y or Z: list only tables of this axis; volume: list only volumetric tables",
                    false}},
-       .result = "tables without their points. tables: of the axes; volumes: of planes and "
-                 "volumes. With axis volume, tables has the volumetric tables",
+       .result = "the tables are returned without their points. \"tables\" contains the tables of "
+                 "the axes, and \"volumes\" the tables of planes and volumes. If the parameter "
+                 "axis is \"volume\", \"tables\" contains the volumetric tables",
        .members =
            "{offset, generation, tables: [{...table, active, generation}|{...volume_table, active, "
            "generation}], volumes: [{...volume_table, active, generation}]}",

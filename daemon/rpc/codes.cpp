@@ -30,7 +30,9 @@ constexpr std::array<Row, 13> kTable{{
 constexpr CodeMeaning kMeanings[] = {
     {"busy", kBusy, "too many connections"},
     {"changed", kChanged, "the generation changed: read the data again"},
-    {"conflict", kConflict, "not possible now: a run is in progress, an axis moves"},
+    {"conflict", kConflict,
+     "not possible now, for example because a run is in progress or an axis "
+     "moves"},
     {"forbidden", kForbidden, "this client may only read"},
     {"not_found", kNotFound, "no such run, table or device"},
     {"bad_input", kBadInput, "an error in a file, a document or a value"},

@@ -121,8 +121,8 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
     if (now.kind != Kind::index)
       return refused(
           cut_off.id,
-          "the positions of this run were counted from the reference mark of the encoder, "
-          "but the present positions of the axis are not",
+          "the positions of this run were counted from the reference mark of the encoder, but the "
+          "present positions of the axis are not counted from this mark",
           Remedy::pass_reference_mark_or_start);
     return refused(cut_off.id,
                    "the axis passed its reference mark after the run ended, so the zero of the "
@@ -140,7 +140,7 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
   if (of_run.kind == Kind::absolute && now.kind != Kind::none)
     return refused(cut_off.id,
                    "the positions of this run are the readings of the device, but the present "
-                   "positions of the axis are not; start a new run");
+                   "positions of the axis are not the readings of the device; start a new run");
   return refused(cut_off.id,
                  "the positions of this run are machine positions (" + datum_text(of_run) +
                      "), but the encoder has lost its datum since the run",

@@ -11,8 +11,8 @@ namespace mdof::daemon {
 namespace {
 
 constexpr const char* kHeld =
-    ": another program locks the database with a transaction that does not end; the measured "
-    "points are in memory and in the recording, but not yet in the database; end that program";
+    ": another program locks the database with a transaction that does not end. The measured "
+    "points are in memory and in the recording, but not yet in the database. End that program";
 
 std::string too_many(std::size_t most) {
   return "; more than " + std::to_string(most) +

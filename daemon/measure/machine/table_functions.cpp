@@ -155,8 +155,8 @@ Status check_angles_zero(const MachineFrame& frame, const std::vector<double>& p
     return bad_input("axis " + frame.id + " of the machine: angles_zero_at_mm = " +
                      plain_number(to_mm(zero_m), 6) + ", but the errors were measured from " +
                      plain_number(first_mm, 6) + " to " + plain_number(last_mm, 6) +
-                     " mm; give the position of this axis during the measurement of the other "
-                     "axes, inside this range");
+                     " mm; give the position at which this axis stood during the measurement of "
+                     "the other axes. The position must be inside this range");
   doubtful.push_back(notice(NoticeCode::angles_zero_assumed, frame.id,
                             {{"first_mm", first_mm}, {"last_mm", last_mm}}));
   return {};

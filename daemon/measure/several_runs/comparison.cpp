@@ -153,8 +153,8 @@ Status check_positioning(const Run& before, const Run& after) {
                        "measured runs, or two imported runs of positioning errors");
     if (run->header.provenance.model != positioning_name(run->header.axis))
       return bad_input(name + " was imported as " + run->header.provenance.model +
-                       "; of the imported runs, only runs of positioning errors (" +
-                       positioning_name(run->header.axis) + ") can be compared");
+                       "; mdof compares imported runs only if they contain positioning errors (" +
+                       positioning_name(run->header.axis) + ")");
   }
   return {};
 }

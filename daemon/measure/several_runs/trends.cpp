@@ -155,7 +155,7 @@ Result<Chosen> choose(store::Store& store, Axis axis, const TrendRequest& reques
   leave_out(chosen.left_out, partial, "not complete");
   leave_out(chosen.left_out, invalid, "marked as invalid by a notice");
   leave_out(chosen.left_out, superseded, "superseded");
-  leave_out(chosen.left_out, again, "a newer run of the same recording exists");
+  leave_out(chosen.left_out, again, "the database has a newer run of the same recording");
   leave_out(chosen.left_out, unwanted, "left out on request");
   std::sort(chosen.runs.begin(), chosen.runs.end(), earlier);
   choose_kind(chosen, mixed);

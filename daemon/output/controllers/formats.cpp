@@ -132,7 +132,7 @@ const std::vector<Format>& formats() {
       {.name = "klipper",
        .of = "Klipper, skew_correction",
        .holds = "the squareness of X and Y",
-       .limits = "stores one angle only; assumes that both axes are straight",
+       .limits = "the format stores one angle only and assumes that both axes are straight",
        .sense = "diagonals AC, BD and side AD (mm) of a square that the uncorrected machine draws",
        .source = "published source code of Klipper; not tested on a machine",
        .sign_confirmed = true,
@@ -144,7 +144,7 @@ const std::vector<Format>& formats() {
       {.name = "marlin",
        .of = "Marlin, M852",
        .holds = "the squareness of X and Y",
-       .limits = "stores one angle only; assumes that both axes are straight",
+       .limits = "the format stores one angle only and assumes that both axes are straight",
        .sense = "parameter I: for the command x, y, axis X moves to x - I * y",
        .source = "published source code of Marlin; not tested on a machine",
        .sign_confirmed = true,
@@ -156,7 +156,7 @@ const std::vector<Format>& formats() {
       {.name = "reprapfirmware",
        .of = "RepRapFirmware (Duet), M556",
        .holds = "the squareness of X and Y",
-       .limits = "stores one angle only; assumes that both axes are straight",
+       .limits = "the format stores one angle only and assumes that both axes are straight",
        .sense = "the parameter X of M556 divided by its parameter S is the tangent of the "
                 "squareness error; positive if the angle from +X to +Y is above 90 deg",
        .source = "manual of M556; not tested on a machine",
@@ -169,7 +169,7 @@ const std::vector<Format>& formats() {
       {.name = "matrixkins",
        .of = "LinuxCNC 2.10, matrixkins (not in 2.9)",
        .holds = "the squareness of X and Y",
-       .limits = "stores one angle only; assumes that both axes are straight",
+       .limits = "the format stores one angle only and assumes that both axes are straight",
        .sense = "parameter C_xy: for the command x, y, joint X moves to x + C_xy * y",
        .source = "manual and test code of the component matrixkins; not tested in LinuxCNC",
        .sign_confirmed = true,
@@ -193,9 +193,10 @@ const std::vector<UnsupportedController>& not_written() {
       {.name = "fanuc",
        .of = "Fanuc, pitch error and straightness compensation parameters",
        .reason =
-           "each value is the increment over one interval, in detection units times a "
-           "magnification; the detection unit and the magnification are parameters of the machine, "
-           "and no known public manual fully states the sign and the format of the parameter file",
+           "each value is the increment over one interval, in detection units multiplied by a "
+           "magnification. The detection unit and the magnification are parameters of the machine. "
+           "No known public manual completely states the sign and the format of the parameter "
+           "file",
        .instead = "export in the format json (E = actual - nominal), and enter the increments as "
                   "the manual of the machine manufacturer describes"},
   };

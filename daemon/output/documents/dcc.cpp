@@ -19,7 +19,7 @@ using report::ReportRun;
 namespace {
 
 constexpr const char* kWhatItIs =
-    "Test report. This document is not a calibration certificate of an accredited laboratory: it "
+    "Test report. This document is not a calibration certificate of an accredited laboratory. It "
     "contains the results of a test in the data format of the Digital Calibration Certificate.";
 
 Result<Days> days_of(const Report& report) {

@@ -238,9 +238,9 @@ void Acquisition::report_clock(const drivers::ClockState& clock) {
   else if (clock.doubtful && !was)
     report(Trouble::Kind::clock,
            "the packets arrive " + std::to_string(clock.late_ns / 1'000'000) +
-               " ms late, or the device clock stood still; the samples are suspect until mdofd "
-               "reports that their times are valid again; check the network and the load of this "
-               "computer");
+               " ms late, or the device clock stood still. Until mdofd reports that the times of "
+               "the samples are valid again, the samples are suspect. Check the network and the "
+               "load of this computer");
   else if (was && !clock.doubtful)
     report(Trouble::Kind::back, "the times of the samples are valid again");
 }

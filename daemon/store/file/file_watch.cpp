@@ -23,7 +23,7 @@ std::string FileWatch::fault() {
            (errno == ENOENT ? " was deleted" : ": " + std::string(strerror(errno)));
   if (now.st_dev != device_ || now.st_ino != inode_)
     return file_.string() + " was replaced by another file";
-  if (now.st_size < size_) return file_.string() + " was cut short";
+  if (now.st_size < size_) return file_.string() + " was truncated";
   size_ = now.st_size;
   return {};
 }

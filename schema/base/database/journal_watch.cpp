@@ -171,13 +171,13 @@ const std::string& JournalWatch::fault() {
   else if (now != shm_identity_)
     note(shm_.string() + " was replaced by another file", false);
   else if (bytes < kShmRegion || shm_was_truncated)
-    note(shm_.string() + " was cut short", false);
+    note(shm_.string() + " was truncated", false);
   else if (!identify(wal_, now, bytes))
     note(wal_.string() + " was deleted", false);
   else if (now != wal_identity_)
     note(wal_.string() + " was replaced by another file", true);
   else if (is_cut(bytes))
-    lose(wal_.string() + " was cut short");
+    lose(wal_.string() + " was truncated");
   return fault_;
 }
 
@@ -215,7 +215,7 @@ void JournalWatch::note(std::string what, bool foreign_wal) {
   std::error_code ec;
   const fs::path aside = wal_.string() + ".foreign";
   fs::rename(wal_, aside, ec);
-  fault_ += ec ? "; remove " + wal_.string() + " before the database is next opened"
+  fault_ += ec ? "; remove " + wal_.string() + " before you open the database again"
                : "; the other file was renamed to " + aside.string();
 }
 

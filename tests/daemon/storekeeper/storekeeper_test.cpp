@@ -166,7 +166,7 @@ TEST_F(StorekeeperTest, DetectsADeletedOrReplacedDatabase) {
   std::filesystem::rename(aside, database);  // the original file is restored
   EXPECT_EQ(fault_after(false), "");
   std::filesystem::resize_file(database, 100);
-  EXPECT_NE(fault_after(true).find("was cut short"), std::string::npos);
+  EXPECT_NE(fault_after(true).find("was truncated"), std::string::npos);
 }
 
 // Another program that holds a transaction open and thereby locks the database.
@@ -214,7 +214,7 @@ TEST_F(HeldDatabase, IsWaitedForAndReceivesAllPointsAndTheEnd) {
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_EQ(failed_, 0);
   EXPECT_EQ(keeper_->storage().state, "held");
-  EXPECT_NE(keeper_->storage().reason.find("end that program"), std::string::npos);
+  EXPECT_NE(keeper_->storage().reason.find("End that program"), std::string::npos);
   EXPECT_NE(keeper_->still_open_reason(id).find("not stored yet"), std::string::npos);
   foreign.end();
   EXPECT_TRUE(kept.get_future().get());

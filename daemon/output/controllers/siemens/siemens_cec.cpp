@@ -369,9 +369,9 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
   if (std::any_of(tables.begin(), tables.end(),
                   [](const CecTable& one) { return one.multiply_by > 0; })) {
     out.notes.emplace_back(
-        "products (MULT_BY_TABLE): according to the example of the manual, the control adds only "
-        "the product of two tables; check on the machine that it does not also add the two tables "
-        "themselves: each table would then add up to " +
+        "products (MULT_BY_TABLE): in the example of the manual, the control adds the product of "
+        "two tables, but not the two tables themselves. Check this on the machine: if the control "
+        "also adds the tables themselves, each table adds up to " +
         plain_number(to_um(largest_factor(tables)), 2) + " um");
     head.push_back(out.notes.back());
   }

@@ -31,8 +31,7 @@ namespace {
 
 constexpr const char* kResetOnly =
     "a LabJack sets the count to 0 at the reference mark, but does not report this reset. If the "
-    "count is near 0, the reset looks like a motion of the axis, so mdof cannot know whether the "
-    "axis passed the mark";
+    "count is near 0, mdof cannot distinguish the reset from a motion of the axis";
 
 Status check_index(const DriverRow& row, const EncoderOrigin& encoder) {
   if (!encoder.index_mm || !row.no_index) return {};
@@ -56,8 +55,8 @@ const std::vector<DriverRow>& driver_rows() {
           .name = "csv_stream",
           .folder = "csv_stream",
           .devices =
-              "live CSV rows of a script from its standard output, a FIFO, a TCP server or a "
-              "serial line",
+              "live CSV rows that a script sends to its standard output, a FIFO, a TCP connection "
+              "or a serial line",
           .configure = configure_csv_stream,
           .simulated = {{64, "probes in µm, the encoder in mm", "TCP", make_simulated_csv_stream}},
       },
@@ -103,7 +102,8 @@ const std::vector<DriverRow>& driver_rows() {
       {
           .name = "linux_counter",
           .folder = "linux_counter",
-          .devices = "encoders at counters that the Linux kernel supports, through sysfs",
+          .devices = "encoders that are connected to a counter with a driver of the Linux kernel, "
+                     "through sysfs",
           .configure = configure_linux_counter,
           .node = SysfsFile{.name = "104-QUAD-8 counter",
                             .subsystem = "counter",
@@ -195,8 +195,8 @@ const std::vector<DriverRow>& driver_rows() {
       {
           .name = "simulator",
           .folder = "simulator",
-          .devices = "a moving axis with errors, noise and faults; the same seed gives identical "
-                     "samples",
+          .devices = "a simulated axis that moves, with errors, noise and faults; the same seed "
+                     "gives identical samples",
           .configure = configure_simulator,
       },
   };

@@ -111,9 +111,8 @@ Status CsvRows::Reading::give(std::string_view text) {
   if (!translator_.is_ambiguous()) return {};
   return bad_input(
       source_->name() +
-      ": numbers contain both commas and points, so it is unknown which of them is the "
-      "decimal sign; save the file with one decimal sign and without a separator of "
-      "thousands");
+      ": the numbers contain commas and points, so the decimal sign is unknown; save the file with "
+      "one decimal sign and without a separator for thousands");
 }
 
 // Thread "csv read": reads the chunks before the parser needs them, and hashes plain text.

@@ -100,7 +100,7 @@ Status check_misspelt_columns(const CsvHeader& header, const std::vector<std::st
     for (const std::string& column : header.columns)
       if (!is_read(column) && is_misspelling(column, name))
         return bad_input(header.source + ":" + std::to_string(header.lines) + ": column " + column +
-                         " is not read. If this column is meant as " + name +
+                         " is not read. If this column contains the values of " + name +
                          ", rename the column to " + name + "; if not, delete the column");
   }
   return {};

@@ -22,8 +22,8 @@ constexpr const char* kConvertAngles =
     "position_mm,deviation_urad, and import the CSV file as the measured error, such as EBX";
 
 constexpr const char* kNotPositioning =
-    "; at the import, state which error was measured, such as EYX (or EXX, if the "
-    "file contains positioning errors nevertheless)";
+    "; give the name of the measured error at the import, such as EYX. If the file does contain "
+    "positioning errors, give EXX, EYY or EZZ";
 
 std::string utf8_from_latin1(std::string_view text) {
   std::string out;

@@ -18,8 +18,8 @@ constexpr milliseconds kQuiet{50}, kDrain{500};
 constexpr std::size_t kLongestLine = 256;
 constexpr const char* kDatumLost = "the QSB was reset or lost power, and its count restarted at 0";
 constexpr const char* kAtMark =
-    "the index signal is always active, so either index_inverted of the channel is wrong, or the "
-    "axis is at its reference mark";
+    "the index signal is always active. Either the key index_inverted of the channel is wrong, or "
+    "the axis is at its reference mark";
 // Largest difference by which a stamp may be ahead of the host's clock.
 constexpr double kMaxStampLead_ns = 2e9;
 

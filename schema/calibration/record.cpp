@@ -140,7 +140,7 @@ Vec3 read_mm(TomlTable& table, const char* key) {
 double read_u(TomlTable& table, const char* key) {
   const double u = table.number(key);
   if (!(u >= 0 && std::isfinite(u)))
-    table.reject(key, "must be a standard uncertainty, a number that is not negative");
+    table.reject(key, "must be a standard uncertainty: a number of 0 or greater");
   return u;
 }
 

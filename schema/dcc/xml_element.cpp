@@ -80,8 +80,8 @@ Result<XmlElement> parse_xml(std::string_view text, const std::string& source) {
   if (!document) return bad_input(source + reason_of(*context));
   if (document->intSubset || document->extSubset)
     return bad_input(source +
-                     ": has a document type declaration (<!DOCTYPE), which no DCC has; remove this "
-                     "declaration, or ask the laboratory for the file as it was issued");
+                     ": has a document type declaration (<!DOCTYPE), but a DCC has no such "
+                     "declaration; remove it, or ask the laboratory for the original file");
   return element_of(*xmlDocGetRootElement(document.get()));
 }
 

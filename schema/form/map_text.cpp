@@ -73,8 +73,8 @@ Result<XyzUnits> xyz_units(const std::string& text) {
   if (xy && z) return XyzUnits{*xy, *z};
   return fail(ErrorCode::usage,
               "\"" + text +
-                  "\" is not a unit of a map; give m, mm, um or nm, or two of these units such as "
-                  "mm,um (mm for x and y, um for z); convert other units first");
+                  "\" is not a unit of a map; give m, mm, um or nm. For different units give two, "
+                  "such as mm,um (mm for x and y, um for z). Convert values in other units first");
 }
 
 std::string MapTextReader::place(std::size_t line) const {
@@ -251,7 +251,7 @@ Status MapTextReader::add(const std::array<double, 3>& xyz) {
   if (has_decimal_comma_ && has_decimal_point_)
     return bad_input(place(line_) +
                      "the map has numbers with decimal commas and numbers with decimal points; use "
-                     "one of them");
+                     "the same decimal sign in all numbers");
   const std::size_t point = points_.z_m.size();
   if (point == kMostPixels)
     return bad_input(place(line_) + "the map has more than " + std::to_string(kMostPixels) +

@@ -108,7 +108,7 @@ ErrorSource read_source(TomlTable& table, const Machine& machine,
     table.reject("unit", "must be a word such as um, urad or deg");
   source.u = table.number("u");
   if (!(source.u >= 0))
-    table.reject("u", "must be a standard uncertainty, a number that is not negative");
+    table.reject("u", "must be a standard uncertainty: a number of 0 or greater");
   source.shape = read_shape(table);
   for (TomlTable& effect : table.tables("acts_on"))
     source.acts_on.push_back(read_effect(effect, machine, errors));

@@ -63,8 +63,8 @@ void read_u_of_stored(TomlTable& table, const std::string& key, const MachineFra
   if (!u) return;
   if (frame.file.empty())
     return table.reject("u_" + key,
-                        "is not possible for errors from runs and tables, because they contain "
-                        "their own uncertainty (declared in the rig); remove this key");
+                        "is not possible for errors from runs and tables, because these errors "
+                        "already have an uncertainty; remove this key");
   function.u = {*u};
 }
 
@@ -172,8 +172,9 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
     frame.tables = read_stored_rows(table, "tables");
     if (frame.angles_zero_m && !frame.runs.any() && !frame.tables.any())
       table.reject("angles_zero_at_mm",
-                   "applies only to errors from runs or tables; subtract the angles at this "
-                   "position from the errors of the file or of this table, and remove the key");
+                   "applies only to errors from runs or tables. For errors in a file or in this "
+                   "TOML table, subtract the angles at this position from the values, and remove "
+                   "the key");
     if (frame.tables.latest)
       table.reject("tables",
                    "must contain numbers of tables; only the keys \"runs\" and \"squareness\" "

@@ -234,7 +234,7 @@ Status CsvRowParser::store(const CsvLine& line) {
     return bad_input(
         where(line_) + "column time_s: time " + what + " (" + std::to_string(time_ns) +
         " ns after " + std::to_string(last_time_ns_) +
-        " ns); a log must be one recording in the order of time; split or repair the log");
+        " ns); the rows of a log must be in the order of time; split or repair the log");
   }
   if (row_ == 0) block_.lost = std::exchange(lost_, 0);
   block_.time_ns[row_] = last_time_ns_ = time_ns;

@@ -16,7 +16,7 @@ std::string reference_point_gap(const ChainAxis& measured, Axis axis, Sides side
   const bool at_carriage = reference == Reference::carriage;
   if (fixture_is_with_tool(measured, sides)) {
     if (!at_carriage) return "";
-    return "straightness at the carriage is valid for a point that moves with the axis, not for "
+    return "the straightness refers to the carriage, a point that moves with the axis, and not to "
            "the tool; build a table with the reference \"fixture\" or \"tool\"";
   }
   if (at_carriage) return "";

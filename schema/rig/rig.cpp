@@ -106,8 +106,9 @@ Probe read_probe(TomlTable& table) {
     table.reject("range_um", "must be greater than zero, not " + plain_number(range_um));
   probe.range_m = from_um(range_um);
   probe.calibration = read_calibration(table);
-  probe.delay_s =
-      read_delay_s(table, "readings relative to their times, for example because of a filter");
+  probe.delay_s = read_delay_s(table,
+                               "readings relative to their time stamps, for example because of a "
+                               "filter");
   probe.uncertainty = {read_uncertainty(table, "u_calibration_um", from_um(1), kMostU_um),
                        read_uncertainty(table, "u_sensitivity_ppm", 1e-6, kMostU_ppm),
                        read_uncertainty3(table, "u_position_mm", from_mm(1), kMostU_mm),

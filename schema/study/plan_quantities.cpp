@@ -224,8 +224,9 @@ void read_bins(TomlTable& table, StudyPlan& plan, const std::set<std::string>& g
   plan.bins = static_cast<std::size_t>(bins->integer("count", 20));
   if (plan.bins < 1 || plan.bins > kMostStudyBins)  // a negative count becomes a large number
     bins->reject("count", "must be from 1 to " + std::to_string(kMostStudyBins) +
-                              ", because each bin takes 33 kB of memory per output and thread; for "
-                              "finer bins write several plans, each with a part of the range");
+                              ", because each bin needs 33 kB of memory for each output and "
+                              "thread; for smaller bins, write several plans, each with a part of "
+                              "the range");
   const PlannedQuantity* quantity = quantity_with(plan, plan.binned_key);
   if (!quantity || quantity->distribution.kind != Kind::rectangular ||
       quantity->name != plan.binned_key)

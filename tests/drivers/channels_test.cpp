@@ -90,10 +90,10 @@ TEST(IndexSupport, DriversWithoutMarkStateReasonAndRemedy) {
     const char* says;
   } cases[] = {
       {"labjack_t7", host + channel + counter + "input = \"DIO0\"\n",
-       "near 0, the reset looks like a motion"},
+       "near 0, mdof cannot distinguish the reset from a motion"},
       {"labjack_u6",
        channel + "id = \"A\"\ninput = \"AIN0\"\n" + channel + counter + "input = \"FIO0\"\n",
-       "near 0, the reset looks like a motion"},
+       "near 0, mdof cannot distinguish the reset from a motion"},
       {"pokeys57u", channel + counter + "input = \"ultrafast\"\n", "PoKeysLibEncoders.c"},
       {"modbus", host + "profile = \"pokeys57e\"\n" + channel + counter + "input = \"encoder1\"\n",
        "a Modbus device does not report"},

@@ -237,8 +237,8 @@ Result<PrivateCopy> PrivateCopy::make(const fs::path& database, int timeout_ms) 
     if (waited_ms >= timeout_ms)
       return fail(ErrorCode::conflict,
                   database.string() +
-                      ": another program writes the database all the time, so the database cannot "
-                      "be copied; try again when that program has ended");
+                      ": mdof cannot copy the database, because another program writes the "
+                      "database without a break; try again when that program has ended");
     std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
   }
 }

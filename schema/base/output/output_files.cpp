@@ -59,8 +59,10 @@ bool is_markup(std::string_view text) {
 }
 
 tl::unexpected<Error> not_replaced(const fs::path& path, const std::string& why) {
-  return fail(ErrorCode::usage, path.string() + ": is not replaced, because this file " + why +
-                                    "; give another file, or delete this one first");
+  return fail(ErrorCode::usage, path.string() +
+                                    ": mdof does not replace this file, because the "
+                                    "file " +
+                                    why + "; give another file, or delete this file first");
 }
 
 // Returns the status of an existing file; nullopt: no such file. Error: the file exists and must
@@ -107,8 +109,8 @@ Status flush_folder(const fs::path& folder) {
   if (descriptor >= 0) ::close(descriptor);
   if (flushed) return {};
   return io_error(folder.string() +
-                  ": the files are written, but a power cut can still delete these files, because "
-                  "the folder cannot be flushed to the disk (" +
+                  ": the files are written. But mdof could not flush the folder to the disk, so a "
+                  "power cut can still delete the files (" +
                   std::strerror(error) + "); check the disk, then export the files again");
 }
 

@@ -87,7 +87,7 @@ Result<TomlTable> TomlTable::parse(std::string_view text, const std::string& sou
   if (const auto line = toml_line_over_depth(text, kMaxTomlDepth))
     return bad_input(source_name + ":" + std::to_string(*line) + ": nested more than " +
                      std::to_string(kMaxTomlDepth) +
-                     " levels deep by dotted keys or brackets; use fewer levels");
+                     " levels deep (by dotted keys or brackets); use fewer levels");
   auto document = std::make_shared<Document>();
   document->source = source_name;
   try {

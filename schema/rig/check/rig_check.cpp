@@ -129,7 +129,8 @@ void Check::check_calibration(std::size_t k) {
          " times the range is an unusual linearity correction of the probe \"" + probe.id +
              "\"; give the corrections that are added to the readings, " +
              (c.polynomial_um.empty() ? "pairs [reading_um, correction_um]"
-                                      : "not a polynomial of the whole displacement"));
+                                      : "not the coefficients of a polynomial for the whole "
+                                        "displacement"));
   if (first_um <= 0 && last_um >= 0) return;
   add(std::abs(c.offset_um) > kRange_um.most_possible, "probe", k, "offset_um",
       text_of(c.offset_um) + " um is outside the range of readings of the probe \"" + probe.id +

@@ -214,7 +214,7 @@ TEST(MachineToml, UncertaintyCompletesAFileButNotRuns) {
   for (const char* rows : {"runs = [1]\n", "tables = [1]\n"}) {
     const auto stored = with(rows);
     ASSERT_FALSE(stored);
-    EXPECT_NE(stored.error().message.find("their own uncertainty"), std::string::npos)
+    EXPECT_NE(stored.error().message.find("already have an uncertainty"), std::string::npos)
         << stored.error().message;
   }
   EXPECT_NE(with("").error().message.find("u_EYX_um: unknown key"), std::string::npos);

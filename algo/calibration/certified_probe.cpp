@@ -279,10 +279,10 @@ class CertificateReader {
       // 2 u also covers the rounding of the three columns.
       const double off = std::abs(read.um[i] - reference.um[i] - error.um[i]);
       if (error.u_um.empty() || off <= 2 * error.u_um[i]) continue;
-      return bad_input(
-          at(table.error->line) + "value " + std::to_string(i + 1) + " is " + number(error.um[i]) +
-          " um, but reading minus reference is " + number(read.um[i] - reference.um[i]) +
-          " um; an error must be reading minus reference; ask the laboratory to correct the DCC");
+      return bad_input(at(table.error->line) + "error " + std::to_string(i + 1) + " is " +
+                       number(error.um[i]) + " um, but reading minus reference is " +
+                       number(read.um[i] - reference.um[i]) +
+                       " um; ask the laboratory to correct the DCC");
     }
     return {};
   }

@@ -336,8 +336,8 @@ Status check_seen(const MountingFit& fit, double u_reading_m) {
                   " mrad, and the standard uncertainty of a reading at a stop is " +
                   plain_number(to_um(u_reading_m) * 1e3, 3) +
                   " nm (median). Clamp the target at three or more tilts that differ by several "
-                  "mrad about two axes; let it move farther along each axis, or stand longer at "
-                  "each stop");
+                  "mrad about two axes. Or move the target farther along each axis, or make each "
+                  "stop longer");
 }
 
 double median_u_m(const MountingModel& model) {

@@ -104,8 +104,8 @@ class UnseenReporter {
     u_axis = std::isnan(u_m) || std::isnan(u_axis) ? std::nan("") : std::max(u_axis, u_m);
     out_.sentences.push_back("the common position of " + ids_of(model_, group) + " along " +
                              std::string(1, "XYZ"[axis]) +
-                             ", because each clamping also shifts the target. The mean "
-                             "position_mm of these probes stays as it is in the rig; " +
+                             ", because each clamping also shifts the target. The calibration does "
+                             "not change the mean of position_mm of these probes in the rig; " +
                              (declared
                                   ? "the u of this mean is " + plain_number(to_um(u_m), 3) + " um"
                                   : "the rig does not declare the u of this mean (u_position_mm)"));

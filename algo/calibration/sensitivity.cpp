@@ -91,8 +91,8 @@ SlopeUncertainty slope_uncertainty(const std::vector<std::vector<Reading>>& plac
 std::vector<std::string> undetectable_effects(const Rig& rig) {
   std::vector<std::string> sentences = {
       "the scale error of the encoder: the sensitivity contains the whole scale error",
-      "the product of two angles (the squareness error of the axis to the plane, and the tilt of "
-      "the target): 1 mrad and 5 mrad together change the sensitivity by 5 ppm"};
+      "the product of two angles: the squareness error of the axis to the plane, and the tilt of "
+      "the target. For example, 1 mrad and 5 mrad change the sensitivity by 5 ppm"};
   if (!rig.uncertainty.encoder.declared())
     sentences.insert(
         sentences.begin(),
@@ -144,8 +144,8 @@ Status check_steps(const Probe& probe, const std::vector<Reading>& means) {
                     plain_number(to_um(step_m), 4) + " um, from the reading " +
                     plain_number(to_um(means[i - 1].read_m), 4) + " um (limits of the change: " +
                     plain_number(kLeast, 3) + " and " + plain_number(kMost, 3) +
-                    " of the step); the probe is at the end of its range, or the target did not "
-                    "move; measure only positions at which the reading follows the target");
+                    " of the step). The probe is at the end of its range, or the target did not "
+                    "move. Measure only at positions at which the reading follows the target");
   }
   return {};
 }
@@ -248,7 +248,7 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
   if (difference_m > kSamePositionShare * own.range_m)
     found.not_seen.push_back("the differences of up to " + plain_number(to_um(difference_m), 3) +
                              " um between stops at the same position (backlash of the encoder, or "
-                             "drift): the linearity contains their means");
+                             "drift): the linearity contains the mean of these stops");
   found.residual_sd_m = line.residual_sd;
   found.from_m = means.front().read_m;
   found.to_m = means.back().read_m;

@@ -121,7 +121,7 @@ std::string DwellDetector::why_no_stop() const {
   if (crept())
     return "for " + longest + ", the axis moved by no more than " + tolerance + " within each " +
            plain_number(options_.window_s) +
-           " s, but too far for one stop, so its stops cannot be separated";
+           " s. In total the axis moved too far for one stop, and mdof cannot separate the stops";
   return "the axis stayed within " + tolerance + " for at most " + longest +
          ", but a stop must last " + plain_number(options_.shortest_s()) + " s";
 }

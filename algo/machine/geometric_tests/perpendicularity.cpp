@@ -148,7 +148,7 @@ Result<Perpendicularity> perpendicularity(const CircleReadings& r, int highest) 
   const Eigen::LDLT<Eigen::MatrixXd> normal(A.transpose() * A);
   if (normal.rcond() < 1e-9)
     return bad_input(
-        "readings at these angles cannot separate so many harmonics; give fewer harmonics");
+        "the angles of the readings do not determine so many harmonics; give fewer harmonics");
   const Eigen::VectorXd x = normal.solve(A.transpose() * h);
   const Eigen::MatrixXd covariance = normal.solve(Eigen::MatrixXd::Identity(A.cols(), A.cols()));
   p.freedom = static_cast<double>(n - A.cols());

@@ -24,7 +24,7 @@ struct Guard {
 Guard guard_of(const Budget& budget, double limit) {
   const std::string standard = "ISO 14253-1:2017, 95 % conformance probability, ";
   if (budget.U_by_trials)
-    return {budget.coverage_factor, standard + "guard band g = U from Monte Carlo trials"};
+    return {budget.coverage_factor, standard + "guard band g = U, from Monte Carlo trials"};
   // One-sided also if |value| exceeds the limit, because the other end of the tolerance is then far
   // away.
   const bool one_end = limit >= kOneSidedFrom * budget.u || std::abs(budget.value) > limit;
@@ -73,7 +73,7 @@ Decision decision(const Budget& budget, double limit, const std::string& against
   else if (budget.is_single_run)
     d.reason =
         "U is incomplete: no target was approached twice from the same direction, so U does not "
-        "include slow noise";
+        "include noise with periods longer than a stop";
   else if (size + d.guard_band <= limit)
     d.conformity = Conformity::conform;
   else if (size - d.guard_band > limit)

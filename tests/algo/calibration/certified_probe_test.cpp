@@ -309,13 +309,13 @@ TEST(CertifiedProbe, RefusesErrorsThatContradictTheReference) {
   for (const double off : {-0.125, 0.125}) {  // twice the u of this error
     EXPECT_TRUE(found(0.25 + off, u)) << off;
     const double error_V = 0.25 + 1.05 * off, expected_error_um = 32 * error_V;
-    EXPECT_TRUE(refused(found(error_V, u), {"c.xml:47: ", "value 2 is ", off < 0 ? "3.8" : "12.2",
+    EXPECT_TRUE(refused(found(error_V, u), {"c.xml:47: ", "error 2 is ", off < 0 ? "3.8" : "12.2",
                                             "reference is 8 um"}))
         << expected_error_um;
   }
   EXPECT_TRUE(found(3, {}));
   // Each row is checked separately. Here only the reading of the second row is wrong.
-  EXPECT_TRUE(refused(found(0.25, u, 0.75), {"value 2 is 8 um", "reference is 16 um"}));
+  EXPECT_TRUE(refused(found(0.25, u, 0.75), {"error 2 is 8 um", "reference is 16 um"}));
 }
 
 // The slope of the readings from the lowest to the highest reference value must be 0.5 to 2.

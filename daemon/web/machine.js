@@ -53,7 +53,7 @@ export function placeText({axis, encoder_mm, encoder_quality, still}, digits) {
 // If one device is silent, mdofd waits some seconds for it, and all values are late.
 export function staleReason(axis) {
   const waits = state.newest.get(axis)?.value.waiting_for;
-  return waits ? `the values are late, because ${waits === "encoder" ? "the encoder" : `probe ${waits}`} sends nothing` : "no new values arrive";
+  return waits ? `the values are late, because ${waits === "encoder" ? "the encoder" : `probe ${waits}`} sends no samples` : "no new values arrive";
 }
 
 // [{kind, text, age}]. kind: CSS class of the line. age: age of the values in s. Screen readers do
@@ -73,7 +73,7 @@ export function warnings() {
   if (simulated.length)
     found.push({kind: "doubtful", text: `SIMULATED: ${simulated.join(", ")}. No machine is measured.`});
   for (const [axis, rig] of state.rigs)
-    for (const notice of rig.notices) found.push({kind: "doubtful", text: `Overdue, axis ${axis}: ${notice.text}`});
+    for (const notice of rig.notices) found.push({kind: "doubtful", text: `Axis ${axis}: ${notice.text}`});
   if (state.info && state.info.storage !== "ok")
     found.push({kind: "invalid", text: `Storage ${state.info.storage}: ${state.info.storage_reason}`});
   return found;

@@ -39,7 +39,7 @@ async function post(method, params) {
 export async function askToken(reason) {
   asking ??= ask("Token", [
     reason ? h("p", {class: "notice doubtful"}, reason) : null,
-    h("p", {}, "Every change needs the token of this mdofd. Print the token with ", h("code", {}, "mdof token"),
+    h("p", {}, "mdofd accepts changes only with its token. To print the token, run ", h("code", {}, "mdof token"),
       " on the computer that runs mdofd, as a user who may read the token file. This page keeps the token until you close the tab."),
     field("Token", h("input", {name: "token", type: "password", autocomplete: "off", required: true, autofocus: true})),
   ], "Use this token");

@@ -101,7 +101,7 @@ export async function units(page) {
   assert.deepEqual(found.angles, ["forward only", "reverse only", "mean of both approaches", "mean of both approaches"]);
   assert.deepEqual(found.places, ["U at 5.0 mm, at rest", "U at 5.0 mm, moving, position suspect", "U: position unknown, because the encoder sends no position"]);
   assert.ok(found.age[0] >= 3 && found.age[0] < 10);
-  assert.equal(found.age[1], "the values are late, because probe E sends nothing");
+  assert.equal(found.age[1], "the values are late, because probe E sends no samples");
   assert.deepEqual(found.no_reading, ["Shim: not known, because the probe has no usable reading", "Shim: not known, because the probe has no usable reading",
     "Shim at least 100.0 µm: move the probe towards +Z, or the target towards −Z", "no reading"]);
   assert.deepEqual(found.lines, [[[0, 1], [50, 1.1]], [[0, 1], [50, 0.9]], []]);

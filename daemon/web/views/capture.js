@@ -56,7 +56,7 @@ class Wizard {
       field("Seed of the jitter", input("seed", 1, {min: 0, step: 1})));
     this.list = field("Targets/mm", h("textarea", {name: "targets_mm", rows: 2}), "in ascending order, separated by spaces; decimals with a point");
     this.repeats = field("Repeats", input("repeats", 5, {min: 0, max: 10000, step: 1}),
-      "passes in each direction; the axis must overrun both ends. 0: the run ends when you stop it");
+      "passes over the targets in each direction; the axis must move beyond the first and the last target. 0: the run ends when you stop it");
     this.kind = select(kKinds, "even", () => this.show(), {name: "kind"});
     this.element = h("form", {class: "panel", oninput: () => this.show(), onsubmit: (e) => { e.preventDefault(); this.start(started); }},
       h("h2", {}, "New run"),
@@ -66,7 +66,7 @@ class Wizard {
       h("fieldset", {}, h("legend", {}, "2 Targets"), field("Targets are", this.kind), this.even, this.list),
       h("fieldset", {}, h("legend", {}, "3 Repeats"), h("div", {class: "fields"}, this.repeats,
         field("Signal period of the scale/µm", input("scale_period_um", "", {min: 0}),
-          "optional: mdofd warns of intervals that hide the periodic error of the scale"))),
+          "optional: mdofd warns if the intervals hide the periodic error of the scale"))),
       this.preview, this.wrong, h("p", {class: "buttons"}, h("button", {class: "main"}, "Start the run")));
     this.show();
   }

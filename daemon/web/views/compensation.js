@@ -102,7 +102,7 @@ function card(t) {
   return facts([["Axis", t.axis], ["Data", t.simulated ? "SIMULATED: no machine was measured" : "measured"], ["Runs", t.runs.join(", ")],
     ["Range", `${fixed(t.first_mm, 3)} … ${fixed(t.last_mm, 3)} mm, ${t.points_total} points`], ["Reference point", t.reference],
     ["Straightness relative to", t.straightness_reference], ["Values", t.sense], ["Correction", signs(t)], ["Built", time(t.created_utc)],
-    ["Warnings", t.doubtful ? "▲ this table is doubtful because of notices of its runs" : null], ["Active since", t.activated_utc && `${time(t.activated_utc)}, by ${t.activated_by}`]]);
+    ["Warnings", t.doubtful ? "▲ notices of the runs make this table doubtful" : null], ["Active since", t.activated_utc && `${time(t.activated_utc)}, by ${t.activated_by}`]]);
 }
 
 const kMostRuns = 20, kMostActions = 200;
@@ -132,11 +132,11 @@ class AxisPanel {
       this.active.replaceChildren(...this.now ? [h("p", {class: "result"}, `Table ${this.now.table}, generation ${this.now.generation}`), card(this.now), covers(this.now) ?? "",
         h("p", {class: "buttons"}, h("button", {onclick: () => this.show(this.now.table)}, "Show this table"), h("button", {class: "danger", onclick: () => this.deactivate()}, "Deactivate …"))]
         : [h("p", {}, status.volume ? `No table of this axis is active. Table ${status.volume.table} of the volume (${status.volume.machine}) corrects the axes.`
-          : "No table is active: nothing is corrected on this axis.")]);
+          : "No table is active, so mdofd serves no correction for this axis.")]);
       setRows(this.table, list.tables.map((t) => this.row(t)));
       if (this.openId) this.show(this.openId);
       this.build(runs);
-      this.history.replaceChildren(actions.items.length === 0 ? h("p", {}, actions.isAll ? "No table was built or activated yet." : `The newest ${actions.searched} actions concern no table.`)
+      this.history.replaceChildren(actions.items.length === 0 ? h("p", {}, actions.isAll ? "No table was built or activated yet." : `None of the newest ${actions.searched} actions changed a table.`)
         : table(`Actions on the tables of all axes, newest first${actions.isAll ? "" : `; only the newest ${actions.items.length}`}`,
         [["when", "w"], ["action"], ["object"], ["by"], ["table and reason"]], actions.items.map((d) => [time(d.utc), d.deed.replace("compensation.", ""),
           `${d.of === "compensation_table" || d.of === "volumetric_table" ? "table" : "generation"} ${d.id}`, d.user || `uid ${d.uid}`, d.detail ?? "–"])));
@@ -159,7 +159,7 @@ class AxisPanel {
       h("h2", {}, "Build a table"), runs.length === 0 ? h("p", {}, isAll ? `There is no complete or partial run of ${this.axis} yet; measure one in Capture.` : `None of the newest ${searched} runs of ${this.axis} is complete or partial.`)
         : h("fieldset", {}, h("legend", {}, `New table from one or more runs with the same targets${isAll ? "" : ` (only the newest ${runs.length} runs)`}`), runs.map((r) => h("label", {class: "check"},
           h("input", {type: "checkbox", name: "run", value: r.run, checked: chosen.has(r.run)}), `run ${r.run}, ${time(r.started_utc)}, ${r.state}${r.simulated ? ", SIMULATED" : ""} ${r.note ?? ""}`))),
-      h("label", {class: "check"}, h("input", {type: "checkbox", name: "keep_slope"}), "Keep the slope in the straightness (by default the slope belongs to squareness)"),
+      h("label", {class: "check"}, h("input", {type: "checkbox", name: "keep_slope"}), "Keep the slope in the straightness (by default mdofd removes the slope, because it is part of the squareness)"),
       h("label", {class: "check"}, h("input", {type: "checkbox", name: "partial"}), "Also accept partial runs"),
       h("p", {class: "buttons"}, h("button", {class: "main", disabled: runs.length === 0}, "Build the table")), result));
   }
@@ -206,7 +206,7 @@ class AxisPanel {
   }
   deactivate() {
     this.change("compensation.deactivate", {axis: this.axis, expected_generation: this.generation}, {title: `Deactivate the table of axis ${this.axis}?`, action: "Deactivate",
-      text: h("p", {}, `mdofd no longer serves table ${this.now.table}; nothing is corrected on this axis.`)});
+      text: h("p", {}, `mdofd no longer serves table ${this.now.table} or any other correction for this axis.`)});
   }
   close() { this.opened?.close(); }
 }

@@ -27,12 +27,12 @@ export function reasons(info, devices, compensation) {
     const waiting = machine.state.newest.get(a.axis)?.value.waiting_for;
     if (waiting) found.push([`axis ${a.axis}`, `waits for ${waiting}`]);
     if (machine.isStale(a.axis)) found.push([`axis ${a.axis}`, `stale: ${machine.staleReason(a.axis)}`]);
-    if (!compensation.axes[a.axis] && !compensation.volume) found.push([`compensation of ${a.axis}`, "no table is active: nothing is corrected"]);
+    if (!compensation.axes[a.axis] && !compensation.volume) found.push([`compensation of ${a.axis}`, "no table is active, so mdofd serves no correction"]);
   }
   if (info.axes.length === 0) found.push(["configuration", "mdofd has no axis to measure; add an [[axis]] to mdofd.toml and restart mdofd"]);
   if (info.store_jobs_dropped + info.store_points_dropped > 0)
-    found.push(["queues", `the disk was too slow: ${info.store_jobs_dropped} blocks and ${info.store_points_dropped} points were dropped`]);
-  if (info.calls_refused > 0) found.push(["calls", `${info.calls_refused} calls were refused, because too many calls were waiting`]);
+    found.push(["queues", `the disk was too slow, so mdofd dropped ${info.store_jobs_dropped} blocks and ${info.store_points_dropped} points`]);
+  if (info.calls_refused > 0) found.push(["calls", `mdofd refused ${info.calls_refused} calls, because too many calls were waiting`]);
   return found;
 }
 

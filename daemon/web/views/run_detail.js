@@ -26,7 +26,7 @@ function head(run) {
     ["Points", String(run.points_total)], ["Reference point", run.reference + (run.reference_mm ? ` (${run.reference_mm.map((x) => fixed(x, 3)).join(", ")}) mm` : "")],
     ["Temperature", isNumber(t?.mean) ? `${fixed(t.mean, 2)} °C` : null],
     ["Moving body, and direction of its motion when the encoder counts up", `${run.moves}, ${run.travel}`],
-    ["Lost scans", isNumber(run.scans_lost) ? `${run.scans_lost} of ${run.scans}` : `not known, of ${run.scans}`], ["Model", run.model],
+    ["Lost scans", isNumber(run.scans_lost) ? `${run.scans_lost} of ${run.scans}` : `not known (${run.scans} scans recorded)`], ["Model", run.model],
     ["Recording", run.recording.path], ["SHA-256 of the recording", run.recording.sha256]]);
 }
 
@@ -37,7 +37,7 @@ export function lineAt(line, travel, places_mm) {
   return places_mm.map((x) => [x, line.intercept_um + line.slope_um_per_m * (travel === "-" ? -x : x) / 1000]);
 }
 
-const kLines = [["least_squares", "least squares line"], ["end_point", "line through both end points"], ["minimum_zone", "minimum zone line"]];
+const kLines = [["least_squares", "least-squares line"], ["end_point", "line through both end points"], ["minimum_zone", "minimum-zone line"]];
 
 class Straightness {
   constructor(run, points) {

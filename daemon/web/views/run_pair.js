@@ -44,7 +44,7 @@ function pairCharts(key, a, b) {
 
 const effects = {reduced: "▼ reduced", increased: "▲ increased", "not shown": "● not shown", changed: "◆ changed in sign or shape"};
 
-const figures = (found, first, second) => table(`Results of run ${first} (before) and run ${second} (after). “not shown”: the change is smaller than its U; “changed”: so is that of the size, but the sign or the shape is not the same`,
+const figures = (found, first, second) => table(`Results of run ${first} (before) and run ${second} (after). “not shown”: the change is not larger than its U. “changed”: the magnitude is the same within U, but the sign or the shape has changed`,
   [["result"], [`run ${first}`, "w"], [`run ${second}`, "w"], ["change of |value|", "w"], ["effect", "w"]],
   Object.entries(found.figures).map(([key, f]) => [titleOf(key), measured(f.before, unitOf(key), {with_k: false}), measured(f.after, unitOf(key), {with_k: false}),
     measured(f.change, unitOf(key), {with_k: false}), effects[f.effect] ?? f.effect]));

@@ -128,7 +128,7 @@ class SignCheck {
     this.start = h("button", {type: "button", onclick: () => this.begin()}, "Start: use these readings as zero");
     this.element = h("section", {class: "panel"}, h("h2", {}, "Sign check"),
       h("p", {}, "Stop the axis and press Start. Then push the target lightly along one direction of the machine. The reading " +
-        "of each probe along this direction must rise or fall as the rig states. If a sign is reversed, a compensation doubles the error."),
+        "of each probe along this direction must rise if you push in the direction of the probe (column “measures”), and fall if you push in the opposite direction. If a sign is reversed, a compensation doubles the error."),
       h("div", {class: "buttons"}, field("I push the target towards", this.push), this.start),
       table("Change since the start", [["probe"], ["measures"], ["change/µm", "n"], ["verdict"]],
         cards.map((card, i) => h("tr", {}, h("th", {scope: "row"}, card.probe.id), h("td", {}, along(card.probe.direction)), ...this.rows[i]))));

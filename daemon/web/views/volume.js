@@ -122,7 +122,7 @@ function stored(tables, active, generation, done) {
     {title: `Activate table ${t.table} of the volume?`, action: "Activate", marks: {simulated: t.simulated, doubtful: null},
       text: h("p", {}, `${t.machine}, ${t.nodes} nodes, built ${time(t.created_utc)}.${active ? ` This table replaces table ${active.table}.` : ""}`)})}, "Activate …");
   const off = (t) => h("button", {class: "danger", "aria-label": `Deactivate table ${t.table} of the volume`, onclick: () => act("compensation.deactivate", {axis: "volume"},
-    {title: "Deactivate the table of the volume?", action: "Deactivate", text: h("p", {}, `mdofd no longer serves table ${t.table}; the volume is no longer corrected.`)})}, "Deactivate …");
+    {title: "Deactivate the table of the volume?", action: "Deactivate", text: h("p", {}, `mdofd no longer serves table ${t.table} or any other correction for the volume.`)})}, "Deactivate …");
   return table("Stored tables of the volume, newest first", [["table"], ["state", "w"], ["machine"], ["nodes", "n"], ["data"], ["built", "w"], ["actions"]],
     tables.map((t) => [String(t.table), t.active ? "● active" : "stored", t.machine, String(t.nodes), t.simulated ? "SIMULATED" : "measured", time(t.created_utc), t.active ? off(t) : on(t)]));
 }

@@ -242,18 +242,17 @@ Diagnosis check_set_up(const Rig& rig) {
   const std::string what = "set-up of axis " + std::string(1, letter(rig.axis)) + ": ";
   const char* const remedy =
       "check the set-up once by hand. Push the target along each direction in which probes "
-      "measure. "
-      "All probes of this direction must change by the length of the push, and no other probe may "
-      "change. The change must be positive if the push is along the direction of the probe (key "
-      "\"measures\" or \"direction\" in the rig), negative if it is against this direction. Tilt "
-      "the target by a known angle about each axis. Move the "
-      "axis by a known length: the encoder must show this length and direction. To find a drift "
-      "that follows the axis position, measure again with other dwell times, or with another order "
-      "of targets";
+      "measure. The readings of all probes of this direction must change by the length of the "
+      "push. The reading of no other probe may change. The change must be positive if the push is "
+      "in the direction of the probe (key \"measures\" or \"direction\" in the rig), and negative "
+      "if the push is in the opposite direction. Tilt the target by a known angle about each axis. "
+      "Move the axis by a known length: the encoder must show this length and direction. To find a "
+      "drift that depends on the axis position, measure again with other dwell times, or with "
+      "another order of targets";
   const std::string locked =
-      "A drift that follows the position of the axis (heat of drive or scale, pull of cables) "
+      "A drift that depends on the position of the axis (heat of drive or scale, pull of cables) "
       "repeats in each run. The errors contain this drift, but u does not. One run cannot separate "
-      "the drift from the errors";
+      "this drift from the errors";
   if (rig.probes.size() > 5)
     return {Level::good,
             what + std::to_string(rig.probes.size()) +

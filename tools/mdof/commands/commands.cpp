@@ -27,7 +27,10 @@ constexpr Group kGroups[] = {
      ""},
     {"compensation", "Build, show and activate compensation tables", ""},
     {"machine", "Calculate errors of a machine at the tool: maps, diagonals, circles, budgets", ""},
-    {"form", "Build and evaluate height maps: clamping, next cut, path of a fast tool servo", ""},
+    {"form",
+     "Build and evaluate height maps: clamping, next cutting pass, path of a fast tool "
+     "servo",
+     ""},
     {"separate", "Separate the machine's error from the shape of the target", ""},
     {"encoder", "Set the position of an axis that has an incremental encoder", ""},
     {"device", "List, test and monitor the devices",

@@ -75,9 +75,9 @@ Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
 }
 
 const char* const kNotInR =
-    "R (ISO 230-2) is calculated only from the repeated approaches to each target in this run. U "
-    "does not include the uncertainty that comes from the small number of approaches. U of A is "
-    "unknown (null), because ";
+    "R (ISO 230-2) is calculated from the repeated approaches to each target in this run, and is "
+    "valid for these approaches only. U does not contain the uncertainty that results from the "
+    "small number of approaches. U of A is unknown (null), because ";
 
 }  // namespace
 

@@ -23,8 +23,9 @@ void warn_of_lost_moments(StudyResult& result) {
     if (s.n < 2 || std::isfinite(s.mean + s.sd + s.sd_se)) continue;
     result.warnings.push_back(
         s.key +
-        ": mean, standard deviation or their standard errors are unknown, because some values are "
-        "far outside the range of the first trials; extremes, quantiles and intervals are valid");
+        ": the mean, the standard deviation or a standard error is unknown, because some values "
+        "are far outside the range of the first trials. Extremes, quantiles and intervals are "
+        "valid");
   }
 }
 

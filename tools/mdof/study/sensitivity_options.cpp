@@ -42,9 +42,8 @@ void declare_preset(CLI::App& command, SensitivityCommand& o) {
       ->group(group)
       ->type_name("FROM TO");
   command
-      .add_option(
-          "--bins", o.bins,
-          "Divide the travel into N equal parts, and print the results of each part as well")
+      .add_option("--bins", o.bins,
+                  "Divide the travel into N equal bins, and also print the results of each bin")
       ->check(CLI::Range(1, static_cast<int>(kMostStudyBins)))
       ->group(group)
       ->type_name("N");
@@ -67,8 +66,8 @@ void declare_trials(CLI::App& command, SensitivityCommand& o) {
                                     "Run trials until the tolerance is reached (JCGM 101 7.9)");
   command
       .add_option("--digits", o.digits,
-                  "Significant digits of each standard deviation that must be stable (JCGM 101, "
-                  "7.9) [default: 2]")
+                  "Number of significant digits of each standard deviation that must be stable "
+                  "(JCGM 101, 7.9) [default: 2]")
       ->needs(adaptive)
       ->type_name("N");
   command.add_option("--tolerance", o.tolerances, "Tolerance of one output, such as EBX_urad=0.01")

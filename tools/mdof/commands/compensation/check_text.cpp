@@ -20,7 +20,7 @@ void write_control(JsonWriter& json, const CheckedError& e, const Control& contr
   json.field("detected", control.detected);
   if (!control.detected && control.too_small)
     json.field("reason",
-               "the effect of the simulated mistake is smaller than the allowed residual");
+               "the effect of the simulated mistake is smaller than the permitted residual");
   json.end_object();
 }
 
@@ -36,7 +36,7 @@ std::string causes_text(const CheckedError& e) {
     text +=
         e.error + ": " + fixed(e.by_reversal * 1e6, 4) + unit +
         (e.approach.empty() ? " remain in each approach"
-                            : " remain if a position is not approached " + e.approach) +
+                            : " remain at positions that are not approached " + e.approach) +
         ", because the errors differ between the approaches and the file has one value for both" +
         (e.one_way ? " (not included in \"after\")\n"
          : e.approach.empty()
@@ -44,8 +44,8 @@ std::string causes_text(const CheckedError& e) {
              : "; if every position is approached " + e.approach + ", give --one-approach\n");
   if (e.outside > kShown)
     text += e.error + ": " + fixed(e.outside * 1e6, 4) + unit +
-            " remain at measured positions beyond the ends of the file, where the controller uses "
-            "the values at the ends (not included in \"before\" and \"after\")\n";
+            " remain at measured positions beyond the ends of the file, because the controller "
+            "uses the values at the ends there (not included in \"before\" and \"after\")\n";
   if (e.error_by_ramp > kShown)
     text +=
         e.error + ": " + fixed(e.error_by_ramp * 1e6, 4) + unit +
@@ -108,8 +108,8 @@ std::string check_text(const controllers::Check& check) {
   const std::size_t columns = terminal_columns();
   const std::string most = plain_number(check.most_residual_m * 1e6);
   std::string text =
-      "limit: the largest residual that can come from the rounding of the format, from "
-      "--tolerance-um and from the causes below. It is never larger than the permitted residual: " +
+      "limit: the largest residual that the rounding of the format, --tolerance-um and the causes "
+      "below can cause, but at most the permitted residual: " +
       most + " µm (angles: " + most + " µrad) and " + plain_number(check.share * 100) +
       " % of \"before\"; see --residual-um and --residual-percent\n";
   for (const CheckedError& e : check.errors) text += causes_text(e);

@@ -135,9 +135,9 @@ Action declare_build(CLI::App& command) {
   command
       .add_option("--add-to", o->add_to,
                   "Number of the table that was active while the runs were measured. The new table "
-                  "is the sum of this table and of the errors that remained. mdof refuses runs "
-                  "that were not measured with this table, and targets that the runs lack. The "
-                  "slope and the reference point are those of this table")
+                  "is the sum of this table and of the remaining errors in the runs. The new table "
+                  "has the slope and the reference point of this table. mdof refuses runs that "
+                  "were not measured with this table, and runs without all targets of this table")
       ->type_name("TABLE");
   add_reference_option(command, o->reference)
       ->description(

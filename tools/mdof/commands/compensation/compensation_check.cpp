@@ -32,8 +32,8 @@ Status check_tables(const CheckTablesCommand& command) {
                 "format; check the unit "
                 "of the measured values");
   return fail(ErrorCode::check,
-              "the exported files do not cancel the errors, or the check does not detect the "
-              "mistakes that it makes on purpose (wrong sign, exchanged approaches)");
+              "the exported files do not cancel the errors, or the check does not detect a "
+              "deliberate mistake (wrong sign, exchanged approaches)");
 }
 
 Action declare_check_tables(CLI::App& command) {
@@ -49,11 +49,10 @@ Command compensation_check_command() {
   return {.name = "compensation check",
           .summary = "Apply an export to a simulated axis and check that the error is cancelled",
           .footer =
-              "mdof writes the files in memory, reads them by the rules of the controller and "
-              "applies them to an axis with the errors of the table. The check must also detect a "
-              "wrong sign and swapped approaches.\n"
-              "Example:\n"
-              "  mdof compensation check 4 --format linuxcnc",
+              "mdof writes the files in memory, reads the files by the rules of the controller, "
+              "and applies the read values to a simulated axis with the errors of the table. The "
+              "check must also detect a wrong sign and exchanged approaches.\nExample:\n "
+              " mdof compensation check 4 --format linuxcnc",
           .declare = declare_check_tables};
 }
 

@@ -49,10 +49,8 @@ std::string live_text(const LiveCompensation& live, const std::string& file) {
   for (const LiveJoint& joint : live.joints)
     joints += std::string(joints.empty() ? "" : ", ") + joint.axis + " joint " +
               std::to_string(joint.joint);
-  return file + "\n" + joints + "\nlargest correction     " + plain_number(live.max_offset) + unit +
-         " (" + live.offset_reason +
-         ")\n"
-         "largest velocity of the correction " +
+  return file + "\n" + joints + "\nlargest permitted correction " + plain_number(live.max_offset) +
+         unit + " (" + live.offset_reason + ")\nlargest permitted velocity of the correction " +
          plain_number(live.max_velocity) + unit + "/s (" + live.velocity_reason +
          ")\n"
          "after a change of tables, the correction changes at a rate of at most " +

@@ -21,8 +21,8 @@ void add_export_options(CLI::App& command, ExportRequest& request, const std::st
   command
       .add_option(
           "--tolerance-um", request.tolerance_um,
-          "Leave out table points that linear interpolation reproduces to within this value "
-          "(for angles: urad)")
+          "Leave out table points; the linear interpolation then differs from the full table by at "
+          "most this value (for angles: urad)")
       ->check(not_negative_number());
   command
       .add_option(
@@ -46,8 +46,8 @@ void add_export_options(CLI::App& command, ExportRequest& request, const std::st
                    "If values are missing, export the longest range without a gap");
   command.add_flag(
       "--one-approach", request.one_approach,
-      "If values exist for one approach only, use them for both approaches. If the format has one "
-      "value for both approaches, accept the reversal error that remains");
+      "If values exist for one approach only, use these values for both approaches. If the format "
+      "has one value for both approaches, accept the remaining reversal error");
   command
       .add_option("--joint", request.joints,
                   "linuxcnc: joints of the axes, such as X=0,Z=1; a gantry has two joints, such as "
@@ -61,8 +61,8 @@ void add_export_options(CLI::App& command, ExportRequest& request, const std::st
   auto* acceleration =
       command
           .add_option("--max-acceleration-mm-s2", request.max_acceleration_mm_s2,
-                      "linuxcnc: MAX_ACCELERATION of the joints; from this value mdof calculates "
-                      "which small reversal errors LinuxCNC does not correct")
+                      "linuxcnc: MAX_ACCELERATION of the joints; with this value mdof finds small "
+                      "reversal errors that LinuxCNC does not correct")
           ->check(positive_number());
   command
       .add_option("--ini", request.ini,

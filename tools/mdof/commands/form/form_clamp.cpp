@@ -154,7 +154,7 @@ std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
                             : ", assumed: the whole clamping deformation is elastic") +
                      "; piston and tilt are removed\n";
   if (found.clamping.K_unexplained_rms_m)
-    text += "plastic deformation that K does not explain: RMS " +
+    text += "plastic deformation minus K times the elastic deformation: RMS " +
             in_um(*found.clamping.K_unexplained_rms_m) + " µm\n";
   if (!found.stress) return text;
   text += "largest stress of the elastic deformation " +
@@ -178,8 +178,8 @@ Status form_clamp(const FormClampCommand& o) {
   show_notices(found.notices, true);
   if (o.released.empty() && !o.K)
     warn(
-        "neither RELEASED nor --K is given: the whole clamping deformation is taken as elastic (K "
-        "= 0)");
+        "neither RELEASED nor --K is given, so mdof assumes that the whole clamping deformation is "
+        "elastic (K = 0)");
   MDOF_CHECK(save_maps(found.clamping.elastic, o.out,
                        {{"clamping", "Deformation by clamping", found.clamping.clamping},
                         {"elastic", "Elastic part of the deformation", found.clamping.elastic},
@@ -219,8 +219,8 @@ Action declare_form_clamp(CLI::App& command) {
       ->check(positive_number());
   command
       .add_option("--smooth-mm", o->smooth_mm,
-                  "Side length of the squares over which mdof fits the curvature; in small "
-                  "squares, pixel noise increases the calculated stress")
+                  "Side length of the squares over which mdof fits the curvature; if the squares "
+                  "are small, pixel noise increases the calculated stress")
       ->check(positive_number())
       ->capture_default_str();
   command

@@ -80,15 +80,15 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
   std::string text =
       "error = CUT - WANTED (measured - nominal); RMS is about the mean\n" + table.text() +
       wrapped(
-          "The next path also corrects the mean and the tilt of the error. If the instrument "
-          "does not measure them relative to the machine, remove them from the maps.",
+          "The next path also corrects the mean and the tilt of the error. If the instrument does "
+          "not measure mean and tilt relative to the machine, remove both from the maps.",
           terminal_columns()) +
       "\n";
   if (found.factor)
     text += "optimal gain " + fixed(*found.factor, 4) +
-            ": the next path corrects this part of the mean error of the passes\n";
+            ": the next path corrects the mean error of the passes times this factor\n";
   if (found.left_by_smoothing_rms_m)
-    text += "error that remains uncorrected, caused by the smoothing (squares of " +
+    text += "error that the next path does not correct because of the smoothing (squares of " +
             plain_number(o.smooth_mm) + " mm): RMS " + in_um(*found.left_by_smoothing_rms_m) +
             " µm\n";
   if (!found.converges) return text + kOnePass + "\nnext path: " + o.out + "\n";

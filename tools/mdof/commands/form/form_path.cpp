@@ -365,9 +365,9 @@ Action declare_form_path(CLI::App& command) {
       ->check(whole_number_in(0, 100))
       ->capture_default_str();
   command
-      .add_option(
-          "--undulation-share", o->undulation_share,
-          "Smallest amplitude that counts as an undulation, as a share of the largest amplitude")
+      .add_option("--undulation-share", o->undulation_share,
+                  "Smallest amplitude of an undulation that mdof counts, as a share of the largest "
+                  "amplitude")
       ->check(number_in(1e-9, 1))
       ->capture_default_str();
   command

@@ -18,9 +18,9 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kScanU =
-    "the noise between neighbouring heights and u of the subtracted axis errors. u does not "
-    "contain the noise that neighbouring heights have in common, errors of the probe calibration, "
-    "the encoder, the spindle and the spindle angle, or undeclared delays of the readings";
+    "the noise between neighbouring heights, and u of the subtracted axis errors. u does not "
+    "contain noise that neighbouring heights have in common, errors of the probe calibration, of "
+    "the encoder, of the spindle and of the spindle angle, or undeclared delays of the readings";
 
 struct FormScanCommand {
   std::vector<std::string> runs;

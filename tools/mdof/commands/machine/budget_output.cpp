@@ -19,8 +19,8 @@ constexpr const char* kNothingDeclared =
     "a measured error";
 constexpr const char* kDirections[] = {"x", "y", "z"};
 constexpr const char* kNotKept =
-    "the measured errors alone exceed the target; the target is not met even if every declared "
-    "source has u = 0";
+    "the measured errors alone exceed the target, so the target is not met even with u = 0 for "
+    "every declared source";
 constexpr const char* kFactorRule = "all u are multiplied by the same factor";
 
 // The indices of the rows, sorted by their part of u_x² + u_y² + u_z², the largest first.
@@ -226,12 +226,12 @@ std::string allocation_text(const FoundAllocation& allocation, double target_um)
     text = std::string(kNotKept) + ".";
   else
     text =
-        "\"allowed u\": if all sources have these u, 95 % of the error vectors are shorter than " +
+        "\"allowed u\": with these u of all sources, 95 % of the error vectors are shorter than " +
         plain_number(target_um, 6) + " µm (" + kFactorRule + ", " +
         fixed(allocation.common_factor, 4) + ").";
   text +=
-      " \"alone\": allowed u of one source if all other sources keep their declared u (\"any\": no "
-      "limit; \"none\": the target is not met even with u = 0)";
+      " \"alone\": largest permitted u of this source if all other sources keep their declared u "
+      "(\"any\": no limit; \"none\": the target is not met even with u = 0)";
   return wrapped(text, terminal_columns()) + "\n";
 }
 
@@ -245,12 +245,12 @@ std::string measured_text(const FoundMachineBudget& found, const std::string& at
                e.has_design ? fixed(e.measured_effect_m / e.designed_effect_m, 2) : "-"});
   std::string text = "\n" + table.text(terminal_columns()) +
                      wrapped(
-                         "Each value is the effect of the error at the tool (RMS over all "
-                         "positions of its error table), with the axes at" +
+                         "Each value is the effect of a measured error on the position of the tool "
+                         "(RMS over all positions of the error table). The axes are at" +
                              at +
-                             ". The effect of an angle or a squareness, and so the order of the "
-                             "rows, depends on this position (--at). At this position, first "
-                             "reduce the error in the first row.",
+                             ". The effect of an angle or a squareness depends on this position "
+                             "(--at), and so does the order of the rows. To improve the machine at "
+                             "this position, first reduce the error in the first row.",
                          terminal_columns()) +
                      "\n";
   if (!found.now.model.replaced.empty())

@@ -109,8 +109,8 @@ Action declare_machine_budget(CLI::App& command) {
   command
       .add_option(
           "--target-um", o->target_um,
-          "Also print the largest u of each source with which 95 % of the error vectors are "
-          "shorter than this length")
+          "Also print the largest permitted u of each source, so that 95 % of the error vectors "
+          "are shorter than this length")
       ->check(positive_number());
   add_json_flag(command, o->json);
   return [o] { return machine_budget(*o); };
@@ -123,14 +123,13 @@ Command machine_budget_command() {
       .name = "machine budget",
       .summary = "Calculate the error budget of a machine and show which error to reduce first",
       .footer =
-          "mdof calculates u by linear propagation (GUM). It calculates intervals and lengths of\n"
-          "error vectors by Monte Carlo with the exact product of rotations. Measured errors\n"
-          "replace the declared sources of the same errors. The keys of MACHINE.toml are in\n"
-          "share/doc/mdof/machine.md.\n"
-          "Examples:\n"
-          "  mdof machine budget --preset co-planar --at X=60,Y=40\n"
-          "  mdof machine budget machine.toml --target-um 0.8\n"
-          "  mdof machine budget machine.toml --run 1 --run 2",
+          "mdof calculates u by linear propagation (GUM), and intervals and lengths of "
+          "error\nvectors by Monte Carlo with the exact product of rotations. Measured "
+          "errors\nreplace the declared sources of the same errors. The keys of MACHINE.toml are "
+          "in\nshare/doc/mdof/machine.md.\nExamples:\n "
+          " mdof machine budget --preset co-planar --at X=60,Y=40\n "
+          " mdof machine budget machine.toml --target-um 0.8\n "
+          " mdof machine budget machine.toml --run 1 --run 2",
       .declare = declare_machine_budget};
 }
 

@@ -93,8 +93,9 @@ std::string compensating_text(const Machine& machine, const FoundError& found) {
   if (!found.compensating) return "the machine has no linear axis that could correct the error\n";
   const auto& c = *found.compensating;
   std::string text = c.converged ? "the tool reaches the nominal position with the commands"
-                                 : "NOT CONVERGED: the errors change too much with the position to "
-                                   "calculate a compensating command\nlast commands tried:";
+                                 : "NOT CONVERGED: the errors change so much with the position "
+                                   "that mdof cannot calculate a compensating command\ncommands of "
+                                   "the last iteration:";
   for (const MachineFrame& frame : machine.frames)
     if (frame.kind == FrameKind::linear) {
       const double to = algo::command_of(frame, c.command);

@@ -219,9 +219,9 @@ std::string grooving_text(const algo::GroovingStudy& s) {
          "\n\n" + grooving_rotary_text(s.table) +
          wrapped(
              "A range is the largest minus the smallest value. The errors of the simulated "
-             "machine, including the yaw of Y, are chosen so that the ranges before the correction "
-             "are near those of the paper. The study shows the method, not the machine of the "
-             "paper. The corrections have " +
+             "machine, including the yaw of Y, were chosen such that the ranges before the "
+             "correction are near the ranges in the paper. The study shows the method of the "
+             "paper, not its machine. The corrections have " +
                  std::to_string(s.corrections.nodes()) +
                  " nodes; the option --out writes the corrections and the measured errors.",
              terminal_columns()) +

@@ -119,7 +119,7 @@ Action declare_import(CLI::App& command) {
       });
   add_limit_options(command, o->limits);
   command.add_flag("--despite-warnings", o->request.despite_warnings,
-                   "Import the file even if mdof warns about it");
+                   "Import the file even if mdof prints warnings about the file");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);

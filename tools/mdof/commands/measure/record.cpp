@@ -79,7 +79,9 @@ std::string progress_line(const auto& event) {
   std::string line = "point " + std::to_string(points);
   if (of) line += " of " + std::to_string(*of);
   if (all > points)
-    line += ", " + std::to_string(all - points) + " more were not solved or not requested";
+    line += ", " + std::to_string(all - points) +
+            " more have no error values or were not "
+            "requested";
   const double awaited_mm = number(event, "awaited_mm");
   return points == of || std::isnan(awaited_mm) ? line
                                                 : line + ", next " + fixed(awaited_mm, 3) + " mm";
@@ -181,8 +183,8 @@ Status record(RecordCommand command) {
   if (id != run)
     say("run " + std::to_string(id) + " contains the result and replaces run " +
         std::to_string(run) +
-        ", because mdofd numbered the targets again when all of them were known. \"mdof runs\" "
-        "lists the replaced run only with --all");
+        ", because mdofd numbered the targets again at the end of the run. \"mdof runs\" lists the "
+        "replaced run only with --all");
   JsonWriter params;
   params.begin_object().field("run", id).end_object();
   MDOF_TRY(const std::string result, client.call("run.get", params.text()));

@@ -63,9 +63,9 @@ std::string dropped_text(const MillingSensitivityRequest& request,
   for (const OutputSummary& output : found.outputs) dropped = std::max(dropped, output.unsolved);
   if (dropped == 0) return "";
   return wrapped(std::to_string(dropped) + " of " + std::to_string(request.trials) +
-                     " trials have no result, because the drawn inputs are no cut or have no "
-                     "equilibrium of force and deflection; u and shares do not contain these "
-                     "trials",
+                     " trials have no result, because their inputs do not describe a cut, or "
+                     "because force and deflection have no equilibrium. u and shares do not "
+                     "contain these trials",
                  terminal_columns()) +
          "\n";
 }
@@ -163,9 +163,9 @@ std::string milling_sensitivity_text(const MillingSensitivityRequest& request,
                   [](const algo::VaryingInput& input) { return !input.declared; }))
     text += "* u is taken as 1 % of the value, because the plan declares no u of this input\n";
   return text + "\n" + shares.text(terminal_columns()) +
-         wrapped("share: total Sobol index, which includes interactions, by " +
+         wrapped("share: total Sobol index (with interactions), from " +
                      std::to_string(request.trials) +
-                     " trials, with its standard error (smaller with more --trials)",
+                     " trials, and its standard error, which decreases with more --trials",
                  terminal_columns()) +
          "\n" + dropped_text(request, found);
 }

@@ -181,15 +181,16 @@ std::string assumptions_text(const LoadedPart& part) {
   for (const auto& [axis, points] : part.unknown_approach)
     text += wrapped("axis " + axis + " has not moved before " + std::to_string(points) +
                         (points == 1 ? " point" : " points") +
-                        " of the path, so its approach is unknown there; the mean of both "
-                        "approaches is used",
+                        " of the path, so the approach is unknown at these points; mdof uses the "
+                        "mean of both approaches",
                     terminal_columns()) +
             "\n";
   if (std::any_of(part.causes.begin(), part.causes.end(), has_only_u))
     text += wrapped(
-                "RMS of a layer or cause with u and without value: root of the expected mean "
-                "square. The largest error and the error of 95 % of the points are medians of the "
-                "trials, so this RMS can be larger.",
+                "At least one cause has an uncertainty u, but no value. The RMS of such a cause "
+                "and of its layer is the root of the expected mean square. The largest error and "
+                "the error of 95 % of the points are medians of the trials, so this RMS can be "
+                "larger.",
                 terminal_columns()) +
             "\n";
   return text;

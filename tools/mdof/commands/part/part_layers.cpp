@@ -34,8 +34,8 @@ Result<algo::PartPath> load_path(const std::string& file) {
   for (std::size_t k = 4; k < 6; ++k)
     if (csv.columns[k].empty() == has_normals)
       return bad_input(csv.source +
-                       ": only some of the columns nx, ny, nz exist; give all three columns or "
-                       "none of these columns");
+                       ": one or two of the columns nx, ny, nz are missing; give all three "
+                       "columns, or remove all three");
   if (csv.rows() < 2)
     return bad_input(csv.source + ": the path has fewer than two points; give two or more points");
   for (std::size_t k = 0; k < csv.rows(); ++k) {

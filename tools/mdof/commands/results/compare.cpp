@@ -89,10 +89,11 @@ std::string comparison_text(const daemon::Comparison& c) {
          wrapped("± is the standard uncertainty u, U the expanded uncertainty (95 %). u contains " +
                      covers_text(c) +
                      ". The change is |after| - |before|. U of the change treats the runs as "
-                     "independent. Uncertainties that both runs share cancel, so this U tends to "
-                     "be too large. If the sign of a figure has changed, the shared uncertainties "
-                     "add, and u of the change is u before plus u after. Effect \"changed\": the "
-                     "size is the same within U, but the sign or the shape has changed.",
+                     "independent. Uncertainties that both runs have in common cancel, so this U "
+                     "is more likely too large than too small. If the sign of a figure has "
+                     "changed, the common uncertainties add, and u of the change is u before plus "
+                     "u after. Effect \"changed\": the magnitude is the same within U, but the "
+                     "sign or the shape has changed.",
                  terminal_columns()) +
          "\n";
 }

@@ -124,8 +124,9 @@ Result<drivers::PositioningCsv> readings_of_imported(const Run& run) {
   const std::string name = "run " + std::to_string(run.header.id);
   if (run.header.provenance.model != positioning_name(run.header.axis))
     return bad_input(name + " was imported as " + run.header.provenance.model +
-                     ", but of the imported runs, only positioning errors (" +
-                     positioning_name(run.header.axis) + ") have parameters of ISO 230-2");
+                     "; for an imported run, mdof calculates parameters of ISO 230-2 only if the "
+                     "run contains positioning errors (" +
+                     positioning_name(run.header.axis) + ")");
   if (daemon::has_unknown_approach(run))
     return bad_input(name +
                      ": the file does not state the approach of each reading, which ISO 230-2 "
@@ -171,9 +172,9 @@ Status iso230_of_run(const Iso230Command& command) {
   }
   if (uncertainty_of(command))
     return fail(ErrorCode::usage,
-                "--device-limit-um and --drift-um apply to files and imported runs; the "
-                "uncertainties of run " +
-                    std::to_string(id) + " are those of its rig");
+                "--device-limit-um and --drift-um apply to files and imported runs only; leave "
+                "them out, because mdof takes the uncertainties of run " +
+                    std::to_string(id) + " from its rig");
   MDOF_TRY(const RunPositioning found,
            run_positioning(run, command.of_run, from_mm(command.scale_period_mm)));
   show_notices(found.notices, command.all_warnings);
@@ -232,7 +233,8 @@ Action declare_iso230_2(CLI::App& command) {
   command
       .add_option(
           "--drift-um", o->drift_um,
-          "E_VE: range of the readings with the axis at rest, over the duration of the test")
+          "Drift E_VE (ISO/TR 230-9): range of the readings with the axis at rest, over the "
+          "duration of the test")
       ->check(not_negative_number());
   add_database_option(command, o->database);
   add_plot_option(command, o->plots);

@@ -61,12 +61,12 @@ std::string parallelism_text(const Parallelism& found) {
              "The result is valid only if neither the target nor the fixture was moved relative to "
              "the machine between the runs. ± is the standard uncertainty u. It contains " +
                  covers_text(found.planes.front().budget) +
-                 ". Scale, linearity and tilt factor of a probe and the flatness of a plane are "
-                 "common to both runs if both rigs declare them, and count by the difference of "
-                 "their effects. All other declared uncertainties are taken as independent between "
-                 "the runs, so u may be too large if the set-up stayed the same. The result uses "
-                 "the "
-                 "least-squares slopes. All slopes refer to the fixture.",
+                 ". mdof treats the scale, linearity and tilt factor of a probe and the flatness "
+                 "of a plane as common to both runs if both rigs declare the uncertainty; u then "
+                 "contains only the difference of both effects. mdof treats all other declared "
+                 "uncertainties as independent, so u may be too large if the set-up stayed the "
+                 "same. The result uses the least-squares slopes. All slopes refer to the "
+                 "fixture.",
              terminal_columns()) +
          "\n";
 }

@@ -83,7 +83,7 @@ Action declare_show(CLI::App& command) {
     return [choice, extent](std::int64_t) { choice->extent = extent; };
   };
   auto* all = command.add_flag_function("--all", set(Extent::all),
-                                        "Show all points, then as with --figures");
+                                        "Show all points, and then the output of --figures");
   command
       .add_flag_function("--figures", set(Extent::figures),
                          "Show straightness for each reference line and approach, angles, closure "

@@ -144,7 +144,8 @@ std::string brief_text(const std::vector<daemon::Trend>& trends) {
   }
   return table.text(terminal_columns()) + "± is the standard uncertainty u.\n" + sentences +
          (left_out > 0 ? "values left out: " + std::to_string(left_out) + "\n" : "") +
-         "--all shows the values of all runs, what u covers, and what was left out.\n";
+         "--all shows the values of all runs, the contributions to u, and the runs that were left "
+         "out.\n";
 }
 
 std::string text_of(const std::vector<daemon::Trend>& trends, bool all) {

@@ -223,7 +223,7 @@ void add_source_options(CLI::App& command, SourceOptions& o) {
     return option->each([&o](const std::string&) { o.sides_given = true; });
   };
   of_files(command.add_option("--moves", o.moves,
-                              "For files: what the axis moves, the target or the fixture"))
+                              "For files: body that the axis moves, the target or the fixture"))
       ->check(CLI::IsMember({"target", "fixture"}));
   of_files(command.add_option(
                "--travel", o.travel,

@@ -119,7 +119,7 @@ Action declare_studies(CLI::App& command) {
 
 Command studies_command() {
   return {.name = "studies",
-          .summary = "List the stored studies, newest first, or show the result of one",
+          .summary = "List the stored studies, newest first, or show the result of one study",
           .footer =
               "Examples:\n"
               "  mdof studies --count 10\n"

@@ -34,7 +34,8 @@ std::string closures_text(const Run& run, const std::vector<algo::Closure>& clos
       row.push_back(names[k].angle ? in_urad(change[k]) : in_um(change[k]));
     table.add(std::move(row));
   }
-  return "closure: change of the errors at the fixture, back at the start of a run\n" +
+  return "closure: change of the errors between the first point of a run and a later point at the "
+         "same target; errors at the fixture\n" +
          table.text(width);
 }
 
@@ -77,9 +78,9 @@ std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_
   std::string text;
   if (!changes.empty())
     text += wrapped("drift: " + changes +
-                        ". All errors of a single approach and all errors relative to the start "
-                        "contain this drift. Let the system warm up (\"mdof drift\" shows when the "
-                        "system is ready), or replay the log with --remove-drift",
+                        ". All errors of a single approach, and all errors relative to the first "
+                        "point, contain this drift. Let the system warm up (\"mdof drift\" shows "
+                        "when the system is ready), or replay the log with --remove-drift",
                     width) +
             "\n";
   if (!steps.empty())

@@ -73,8 +73,8 @@ std::string fit_text(const Separation& fit) {
             std::to_string(fit.freedom()) + " degrees of freedom)";
   else
     text +=
-        "\nno degrees of freedom: mdof cannot detect a wrong order, sign or length of the stated "
-        "turns and shifts;\nanother set-up makes a test possible";
+        "\nThe fit has no degrees of freedom, so mdof cannot detect a wrong order, sign or length "
+        "of the stated turns\nand shifts. Measure another set-up to make a test possible";
   return text + "\n";
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
+#include "algo/part/true_scale.h"
 #include "schema/base/random.h"
 
 namespace mdof::algo {
@@ -14,7 +14,7 @@ constexpr std::size_t kPointsPerTrial =
 
 // Normally distributed random numbers with variance 1, one for each quantity: the errors of the
 // measured values or the unknown errors (`xi`), and the errors that turn the measured value in
-// another direction (`turn`).
+// another direction (`turn`, only for mean squares).
 struct Trial {
   std::vector<double> xi, turn;
 };
@@ -252,16 +252,16 @@ std::vector<double> drawn_field(const std::vector<Effect>& effects, const std::v
   return field;
 }
 
-// The magnitude at each point of scale * value + sign * field.
+// The magnitude at each point of scale * value + error.
 std::vector<double> sizes(const std::vector<double>& value, double scale,
-                          const std::vector<double>& field, double sign, std::size_t width) {
+                          const std::vector<double>& error, std::size_t width) {
   std::vector<double> found;
   found.reserve(value.size() / width);
   for (std::size_t k = 0; k < value.size(); k += width) {
     double square = 0;
     for (std::size_t i = k; i < k + width; ++i) {
-      const double error = scale * value[i] + sign * field[i];
-      square += error * error;
+      const double sum = scale * value[i] + error[i];
+      square += sum * sum;
     }
     found.push_back(std::sqrt(square));
   }
@@ -282,39 +282,6 @@ double figure_of(std::vector<double> sizes, std::size_t within) {
   const auto k = sizes.begin() + static_cast<std::ptrdiff_t>(within) - 1;
   std::nth_element(sizes.begin(), k, sizes.end());
   return *k;
-}
-
-// Returns the largest factor s >= 0 for which `within` points have |s way - error| <= most_m.
-// Each point has an interval of s. If there is none, s makes the sum of |s way - error|^2
-// smallest.
-double true_scale(const std::vector<double>& way, const std::vector<double>& error,
-                  std::size_t width, std::size_t within, double most_m) {
-  std::vector<double> begins, ends;
-  double all_vv = 0, all_ve = 0;
-  for (std::size_t k = 0; k < way.size(); k += width) {
-    double vv = 0, ve = 0, ee = 0;
-    for (std::size_t i = k; i < k + width; ++i) {
-      vv += way[i] * way[i];
-      ve += way[i] * error[i];
-      ee += error[i] * error[i];
-    }
-    all_vv += vv;
-    all_ve += ve;
-    const double root = ve * ve - vv * (ee - most_m * most_m);
-    if (vv == 0 && within > 0 && ee <= most_m * most_m) --within;
-    if (vv == 0 || root < 0) continue;
-    begins.push_back((ve - std::sqrt(root)) / vv);
-    ends.push_back((ve + std::sqrt(root)) / vv);
-  }
-  std::sort(begins.begin(), begins.end(), std::greater<>());
-  std::sort(ends.begin(), ends.end(), std::greater<>());
-  // At ends[k], the intervals of k + 1 points have not ended, and those of `late` have not begun.
-  std::size_t late = 0;
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    while (late < begins.size() && begins[late] > ends[k]) ++late;
-    if (k + 1 - late >= within) return std::max(0.0, ends[k]);
-  }
-  return all_vv > 0 ? std::max(0.0, all_ve / all_vv) : 0;
 }
 
 // Returns the index of the point with the largest expected square of the error. The values of a
@@ -342,16 +309,17 @@ bool has_u(const std::vector<Effect>& effects) {
   });
 }
 
-// The median and the interval of the error that a share of the points does not exceed. `within`:
-// the number of these points among a number of points. The trials may use fewer points than the
-// path; they are compared with the figure of the values at the same points.
+// The median and the interval of the error that a share of the points does not exceed (README.md).
+// `within`: the number of these points among a number of points. The trials may use fewer points
+// than the path; they are compared with the figure of the values at the same points.
 void find_figure(const Sums& sums, std::size_t (*within)(std::size_t points),
                  const PartTrials& trials, std::size_t width, std::size_t every, double& estimate_m,
                  Interval& interval_m) {
-  const auto figure = [&](const std::vector<double>& sizes) {
-    return figure_of(sizes, within(sizes.size()));
+  const auto figure = [&](const std::vector<double>& value, double scale,
+                          const std::vector<double>& error) {
+    return figure_of(sizes(value, scale, error, width), within(value.size() / width));
   };
-  const double whole_m = figure(sizes(sums.all.value, 1, sums.all.value, 0, width));
+  const double whole_m = figure(sums.all.value, 0, sums.all.value);
   estimate_m = whole_m;
   interval_m = {whole_m, whole_m};
   // Without u, trials would give an interval of the width of the rounding errors.
@@ -359,21 +327,31 @@ void find_figure(const Sums& sums, std::size_t (*within)(std::size_t points),
   const std::vector<double> value = thinned(sums.all.value, width, every);
   const std::vector<Effect> measured = thinned(sums.all.measured, width, every),
                             unknown = thinned(sums.all.unknown, width, every);
-  const double value_m = figure(sizes(value, 1, value, 0, width));
-  std::vector<double> found, spread;  // with and without the factor s
+  const double value_m = figure(value, 0, value);
+  std::vector<double> propagated, noise_alone, medians, lows;
+  std::vector<ScaleRange> ranges;
+  std::vector<std::vector<double>> unknown_errors;
   for (std::size_t trial = 0; trial < trials.errors; ++trial) {
     const Trial random = drawn(trials.seed, trial, sums.random_numbers);
-    std::vector<double> way = drawn_field(measured, random.turn, value.size());
-    add(value, way);
-    const std::vector<double> error = drawn_field(unknown, random.xi, value.size());
-    const double scale = true_scale(way, drawn_field(measured, random.xi, value.size()), width,
-                                    within(value.size() / width), value_m);
-    found.push_back(whole_m - value_m + figure(sizes(way, scale, error, 1, width)));
-    spread.push_back(whole_m - value_m + figure(sizes(way, 1, error, 1, width)));
+    std::vector<double> error = drawn_field(measured, random.xi, value.size());
+    noise_alone.push_back(figure(value, 0, error));
+    ranges.push_back(possible_scales(value, error, width, within(value.size() / width), value_m));
+    unknown_errors.push_back(drawn_field(unknown, random.xi, value.size()));
+    medians.push_back(figure(value, ranges.back().high, unknown_errors.back()));
+    add(unknown_errors.back(), error);
+    propagated.push_back(figure(value, 1, error));
   }
-  const Interval with_scale = interval_of(found), without = interval_of(spread);
-  interval_m = {std::min(with_scale.low, without.low), std::max(with_scale.high, without.high)};
-  estimate_m = found[found.size() / 2];
+  // Random true errors can be above the upper end, also where the measured errors are small.
+  const double always_m = has_u(unknown) ? 0 : interval_of(noise_alone).high;
+  const std::vector<double> scales = drawn_scales(ranges);
+  for (std::size_t k = 0; k < scales.size(); ++k)
+    lows.push_back(figure(value, lower_scale(scales, k, value_m, always_m), unknown_errors[k]));
+  const double rest_m = whole_m - value_m;  // by the points that the trials leave out
+  const double low_m = interval_of(lows).low;
+  interval_m = {low_m > 0 ? std::max(0.0, rest_m + low_m) : 0,
+                rest_m + interval_of(propagated).high};
+  std::sort(medians.begin(), medians.end());
+  estimate_m = rest_m + medians[medians.size() / 2];
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::
   }
   if (table.rows() <= most_rows) return {};
   return bad_input(table.source + ": has more than " + std::to_string(most_rows) +
-                   " rows, which is the limit for a series of targets");
+                   " rows, which is the limit; leave out rows");
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(FieldNames, RegularExpressionsMatchTheirFields) {
 TEST(Shape, IsConvertedToAJsonSchema) {
   EXPECT_EQ(
       json_schema("{active, scans_lost?}"),
-      R"({"type":"object","properties":{"active":{"type":"boolean","description":"the table is active"},)"
+      R"({"type":"object","properties":{"active":{"type":"boolean","description":"true: the table is active"},)"
       R"("scans_lost":{"type":["integer","null"],"description":"number of scans that are missing; null: )"
       R"(the scans of the log are not numbered"}},"required":["active"],"additionalProperties":false})");
   EXPECT_EQ(json_schema("{}"), R"({"type":"object","additionalProperties":false})");

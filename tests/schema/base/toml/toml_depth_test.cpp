@@ -29,7 +29,7 @@ TEST(TomlDepth, IsLimitedBeforeParsing) {
         repeated("\"x.y\" . ", 40'000) + "a = 1",
         "a = " + repeated("[{" + repeated("a.", 30) + "a=", 200) + "1" + repeated("}]", 200)})
     EXPECT_EQ(refusal("name = 1\n" + deep),
-              "rig.toml:2: nested more than 32 levels deep by dotted keys or brackets; use "
+              "rig.toml:2: nested more than 32 levels deep (by dotted keys or brackets); use "
               "fewer levels")
         << deep.substr(0, 40);
 }

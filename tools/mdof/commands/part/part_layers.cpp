@@ -23,6 +23,7 @@ namespace {
 
 using Field = std::vector<Eigen::Vector3d>;
 constexpr std::size_t kMostPoints = 100'000;
+constexpr double kMostPlace_mm = 1e6;  // 1 km: larger coordinates have another unit
 
 // ---- the path ----
 
@@ -39,6 +40,11 @@ Result<algo::PartPath> load_path(const std::string& file) {
   if (csv.rows() < 2)
     return bad_input(csv.source + ": the path has fewer than two points; give two or more points");
   for (std::size_t k = 0; k < csv.rows(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(std::abs(csv.columns[i][k]) <= kMostPlace_mm))
+        return bad_input(csv.where(k) + "a coordinate of the path is " +
+                         plain_number(csv.columns[i][k]) +
+                         " mm; the limit is 1 km; give the coordinates in mm");
     path.at_m.emplace_back(from_mm(csv.columns[0][k]), from_mm(csv.columns[1][k]),
                            from_mm(csv.columns[2][k]));
     if (!has_normals) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -164,29 +165,40 @@ Status add_applied(const CompensationTable& stored, CompensationTable& table) {
   return {};
 }
 
-Notices residual_notices(const CompensationTable& stored, const CompensationTable& table) {
+Notices residual_notices(const CompensationTable& stored, const CompensationTable* earlier,
+                         const CompensationTable& table) {
   const CompensationTable applied = with_curvatures(stored);
+  const auto base = earlier ? std::optional(with_curvatures(*earlier)) : std::nullopt;
   Notices found;
   const CorrectionSigns signs = signs_of_table(applied);
   for (std::size_t k = 0; k < 5; ++k) {
     if (signs.factor[k] == 0) continue;
-    Similarity values, reversal;
+    Similarity values, reversal, added, added_reversal;
     for (std::size_t i = 0; i < table.position_m.size(); ++i) {
-      const auto at = [&](TableSide side) {
-        return table_at(applied, table.position_m[i], side).error[k];
+      const auto at = [&](const CompensationTable& of, TableSide side) {
+        return table_at(of, table.position_m[i], side).error[k];
       };
-      const double f = at(TableSide::forward), r = at(TableSide::reverse);
+      const double f = at(applied, TableSide::forward), r = at(applied, TableSide::reverse);
       const double u_f = table.u_of(table.u_forward, k, i), u_r = table.u_of(table.u_reverse, k, i);
       const double left_f = table.forward[k][i] - f, left_r = table.reverse[k][i] - r;
-      values.add(left_f, f, u_f);
-      values.add(left_r, r, u_r);
-      reversal.add(left_f - left_r, f - r, std::hypot(u_f, u_r));
+      const auto add = [&](double of_f, double of_r, Similarity& both, Similarity& difference) {
+        both.add(left_f, of_f, u_f);
+        both.add(left_r, of_r, u_r);
+        difference.add(left_f - left_r, of_f - of_r, std::hypot(u_f, u_r));
+      };
+      add(f, r, values, reversal);
+      if (base)
+        add(f - at(*base, TableSide::forward), r - at(*base, TableSide::reverse), added,
+            added_reversal);
     }
-    const char* const error = error_names(table.axis)[k].name;
-    if (values.is_similar())
-      found.push_back(values.notice(error, "errors", applied.id));
-    else if (reversal.is_similar())
-      found.push_back(reversal.notice(error, "reversal errors", applied.id));
+    for (const auto& [similarity, part] : {std::pair{&values, "errors"},
+                                           {&reversal, "reversal errors"},
+                                           {&added, "added errors"},
+                                           {&added_reversal, "added reversal errors"}}) {
+      if (!similarity->is_similar()) continue;
+      found.push_back(similarity->notice(error_names(table.axis)[k].name, part, applied.id));
+      break;
+    }
   }
   return found;
 }

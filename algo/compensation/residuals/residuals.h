@@ -22,7 +22,10 @@ Status add_applied(const CompensationTable& applied, CompensationTable& table);
 
 // Notices if the residuals in `table` (a result of add_applied()) are similar to `applied`. Then
 // the controller probably did not apply this table, or with the wrong sign, or not for each
-// approach, and the sum is wrong.
-Notices residual_notices(const CompensationTable& applied, const CompensationTable& table);
+// approach, and the sum is wrong. `earlier`: the table to which `applied` was added, or null. Then
+// the residuals are also compared with the errors that were added: if the controller applies no
+// table, the share of the residuals in the growing sum decreases (1, 1/2, 1/3 …).
+Notices residual_notices(const CompensationTable& applied, const CompensationTable* earlier,
+                         const CompensationTable& table);
 
 }  // namespace mdof::algo

@@ -1,5 +1,6 @@
 #include "daemon/measure/gate/added_table.h"
 
+#include <optional>
 #include <string>
 
 #include "algo/compensation/residuals/residuals.h"
@@ -56,7 +57,11 @@ Result<CompensationTable> applied_table(store::Store& store, TableRequest& reque
 Result<Notices> added_notices(store::Store& store, const CompensationTable& table) {
   if (!table.added_to) return Notices();
   MDOF_TRY(const CompensationTable applied, store.table(*table.added_to));
-  Notices found = algo::residual_notices(applied, table);
+  std::optional<CompensationTable> earlier;
+  if (applied.added_to) {
+    MDOF_TRY(earlier, store.table(*applied.added_to));
+  }
+  Notices found = algo::residual_notices(applied, earlier ? &*earlier : nullptr, table);
   MDOF_TRY(const RunHeader before, store.run_header(applied.runs.front()));
   MDOF_TRY(const RunHeader after, store.run_header(table.runs.front()));
   if (result_content(before.provenance.rig_text) != result_content(after.provenance.rig_text))

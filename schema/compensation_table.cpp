@@ -13,6 +13,7 @@ namespace mdof {
 bool CompensationTable::noise_only() const {
   if (!has_declared()) return true;
   if (has_positioning() || not_declared.empty()) return false;
+  if (!rigs_declare) return true;  // u_declared is that of removed drifts
   for (const auto* u_random : {&u_forward, &u_reverse})
     for (std::size_t k = 0; k < u_declared.size(); ++k)
       for (std::size_t i = 0; i < position_m.size(); ++i)
@@ -69,12 +70,13 @@ Covers covers(const CompensationTable& table) {
   if (table.has_positioning())
     return {table.has_declared() ? Covered::repeatability_import : Covered::repeatability_only};
   return covers({.noise_only = table.noise_only(),
-                 .declares = table.has_declared(),
+                 .declares = table.has_declared() && table.rigs_declare,
                  .repeated = !table.visited_once});
 }
 
-void add_not_declared(CompensationTable& table, const std::vector<std::string>& keys) {
-  for (const std::string& key : keys)
+void add_declarations(CompensationTable& table, const Rig& rig) {
+  table.rigs_declare = table.rigs_declare || rig.declares_uncertainty();
+  for (const std::string& key : rig.undeclared_uncertainties())
     if (std::find(table.not_declared.begin(), table.not_declared.end(), key) ==
         table.not_declared.end())
       table.not_declared.push_back(key);

@@ -11,6 +11,7 @@
 #include "schema/axis.h"
 #include "schema/rig/chain.h"
 #include "schema/rig/reference.h"
+#include "schema/rig/rig.h"
 #include "schema/uncertainty/covers.h"
 
 namespace mdof {
@@ -45,9 +46,9 @@ struct CompensationTable {
   std::array<std::vector<double>, 5> forward, reverse;
   // Standard uncertainty from noise and repeatability.
   std::array<std::vector<double>, 5> u_forward, u_reverse;
-  // Standard uncertainty from the declarations of the rigs: one value for both approaches, the
-  // larger of their two values. Empty: the rigs declare nothing, or the table is older than this
-  // member.
+  // Standard uncertainty from the declarations of the rigs and from removed drifts: one value for
+  // both approaches, the larger of their two values. Empty: there is neither of them, or the table
+  // is older than this member.
   std::array<std::vector<double>, 5> u_declared;
   // Curvature of the error in each interval, for u between targets
   // (algo/compensation/between_targets.h). It is calculated from the values and not stored; empty
@@ -61,6 +62,7 @@ struct CompensationTable {
   // Keys that the rigs of the runs do not declare; u does not include the contributions of these
   // keys. They are read from the rigs and not stored.
   std::vector<std::string> not_declared;
+  bool rigs_declare = false;  // whether a rig declares any uncertainty; as above
   // True: no target was visited twice from the same side, so that u contains no repeatability. It
   // is found from the points of the runs and not stored.
   bool visited_once = false;
@@ -107,8 +109,8 @@ std::string table_sha256(const CompensationTable& table);
 
 // The contributions that u of the table includes.
 Covers covers(const CompensationTable& table);
-// Appends the keys that the rig of a run does not declare; a key that the table already has is not
-// repeated.
-void add_not_declared(CompensationTable& table, const std::vector<std::string>& keys);
+// Sets rigs_declare if the rig of a run declares an uncertainty. Appends the keys that the rig does
+// not declare; a key that the table already has is not repeated.
+void add_declarations(CompensationTable& table, const Rig& rig);
 
 }  // namespace mdof

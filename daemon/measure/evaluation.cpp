@@ -186,7 +186,7 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& aske
   }
   MDOF_TRY(CompensationTable table, algo::build_table(runs, options));
   const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
-  for (const Rig& rig : rigs) add_not_declared(table, rig.undeclared_uncertainties());
+  for (const Rig& rig : rigs) add_declarations(table, rig);
   if (applied) MDOF_CHECK(algo::add_applied(*applied, table));
   MDOF_CHECK(algo::check_limits(table, request.limits));
   MDOF_TRY(Notices notices, table_notices(runs));
@@ -214,7 +214,7 @@ Result<CompensationTable> means_by_target(const Run& run) {
   MDOF_TRY(CompensationTable table, algo::build_table({run}, options));
   MDOF_CHECK(algo::add_declared_uncertainty(table, {rig}, {run}, options));
   MDOF_CHECK(algo::join_approaches({run}, options, table));
-  add_not_declared(table, rig.undeclared_uncertainties());
+  add_declarations(table, rig);
   return table;
 }
 

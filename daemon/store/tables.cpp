@@ -258,7 +258,7 @@ Result<CompensationTable> Store::table_of(Statement& row) {
   for (const std::int64_t run : table.runs) {
     MDOF_TRY(const RunHeader header, run_header(run));
     if (const auto rig = parse_rig(header.provenance.rig_text, "its rig"))
-      add_not_declared(table, rig->undeclared_uncertainties());
+      add_declarations(table, *rig);
   }
   MDOF_TRY(const auto repeated,
            integers("SELECT target FROM point WHERE direction <> 0 AND reason IS NULL AND run IN "

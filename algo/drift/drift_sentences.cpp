@@ -57,9 +57,13 @@ Notices removal_notices(const RunDrift& drift, const MovingAxis& moving) {
   const std::string removed = changes_text(drift, moving, false);
   const std::string left = changes_text(drift, moving, true);
   Notices found;
-  found.push_back(removed.empty() ? notice(NoticeCode::drift_not_removed, "",
-                                           {{"reason", "no change is significant"}})
-                                  : notice(NoticeCode::drift_removed, "", {{"changes", removed}}));
+  found.push_back(removed.empty()
+                      ? notice(NoticeCode::drift_not_removed, "",
+                               {{"reason",
+                                 "no drift can be distinguished from noise, steps and a "
+                                 "variation whose period is about the duration of one "
+                                 "run"}})
+                      : notice(NoticeCode::drift_removed, "", {{"changes", removed}}));
   if (!left.empty())
     found.push_back(notice(NoticeCode::steps_not_removed, "", {{"changes", left}}));
   return found;

@@ -42,15 +42,20 @@ static_assert(std::none_of(kPatterns.begin(), kPatterns.end(),
 struct GermanName {
   std::string_view english, german;
 };
-constexpr GermanName kNames[] = {{"forward", "vorwärts"},
-                                 {"reverse", "rückwärts"},
-                                 {"any target", "irgendeiner Sollposition"},
-                                 {"target ", "Sollposition "},
-                                 {"targets ", "Sollpositionen "},
-                                 {"run ", "Lauf "},
-                                 {"runs ", "Läufe "},
-                                 {"the end", "zum Ende"},
-                                 {"no change is significant", "keine Änderung ist signifikant"}};
+constexpr GermanName kNames[] = {
+    {"forward", "vorwärts"},
+    {"reverse", "rückwärts"},
+    {"any target", "irgendeiner Sollposition"},
+    {"target ", "Sollposition "},
+    {"targets ", "Sollpositionen "},
+    {"run ", "Lauf "},
+    {"runs ", "Läufe "},
+    {"the end", "zum Ende"},
+    {"no drift can be distinguished from noise, steps and a variation whose period is about the "
+     "duration of one run",
+     "keine Drift lässt sich von Rauschen, Sprüngen und einer Schwankung unterscheiden, deren "
+     "Periode etwa die Dauer eines Laufs ist"},
+    {"no change is significant", "keine Änderung ist signifikant"}};
 // Words within a list of numbers or names, and within the text of a drift.
 constexpr GermanName kInList[] = {{" to ", " bis "}, {" and ", " und "}};
 constexpr GermanName kInDrift[] = {

@@ -172,7 +172,7 @@ class Database(unittest.TestCase):
             os.rename(path + ".other", path)
         spoils = {"-wal was deleted": lambda db: os.remove(db + "-wal"), "-wal was replaced": lambda db: replace(db + "-wal"),
                   "-shm was deleted": lambda db: os.remove(db + "-shm"), "-shm was replaced": lambda db: replace(db + "-shm"),
-                  "-shm was cut short": lambda db: os.truncate(db + "-shm", 0)}
+                  "-shm was truncated": lambda db: os.truncate(db + "-shm", 0)}
         for reason, spoil in spoils.items():
             with self.subTest(reason):
                 before = self.acknowledged()
@@ -196,7 +196,7 @@ class Database(unittest.TestCase):
         self.head_told()
         os.truncate(self.daemon.database + "-wal", 0)
         told = self.lost()
-        self.assertIn("-wal was cut short", told)
+        self.assertIn("-wal was truncated", told)
         self.assertIn("may be missing", told)
         self.daemon.kill()
         self.client = self.daemon.start()

@@ -65,8 +65,10 @@ TEST(DriftSentences, ReportRemovedAndRemainingDrifts) {
   const std::string both = test::shown(removal_notices(drift, {Axis::x, {}}));
   EXPECT_EQ(both.find("drift_removed changes=EYX +0.2500"), 0U) << both;
   EXPECT_NE(both.find("\nsteps_not_removed changes=EZX +0.5000"), std::string::npos) << both;
-  EXPECT_EQ(test::shown(removal_notices(RunDrift{}, {Axis::x, {}})),
-            "drift_not_removed reason=no change is significant\n");
+  EXPECT_EQ(
+      test::shown(removal_notices(RunDrift{}, {Axis::x, {}})),
+      "drift_not_removed reason=no drift can be distinguished from noise, steps and a variation "
+      "whose period is about the duration of one run\n");
   drift.not_seen = "too few";
   EXPECT_EQ(test::shown(removal_notices(drift, {Axis::x, {}})),
             "drift_not_removed reason=too few\n");

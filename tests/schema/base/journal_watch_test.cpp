@@ -99,7 +99,7 @@ TEST_F(WatchedJournal, TruncatedWalIsAPermanentFault) {
   auto db = writer();
   ASSERT_TRUE(insert(db));
   fs::resize_file(wal_, 0);
-  EXPECT_NE(db.journal_fault().find("-wal was cut short"), std::string::npos);
+  EXPECT_NE(db.journal_fault().find("-wal was truncated"), std::string::npos);
   fs::resize_file(wal_, 1 << 20);
   EXPECT_NE(db.journal_fault().find("may be missing"), std::string::npos);
   EXPECT_FALSE(insert(db));
@@ -136,7 +136,7 @@ TEST_F(WatchedJournal, ProcessSurvivesATruncatedShm) {
       fs::resize_file(file.string() + "-shm", bytes);
       const auto read = reader->integer("SELECT count(*) FROM u WHERE length(x) = 4000");
       if (read && *read != 1500) return false;  // the read gives an error or the correct number
-      return !insert(db) && db.journal_fault().find("-shm was cut short") != std::string::npos;
+      return !insert(db) && db.journal_fault().find("-shm was truncated") != std::string::npos;
     });
     EXPECT_EQ(status, 0) << "cut to " << bytes;
     auto after = Connection::open(file, OpenMode::read_write);

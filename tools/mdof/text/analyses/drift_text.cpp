@@ -34,9 +34,10 @@ std::string closures_text(const Run& run, const std::vector<algo::Closure>& clos
       row.push_back(names[k].angle ? in_urad(change[k]) : in_um(change[k]));
     table.add(std::move(row));
   }
-  return wrapped("closure: change of the errors between the first point of a run and a later point "
-                 "at the same target; errors at the fixture",
-                 width) +
+  return wrapped(
+             "closure: change of the errors between the first point of a run and a later point "
+             "at the same target; errors at the fixture",
+             width) +
          "\n" + table.text(width);
 }
 

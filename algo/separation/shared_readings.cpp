@@ -79,8 +79,9 @@ Result<SharedReadings> shared_readings(std::vector<SetUp> set_ups, Grid grid) {
     const auto left = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));
     if (left == 0)
       return bad_input("set-up " + std::to_string(k + 1) +
-                       ": no other set-up measures one of its positions or places of the target; "
-                       "measure at the same positions, or leave this set-up out");
+                       " has no position of the axis and no place on the target in common with "
+                       "another set-up; measure it at the same positions as another set-up, or "
+                       "leave this set-up out");
     if (left < kept.size()) found.notices.push_back(left_out(set_up, k + 1, kept));
     keep(set_up.position_m, kept);
     keep(set_up.error_m, kept);

@@ -220,7 +220,7 @@ Result<ReadState> Qsb::read(SampleBlock& block, milliseconds timeout) {
   return_samples(block);
   const std::chrono::nanoseconds silent(monotonic_ns() - last_sample_ns_);
   if (block.scans() == 0 && silent > options_.silence)
-    return io_error(place() + ": no line for " + std::to_string(options_.silence.count()) +
+    return io_error(place() + ": received no data for " + std::to_string(options_.silence.count()) +
                     " ms; check the power, and end any other program that uses the QSB");
   return ReadState::more;
 }

@@ -233,7 +233,7 @@ Status CsvRowParser::store(const CsvLine& line) {
     const char* const what = time_ns == last_time_ns_ ? "stands still" : "runs backwards";
     return bad_input(
         where(line_) + "column time_s: time " + what + " (" + std::to_string(time_ns) +
-        " ns after " + std::to_string(last_time_ns_) +
+        " ns follows " + std::to_string(last_time_ns_) +
         " ns); the rows of a log must be in the order of time; split or repair the log");
   }
   if (row_ == 0) block_.lost = std::exchange(lost_, 0);

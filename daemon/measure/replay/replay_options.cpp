@@ -41,7 +41,7 @@ const std::vector<ReplayOption>& replay_options() {
       {"min_length_s", &Request::min_length_s, Range::positive, Of::dwells,
        "Shortest averaging time of a stop [0.1]"},
       {"max_gap_s", &Request::max_gap_s, Range::positive, Of::each_run,
-       "Longest gap between samples that is interpolated [0.05]"},
+       "Longest gap between two samples that mdof bridges by interpolation [0.05]"},
       {"lag_bound_s", &Request::lag_bound_s, Range::positive, Of::each_run,
        "Time without samples after which the readings of a probe count as missing [3]"},
       {"remove_drift", &Request::remove_drift, Range::any, Of::each_run,

@@ -169,7 +169,7 @@ TEST(Qsb, SilenceIsAnError) {
   ASSERT_TRUE(driver.open());
   const Collected all = collect(driver, 500);
   EXPECT_GE(all.scans.size(), 5u);
-  EXPECT_NE(all.error.find("no line for 300 ms"), std::string::npos) << all.error;
+  EXPECT_NE(all.error.find("received no data for 300 ms"), std::string::npos) << all.error;
 }
 
 TEST(Qsb, RefusesAnotherDeviceOrNone) {

@@ -56,7 +56,8 @@ Result<Joints> joints_of(const LinuxCncIni& ini, const Joints& given) {
   if (!by_axis)
     return bad_input(
         ini.file.string() + ": " + by_axis.error().message +
-        "; if the joints do have these axes, give the joint of each axis, such as --joint X=0");
+        "; if each joint nevertheless moves one axis, give the joint of each axis, for example "
+        "--joint X=0");
   Joints joints;
   for (const AxisJoint& joint : *by_axis) joints.push_back({joint.axis, joint.number});
   for (const auto& [axis, number] : given) {

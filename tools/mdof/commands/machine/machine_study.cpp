@@ -315,9 +315,10 @@ Action declare_machine_study(CLI::App& command) {
       ->check(tools::number_in(0, kMostStudySeed))
       ->capture_default_str();
   command
-      .add_option(
-          "--out", o->folder,
-          "Folder for machine.toml (measured errors) and corrections.csv (created if missing)")
+      .add_option("--out", o->folder,
+                  "Folder for machine.toml (measured errors) and corrections.csv; mdof creates the "
+                  "folder if "
+                  "it does not exist")
       ->type_name("DIR");
   add_json_flag(command, o->json);
   return [o] { return machine_study(*o); };

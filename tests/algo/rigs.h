@@ -33,6 +33,17 @@ inline Rig rig_x_with(const std::string& probe, const std::string& keys,
   return parse_rig(toml + end, "rig_X.toml").value();
 }
 
+// The default fixture with 0, 1 or 2 redundant probes (F, G): 5, 6 or 7 probes.
+inline Rig rig_x_redundant(std::size_t probes) {
+  std::string toml = rig_x_toml();
+  if (probes > 5)
+    toml += "[[probe]]\nid = \"F\"\nposition_mm = [-10, 5, 0]\nmeasures = \"+Z\"\nrange_um = 200\n";
+  if (probes > 6)
+    toml +=
+        "[[probe]]\nid = \"G\"\nposition_mm = [-10, 15, 10]\nmeasures = \"+Y\"\nrange_um = 200\n";
+  return parse_rig(toml, "rig.toml").value();
+}
+
 // Seven probes, each at a different position and in a different direction.
 inline Rig rig_oblique() {
   return parse_rig(R"(

@@ -8,22 +8,13 @@
 
 #include "algo/model/rigid.h"
 #include "algo/model/solver.h"
+#include "tests/algo/rigs.h"
 
 namespace mdof::algo {
 namespace {
 
 Solver seven_probes() {
-  const char* all[] = {"A\"\nposition_mm = [10, 0, 0]\nmeasures = \"+Z\"",
-                       "B\"\nposition_mm = [0, 10, 0]\nmeasures = \"+Z\"",
-                       "C\"\nposition_mm = [0, -10, 0]\nmeasures = \"+Z\"",
-                       "D\"\nposition_mm = [0, 15, 20]\nmeasures = \"+Y\"",
-                       "E\"\nposition_mm = [10, 15, 20]\nmeasures = \"+Y\"",
-                       "F\"\nposition_mm = [-10, 5, 0]\nmeasures = \"+Z\"",
-                       "G\"\nposition_mm = [-10, 15, 10]\nmeasures = \"+Y\""};
-  std::string text = "name = \"test\"\naxis = \"X\"\n";
-  for (const char* probe : all)
-    text += std::string("[[probe]]\nrange_um = 200\nid = \"") + probe + "\n";
-  return Solver::create(parse_rig(text, "rig.toml").value(), Model::rigid).value();
+  return Solver::create(test::rig_x_redundant(7), Model::rigid).value();
 }
 
 constexpr double kTravelOfSeven_m = 12e-3;

@@ -12,6 +12,7 @@
 #include "algo/points/dwell.h"
 #include "algo/sequence/sequence.h"
 #include "algo/uncertainty/chi_square.h"
+#include "tests/algo/rigs.h"
 #include "tests/algo/stepping_log.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
 #include "tests/shown.h"
@@ -19,29 +20,13 @@
 namespace mdof::algo {
 namespace {
 
-Rig rig_of(std::size_t probes) {
-  const char* all[] = {"A\"\nposition_mm = [10, 0, 0]\nmeasures = \"+Z\"",
-                       "B\"\nposition_mm = [0, 10, 0]\nmeasures = \"+Z\"",
-                       "C\"\nposition_mm = [0, -10, 0]\nmeasures = \"+Z\"",
-                       "D\"\nposition_mm = [0, 15, 20]\nmeasures = \"+Y\"",
-                       "E\"\nposition_mm = [10, 15, 20]\nmeasures = \"+Y\"",
-                       "F\"\nposition_mm = [-10, 5, 0]\nmeasures = \"+Z\"",
-                       "G\"\nposition_mm = [-10, 15, 10]\nmeasures = \"+Y\""};
-  std::string text = "name = \"test\"\naxis = \"X\"\n";
-  for (std::size_t k = 0; k < probes; ++k)
-    text += std::string("[[probe]]\nrange_um = 200\nid = \"") + all[k] + "\n";
-  auto rig = parse_rig(text, "rig.toml");
-  EXPECT_TRUE(rig) << (rig ? "" : rig.error().message);
-  return *rig;
-}
-
 struct Tested {
   std::vector<MeasuredPoint> points;
   std::optional<Notice> contradiction;
 };
 
 Tested measure(const SteppingLog& log, const FrameBlock& frames) {
-  const auto solver = Solver::create(rig_of(log.probes), Model::rigid);
+  const auto solver = Solver::create(test::rig_x_redundant(log.probes), Model::rigid);
   EXPECT_TRUE(solver);
   DwellDetector detector({}, log.ids(), std::vector<double>(log.probes, 200e-6));
   std::vector<Point> found;
@@ -122,7 +107,7 @@ TEST(ChiSquare, ReportsTheProbeThatContradictsTheOthers) {
 // Positions and scales of the probes differ from the rig by amounts that the rig declares.
 struct DeclaredFaults {
   static constexpr double kShift_m = 0.1e-3, kScale = 1e-3;
-  Rig rig = rig_of(7);
+  Rig rig = test::rig_x_redundant(7);
 
   DeclaredFaults() {
     for (Probe& probe : rig.probes) {
@@ -205,7 +190,7 @@ TEST(ChiSquare, IsThatOfTheBestErrors) {
 
 // The notice contains the number of flagged points and the largest residual among them.
 TEST(ChiSquare, NoticeHasTheLargestResidual) {
-  const Rig rig = rig_of(7);
+  const Rig rig = test::rig_x_redundant(7);
   const Solver solver = Solver::create(rig, Model::rigid).value();
   std::vector<MeasuredPoint> points = SyntheticRun{.rig = rig, .runs = 1}.measure().points;
   const Residuals residuals(solver, std::vector<double>(7, 200e-6));
@@ -225,7 +210,7 @@ TEST(ChiSquare, NoticeHasTheLargestResidual) {
 // this is 20 nm / √3. The reading of probe F may deviate until χ² reaches its limit for one degree
 // of freedom.
 TEST(ChiSquare, FlagsResidualsAboveNoiseAndLinearity) {
-  const auto solver = Solver::create(rig_of(6), Model::rigid).value();
+  const auto solver = Solver::create(test::rig_x_redundant(6), Model::rigid).value();
   const Residuals residuals(solver, std::vector<double>(6, 200e-6));
   const Eigen::VectorXd still = rigid_readings(solver.fixture(), 0, Errors5{});
   const double u = std::hypot(3e-9, 20e-9 / std::sqrt(3.0));

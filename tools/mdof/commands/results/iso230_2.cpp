@@ -164,7 +164,7 @@ Status iso230_of_run(const Iso230Command& command) {
   MDOF_TRY(const Run run, daemon::restated_run(store, id, reference));
   if (is_imported(run.header)) {
     MDOF_TRY(const auto readings, readings_of_imported(run));
-    StatedFigures figures = daemon::positioning_figures(run);
+    const StatedFigures figures = daemon::positioning_figures(run);
     const bool declares_u =
         !figures.budgets.empty() && figures.budgets.front().not_declared.empty();
     if (!declares_u || uncertainty_of(command)) return iso230_of_readings(command, readings);

@@ -28,7 +28,8 @@ TEST(DriftText, StatesTheRemedyForADrift) {
   EXPECT_EQ(
       drift_notice(run, drift_and_steps(), 1000),
       "drift: EYX +0.2500 ± 0.0040 µm from the first point to the last (3 min). All "
-      "errors of a single approach, and all errors relative to the first point, contain this drift. "
+      "errors of a single approach, and all errors relative to the first point, contain this "
+      "drift. "
       "Let the system warm up (\"mdof drift\" shows when the system is ready), or replay the log "
       "with --remove-drift\n"
       "changes from run to run: EZX +0.5000 ± 0.0040 µm from the first point to the last "

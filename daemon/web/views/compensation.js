@@ -120,13 +120,15 @@ class AxisPanel {
     this.element = h("div", {}, h("section", {class: "panel"}, h("h2", {}, `Active on axis ${axis}`), this.active), this.wrong, this.shown,
       h("section", {}, h("h2", {}, "Stored tables"), this.table), this.builder, h("section", {}, h("h2", {}, "History"), this.history));
   }
-  async read() {
+  // Reads the state again. Resolves after the newest reading, also if a newer one starts meanwhile.
+  read() { return this.reading = this.readOnce(); }
+  async readOnce() {
     const {axis} = this, mine = this.readings = (this.readings ?? 0) + 1;
     try {
       const [status, list, runs, actions] = await Promise.all([call("compensation.status"), pages("compensation.list", {axis}, "tables"),
         newest("run.list", {axis}, "runs", (r) => ["complete", "partial"].includes(r.state), kMostRuns),
         newest("history.list", {}, "history", (d) => d.deed.startsWith("compensation."), kMostActions)]);
-      if (mine !== this.readings) return;  // a newer reading is in progress
+      if (mine !== this.readings) return this.reading;
       this.now = status.axes[axis] ?? null;
       this.generation = status.generation;
       this.active.replaceChildren(...this.now ? [h("p", {class: "result"}, `Table ${this.now.table}, generation ${this.now.generation}`), card(this.now), covers(this.now) ?? "",
@@ -195,8 +197,8 @@ class AxisPanel {
       this.wrong.replaceChildren();
       await this.read();
     } catch (error) {
+      await this.read();  // before the message: who tries again then decides on the new state
       this.wrong.replaceChildren(problem(error));
-      await this.read();
     }
   }
   async activate(id) {

@@ -128,8 +128,8 @@ function stored(tables, active, generation, done) {
 }
 
 export function openVolume(place) {
-  const wrong = h("div", {}), body = h("div", {});
-  place.append(wrong, body);
+  const wrong = h("div", {}), unread = h("div", {}), body = h("div", {});
+  place.append(wrong, unread, body);
   let turn = 0;
   async function read() {
     const mine = ++turn;
@@ -137,13 +137,15 @@ export function openVolume(place) {
     const now = volume ? activeOf(volume, await grid(volume.generation))
       : [h("p", {class: "notice"}, "No table of the volume is active. To build a table, use: ", h("code", {}, "mdof compensation build --machine"), ". Then activate the table on this page.")];
     if (mine !== turn) return;  // a newer reading is in progress
-    body.replaceChildren(...now, tables.length ? stored(tables, volume, generation, again) : "");
+    unread.replaceChildren();
+    body.replaceChildren(...now, tables.length ? stored(tables, volume, generation, done) : "");
   }
-  function again(error) {
+  const again = () => read().catch((error) => unread.replaceChildren(problem(error)));
+  async function done(error) {
+    await again();
     wrong.replaceChildren(...error ? [problem(error)] : []);
-    return read().catch((e) => wrong.replaceChildren(problem(e)));
   }
   again();
-  const offs = [live.on("run.event", ({type}) => { if (type === "compensation") again(); }), live.on("gap", () => again())];
+  const offs = [live.on("run.event", ({type}) => { if (type === "compensation") again(); }), live.on("gap", again)];
   return () => offs.forEach((off) => off());
 }

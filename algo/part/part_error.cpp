@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/part/measured_square.h"
 #include "algo/part/true_scale.h"
 #include "schema/base/random.h"
 
@@ -11,6 +12,8 @@ namespace {
 
 constexpr std::size_t kPointsPerTrial =
     1000;  // approximate number of points of the path in each trial
+
+constexpr double kLeastRest = 1e-12;  // relative to the mean square of the value; less is rounding
 
 // Normally distributed random numbers with variance 1, one for each quantity: the errors of the
 // measured values or the unknown errors (`xi`), and the errors that turn the measured value in
@@ -102,7 +105,7 @@ Sum sum_of_cause(const PartPath& path, const std::vector<PartCause>& causes, std
 // The mean square error of a sum over the points.
 class MeanSquare {
  public:
-  MeanSquare(const Sum& sum, double points) : measured_(sum.measured.size()) {
+  MeanSquare(const Sum& sum, double points) {
     std::vector<const std::vector<double>*> fields{&sum.value};
     for (const auto* effects : {&sum.measured, &sum.unknown})
       for (const Effect& effect : *effects) {
@@ -115,54 +118,42 @@ class MeanSquare {
       for (Eigen::Index b = 0; b <= a; ++b)
         products_(a, b) = products_(b, a) = product(*fields[static_cast<std::size_t>(a)],
                                                     *fields[static_cast<std::size_t>(b)], points);
+    const auto measured = static_cast<Eigen::Index>(sum.measured.size());
+    errors_ = MeasuredSquare(products_.block(1, 1, measured, measured),
+                             products_.col(0).segment(1, measured));
+    rest_ = Eigen::VectorXd::Zero(n);
+    rest_(0) = 1;
+    rest_.segment(1, measured) = -errors_.value();
+    if (rest_.dot(products_ * rest_) <= kLeastRest * products_(0, 0)) rest_.setZero();
   }
 
-  // The errors of the measured values increase the mean square, except for their part along the
-  // value, which has both signs (README.md). Unknown causes contribute their expected square.
+  // Unknown causes contribute their expected square (README.md).
   double expected() const {
-    const double value = products_(0, 0);
-    double increase = 0, unknown = 0;
-    for (Eigen::Index k = 1; k < products_.rows(); ++k) {
-      if (k > static_cast<Eigen::Index>(measured_))
-        unknown += products_(k, k);
-      else if (value > 0)
-        increase += products_(k, k) - products_(0, k) * products_(0, k) / value;
-    }
-    return std::max(0.0, value - increase) + unknown;
+    double unknown = 0;
+    for (Eigen::Index k = 1 + errors_.effects(); k < products_.rows(); ++k)
+      unknown += products_(k, k);
+    return std::max(0.0, products_(0, 0) - errors_.expected_increase()) + unknown;
   }
 
   // One trial for the true mean square (README.md).
   double drawn(const Trial& trial) const {
-    Eigen::VectorXd way = Eigen::VectorXd::Zero(products_.rows()), error = way, unknown = way;
-    way(0) = 1;
+    Eigen::VectorXd xi(std::ssize(xi_)), turn(std::ssize(xi_));
     for (std::size_t k = 0; k < xi_.size(); ++k) {
-      const auto i = static_cast<Eigen::Index>(k + 1);
-      if (k < measured_) {
-        way(i) = trial.turn[xi_[k]];
-        error(i) = trial.xi[xi_[k]];
-      } else {
-        unknown(i) = trial.xi[xi_[k]];
-      }
+      xi(static_cast<Eigen::Index>(k)) = trial.xi[xi_[k]];
+      turn(static_cast<Eigen::Index>(k)) = trial.turn[xi_[k]];
     }
-    const double scale = true_scale(way, error);
-    const Eigen::VectorXd truth = scale * way + unknown;
+    const Eigen::Index measured = errors_.effects();
+    Eigen::VectorXd truth = rest_;
+    truth.segment(1, measured) += errors_.drawn_truth(xi.head(measured), turn.head(measured));
+    truth.tail(xi.size() - measured) = xi.tail(xi.size() - measured);
     return std::max(0.0, truth.dot(products_ * truth));
   }
 
  private:
-  // Returns the largest factor s >= 0 for which |s way - error|^2 is the mean square of the
-  // measured values. If there is none, s makes |s way - error|^2 smallest.
-  double true_scale(const Eigen::VectorXd& way, const Eigen::VectorXd& error) const {
-    const Eigen::VectorXd along = products_ * way;
-    const double square = way.dot(along), mixed = error.dot(along);
-    if (square <= 0) return 0;
-    const double root = mixed * mixed - square * (error.dot(products_ * error) - products_(0, 0));
-    return std::max(0.0, (mixed + std::sqrt(std::max(0.0, root))) / square);
-  }
-
-  std::size_t measured_ = 0;     // number of effects of measured values
   std::vector<std::size_t> xi_;  // of the effects: measured, then unknown
   Eigen::MatrixXd products_;     // mean products of the value and the effects
+  MeasuredSquare errors_;
+  Eigen::VectorXd rest_;  // the part of the value that no measured effect changes
 };
 
 struct Sums {

@@ -75,6 +75,7 @@ struct Count {
 struct Counts {
   Count share, rms, p95, max;
   std::vector<double> u_um{};  // at the point of the largest error
+  int outside = 0;             // stated RMS outside its interval
 };
 
 struct SimulatedPart {
@@ -129,6 +130,9 @@ class Parts {
       if (sum > 0)
         counts.share.add(layer.share_interval.low, truth * truth / sum, layer.share_interval.high);
       counts.rms.add(1e6 * layer.rms_interval_m.low, truth, 1e6 * layer.rms_interval_m.high);
+      // A stated value outside its interval would contradict it.
+      counts.outside += layer.rms_m < layer.rms_interval_m.low - 1e-15 ||
+                        layer.rms_m > layer.rms_interval_m.high + 1e-15;
     }
     const double u_um = u_of_largest(all);
     for (double& x : all) x = std::abs(x);
@@ -217,6 +221,7 @@ TEST(PartCoverage, IntervalsContainTheTruth) {
         if (!count->lengths.empty()) {
           EXPECT_GE(count->percent(), least) << name;
         }
+      EXPECT_EQ(counts.outside, 0) << name;
       of_all_cases += counts.max.percent() / (2.0 * static_cast<double>(kSimulatedParts.size()));
       // An interval that is too long contains the truth, too.
       std::sort(counts.u_um.begin(), counts.u_um.end());

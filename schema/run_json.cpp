@@ -16,13 +16,13 @@ namespace {
 
 constexpr const char* kTableSense =
     "error = actual minus nominal position of the moving body; correction = factor times the "
-    "error. The correction is added to the commanded position of an axis; \"correction\" states "
-    "the factor, and this axis as \"command\"";
+    "error. The correction is added to the commanded position of an axis. The member "
+    "\"correction\" states the factor (\"factor\") and this axis (\"command\")";
 
 constexpr const char* kPositioningTableSense =
     "error = actual minus commanded position of the axis in coordinates of the controller; "
     "correction = factor times the error. The correction is added to the commanded position of an "
-    "axis; \"correction\" states the factor, and this axis as \"command\"";
+    "axis. The member \"correction\" states the factor (\"factor\") and this axis (\"command\")";
 
 // Writes {"EYX_um": {"factor", "command", "reason"}, ...}. The correction is the factor times the
 // error; it is added to the command of the axis "command". If the factor is null, there is no

@@ -66,8 +66,9 @@ Status check_instruction_set() {
   std::string names;
   for (const InstructionSet set : available_instruction_sets())
     names += (names.empty() ? "" : ", ") + std::string(to_string(set));
-  return bad_input(std::string(kVariable) + " is \"" + name + "\", but this processor has " +
-                   names + "; set the variable to one of these, or unset the variable");
+  return bad_input(std::string(kVariable) + " is \"" + name +
+                   "\", but this processor supports only " + names +
+                   "; set the variable to one of these names, or unset the variable");
 }
 
 }  // namespace mdof

@@ -225,8 +225,8 @@ CalibrationCovariance read_covariance(TomlTable& table) {
     }
   if (right) return covariance;
   table.reject("covariance_um2",
-               "must be a symmetric matrix with a row and a column for each name of covariance_of, "
-               "and all correlations must be from -1 to 1");
+               "must be a symmetric matrix with one row and one column for each name in "
+               "covariance_of, and its correlation coefficients must be from -1 to 1");
   return {};
 }
 

@@ -79,9 +79,10 @@ Result<XmlElement> parse_xml(std::string_view text, const std::string& source) {
       XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_BIG_LINES));
   if (!document) return bad_input(source + reason_of(*context));
   if (document->intSubset || document->extSubset)
-    return bad_input(source +
-                     ": has a document type declaration (<!DOCTYPE), but a DCC has no such "
-                     "declaration; remove it, or ask the laboratory for the original file");
+    return bad_input(
+        source +
+        ": has a document type declaration (<!DOCTYPE), but a DCC has no such declaration; remove "
+        "the declaration, or ask the laboratory for the original file");
   return element_of(*xmlDocGetRootElement(document.get()));
 }
 

@@ -101,10 +101,10 @@ Result<Steps> steps_of(const std::vector<double>& places, char axis, const std::
     if (const double gap = value[k] - value[k - 1]; gap > 1e-9 * span)
       total += std::max(1.0, std::nearbyint(gap / step));
   if (total >= static_cast<double>(kMostPlaces))
-    return bad_input(source + ": the smallest step of " + axis + "_mm is " + mm(least) +
-                     " mm over a length of " + mm(span) +
-                     " mm, so the points are not on a grid; resample the points to "
-                     "rows and columns");
+    return bad_input(
+        source + ": the smallest distance of two values of " + axis + "_mm is " + mm(least) +
+        " mm, but all values cover " + mm(span) +
+        " mm, so the points are not on a regular grid; resample the points to rows and columns");
   return Steps{value.front(), span / total, static_cast<std::size_t>(total) + 1};
 }
 
@@ -147,7 +147,7 @@ Result<SurfaceMap> grid_of(const MapPoints& points, const std::string& source,
     if (i == Steps::npos) return off_grid(place(k), 'x', points.x_m[k], columns);
     if (j == Steps::npos) return off_grid(place(k), 'y', points.y_m[k], rows);
     if (taken[j * map.nx + i])
-      return bad_input(place(k) + "a second height at x = " + mm(points.x_m[k]) +
+      return bad_input(place(k) + "the file contains a second height at x = " + mm(points.x_m[k]) +
                        " mm, y = " + mm(points.y_m[k]) + " mm; give one row for each pixel");
     taken[j * map.nx + i] = true;
     map.z_m[j * map.nx + i] = points.z_m[k];

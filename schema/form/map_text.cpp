@@ -71,10 +71,11 @@ Result<XyzUnits> xyz_units(const std::string& text) {
   const auto xy = unit_m(text.substr(0, comma));
   const auto z = comma == std::string::npos ? xy : unit_m(text.substr(comma + 1));
   if (xy && z) return XyzUnits{*xy, *z};
-  return fail(ErrorCode::usage,
-              "\"" + text +
-                  "\" is not a unit of a map; give m, mm, um or nm. For different units give two, "
-                  "such as mm,um (mm for x and y, um for z). Convert values in other units first");
+  return fail(
+      ErrorCode::usage,
+      "\"" + text +
+          "\" is not a unit of a map; give m, mm, um or nm for all values, or two of these units, "
+          "such as mm,um (mm for x and y, um for z). Convert values in other units first");
 }
 
 std::string MapTextReader::place(std::size_t line) const {
@@ -180,8 +181,10 @@ Status MapTextReader::header(std::string_view text) {
     }
     for (const std::string& name : names)
       if (name == wanted.substr(0, 1) || name.starts_with(wanted.substr(0, 2)))
-        return bad_input(place(line_) + "column " + name + " is not in the unit of " + wanted +
-                         "; convert the values and name the column " + wanted);
+        return bad_input(place(line_) + "column " + name +
+                         " does not have the expected name and unit; convert the values if "
+                         "necessary, and rename the column to " +
+                         wanted);
     return bad_input(place(line_) + "no column " + wanted + " in " + shown(text) +
                      "; a map is a CSV file with the header x_mm,y_mm,z_um, an XYZ file without "
                      "header, an .sdf file (ISO 25178-71) or a Zygo .dat file");

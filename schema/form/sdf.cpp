@@ -134,9 +134,10 @@ class SdfReader {
           return bad_input(place(line_) + "\"" + std::string(word.substr(0, 40)) +
                            "\" is neither a height nor BAD");
         if (map.z_m.size() == wanted)
-          return bad_input(place(line_) +
-                           "the file has more heights than NumPoints times NumProfiles = " +
-                           std::to_string(wanted));
+          return bad_input(
+              place(line_) +
+              "the file has more heights than its header states (NumPoints times NumProfiles = " +
+              std::to_string(wanted) + ")");
         if (std::abs(z * z_scale) > kFarthest_m)
           return bad_input(place(line_) + std::string(word.substr(0, 40)) +
                            " times Zscale is above 1000 m; check the height and Zscale (unit: "
@@ -144,8 +145,9 @@ class SdfReader {
         map.z_m.push_back(z * z_scale);
       }
     if (map.z_m.size() == wanted) return {};
-    return bad_input(source_ + ": has " + std::to_string(map.z_m.size()) +
-                     " heights instead of NumPoints times NumProfiles = " + std::to_string(wanted));
+    return bad_input(
+        source_ + ": has " + std::to_string(map.z_m.size()) +
+        " heights, but its header states NumPoints times NumProfiles = " + std::to_string(wanted));
   }
 
   std::string_view rest_;

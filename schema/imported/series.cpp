@@ -49,9 +49,9 @@ bool is_imported(const RunHeader& run) {
 
 Status check_measured(const RunHeader& run, const std::string& what) {
   if (!is_imported(run)) return {};
-  return bad_input("run " + std::to_string(run.id) + ", imported from " +
-                   run.provenance.recording_path + ", contains only " + run.provenance.model +
-                   " and no rig; " + what + " needs a measured or replayed run");
+  return bad_input("run " + std::to_string(run.id) + " was imported from " +
+                   run.provenance.recording_path + " and contains only " + run.provenance.model +
+                   ", but no rig; " + what + " needs a run that mdof measured or replayed");
 }
 
 }  // namespace mdof

@@ -61,8 +61,8 @@ struct PositioningUncertainty {
 //   property of the axis, has because the number of visits is small.
 struct RunPositioningUncertainty {
   static constexpr const char* kWhyNotOfA =
-      "A contains twice the standard deviation s at each end, and the uncertainty of s cannot be "
-      "estimated from so few approaches";
+      "A is calculated from the values mean ± 2 s of each target, and so few approaches do not "
+      "determine the uncertainty of the standard deviation s";
 #define PARAMETER(name, null, meaning) double name = kNoFigure;
 #include "schema/iso230/positioning_parameters.inc"
   bool noise_only = false;

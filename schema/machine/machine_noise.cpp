@@ -19,8 +19,8 @@ NoiseOnly noise_only(const Machine& machine, bool with_sources) {
 
 std::string covers_text(const Machine& machine, bool some_without_u, bool with_sources) {
   return error_covers_text(noise_only(machine, with_sources), some_without_u) +
-         "; between the positions of an error, u also contains the uncertainty of the "
-         "interpolation";
+         "; between the positions at which an error is given, u also contains the uncertainty of "
+         "the interpolation";
 }
 
 }  // namespace mdof

@@ -80,7 +80,9 @@ void read_function(TomlTable& table, const std::string& name, const MachineFrame
   if (!table.has(key)) return read_u_of_stored(table, key, frame, k, function);
   if (table.is_array(key)) {
     if (frame.kind == FrameKind::fixed)
-      table.reject(key, "a frame that is not an axis has no positions; give one number");
+      table.reject(key,
+                   "must be one number: this frame is not an axis, so its errors do not depend on "
+                   "a position");
     read_rows(table, key, frame, k, function);
   } else {
     function.forward = {value_from_written(k, table.number(key))};
@@ -156,16 +158,16 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
     frame.point_moves = point == "moving";
     if (point != "moving" && point != "standing")
       table.reject("point",
-                   "must be \"standing\" (errors at the place of a fixed indicator) or "
-                   "\"moving\" (errors at a point that moves with the axis)");
+                   "must be \"standing\" (errors at a point that does not move, such as a fixed "
+                   "indicator) or \"moving\" (errors at a point that moves with the axis)");
     const std::string sense = table.string("positioning_sense", "body");
     if (table.has("positioning_sense"))
       frame.positioning_sense = sense == "command" ? StatedSense::command : StatedSense::body;
     if (sense != "command" && sense != "body")
       table.reject("positioning_sense",
-                   "must be \"body\" (the error is positive in the + direction of the machine "
-                   "axis) or \"command\" (the error is the actual minus the commanded position in "
-                   "the coordinates of the controller)");
+                   "must be \"body\" (an error is positive if it points in the + direction of the "
+                   "machine axis) or \"command\" (an error is the actual minus the commanded "
+                   "position, in the coordinates of the controller)");
     if (table.has("angles_zero_at_mm"))
       frame.angles_zero_m = position_from_written(frame, table.number("angles_zero_at_mm"));
     frame.runs = read_stored_rows(table, "runs");
@@ -205,10 +207,10 @@ void check_squareness(TomlTable& table, const Machine& machine, const MachineFra
       if (&other != &frame && other.kind == FrameKind::linear && frame.kind == FrameKind::linear &&
           other.location[k].value && frame.location[k].value)
         table.reject(with_unit(location_name(frame, k), k),
-                     "the axis " + other.id + " already has " + location_name(other, k) + ", and " +
-                         location_name(other, k) + " and " + location_name(frame, k) +
-                         " are the same angle between the axes " + other.id + " and " + frame.id +
-                         " (with opposite signs); give only one of them");
+                     "the angle between the axes " + other.id + " and " + frame.id +
+                         " is given twice: " + location_name(frame, k) + " is the same angle as " +
+                         location_name(other, k) + " of axis " + other.id +
+                         ", with the opposite sign; give only one of the two");
 }
 
 void read_axes(TomlTable& root, Machine& machine) {
@@ -221,7 +223,7 @@ void read_axes(TomlTable& root, Machine& machine) {
     if (frame == machine.frames.end()) {
       table.reject("id", "the chain " + machine.chain.text + " has no axis \"" + id + "\"");
     } else if (read.find(id) != std::string::npos) {
-      table.reject("id", "axis " + id + " is given twice");
+      table.reject("id", "axis " + id + " is given twice; remove one of the two [[axis]] tables");
     } else {
       read_axis(table, *frame);
       check_squareness(table, machine, *frame);
@@ -263,10 +265,10 @@ void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& fr
     frame.direction = kLetters.find(along);
   frame.ratio = table.number("ratio");
   if (!(std::abs(frame.ratio) <= kLargestRatio) || frame.ratio == 0)
-    table.reject(
-        "ratio",
-        "must be from -1000 to 1000, but not 0; ratio is the motion of the frame in mm in the + "
-        "direction of the axis \"along\" when the command of the axis \"with\" increases by 1 mm");
+    table.reject("ratio",
+                 "must be from -1000 to 1000, but not 0. The key states the motion of the frame in "
+                 "mm, positive in the + direction of the axis \"along\", for each mm by which the "
+                 "command of the axis \"with\" increases");
   const std::string point = table.string("point", "moving");
   frame.point_moves = point == "moving";
   if (point != "moving" && point != "standing")
@@ -284,7 +286,7 @@ void read_fixed_frames(TomlTable& root, Machine& machine) {
     const std::string after = table.string("after");
     const auto place = place_after(machine, after);
     if (frame.id.size() < 2 || machine.find(frame.id))
-      table.reject("id", "must be a name of two letters or more that no other frame has");
+      table.reject("id", "must be a name of two letters or more; give each frame a different name");
     if (!place) {
       table.reject(
           "after",

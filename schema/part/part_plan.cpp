@@ -47,8 +47,8 @@ void read_layer(TomlTable& layers, PartLayer& layer) {
   for (const std::string& from : layer.from)
     if (key == "axes" && !table_number(from))
       layers.reject(key, "is \"" + from +
-                             "\"; it must be true (to use the errors of the machine file) or name "
-                             "stored tables, such as \"table:12\"");
+                             "\", but must be true (mdof then uses the errors of the machine file) "
+                             "or a list of stored tables, such as \"table:12\"");
 }
 
 }  // namespace

@@ -230,11 +230,10 @@ Status CsvRowParser::store(const CsvLine& line) {
   const std::int64_t time_ns =
       header_.time_column >= 0 ? line.time_ns : static_cast<std::int64_t>(rows());
   if (time_ns <= last_time_ns_) {
-    const char* const what = time_ns == last_time_ns_ ? "stands still" : "runs backwards";
-    return bad_input(
-        where(line_) + "column time_s: time " + what + " (" + std::to_string(time_ns) +
-        " ns follows " + std::to_string(last_time_ns_) +
-        " ns); the rows of a log must be in the order of time; split or repair the log");
+    const char* const what = time_ns == last_time_ns_ ? "does not change" : "decreases";
+    return bad_input(where(line_) + "column time_s: the time " + what + " (" +
+                     std::to_string(time_ns) + " ns follows " + std::to_string(last_time_ns_) +
+                     " ns), but it must increase from row to row; split or repair the log");
   }
   if (row_ == 0) block_.lost = std::exchange(lost_, 0);
   block_.time_ns[row_] = last_time_ns_ = time_ns;
@@ -268,9 +267,8 @@ Status CsvRowParser::count_blank_line(std::size_t bytes) {
   if (blank_bytes_ <= limits_.blank_bytes) return {};
   const std::uint64_t first = line_ + 1 - blank_lines_;
   return bad_input(where(first) + "more than " + std::to_string(limits_.blank_bytes) +
-                   " bytes of empty lines (" + std::to_string(blank_lines_) +
-                   " lines so far), so this is not a recording; keep only the lines before the "
-                   "empty lines, or record again");
+                   " bytes of empty lines begin here (" + std::to_string(blank_lines_) +
+                   " lines so far); delete the empty lines and all later lines, or record again");
 }
 
 // Reports the blank lines if they are not at the end of the file.

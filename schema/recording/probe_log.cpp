@@ -146,11 +146,12 @@ Status check_required(const CsvHeader& header) {
   auto missing = [&](const char* name) {
     std::string found;
     for (const std::string& column : header.columns) found += (found.empty() ? "" : ", ") + column;
-    return bad_input(where(header) + "no column " + name + " (columns: " + found +
-                     "); add this column, or rename the column that contains these values" +
-                     (header.columns.size() == 1
-                          ? "; if this line precedes the header, delete it or begin it with #"
-                          : ""));
+    return bad_input(
+        where(header) + "no column " + name + " (columns: " + found +
+        "); add this column, or rename the column that contains these values" +
+        (header.columns.size() == 1
+             ? "; if this line stands before the header, delete the line, or put # at its beginning"
+             : ""));
   };
   if (header.kind == CsvKind::probe_log && header.time_column < 0) return missing(kTimeColumn);
   if (header.kind == CsvKind::table) return {};
@@ -167,7 +168,8 @@ Status check_required(const CsvHeader& header) {
 
 Status parse_names(CsvHeader& header, std::string_view line) {
   if (line.starts_with('"') && header.kind != CsvKind::table)
-    return bad_input(where(header) + "names are in quotes; save the file without quotes");
+    return bad_input(where(header) +
+                     "the names of the columns are in quotes; save the file without quotes");
   header.separator = separator_of(line);
   MDOF_CHECK(check_separator(header));
   header.columns = split(line, header.separator);

@@ -80,9 +80,9 @@ void check_newest(const CalibrationRecord& record, const Rig& rig, TomlTable& ta
         const char* key = value_in_both(a, b);
         if (key)
           table.reject("date", "the records \"" + other.id + "\" and \"" + record.id +
-                                   "\" are both of " + record.date + " and both contain " + key +
-                                   " of the probe \"" + a.id +
-                                   "\"; keep only one of them in the key \"calibration\"");
+                                   "\" have the same date, " + record.date + ", and both contain " +
+                                   key + " of the probe \"" + a.id +
+                                   "\"; keep only one of these records in the key \"calibration\"");
       }
 }
 
@@ -100,8 +100,8 @@ void check_sensitivities(const CalibrationRecord& mounting, const Rig& rig, Toml
   std::sort(named.begin(), named.end());
   if (used != named)
     table.reject("sensitivities",
-                 "the mounting \"" + mounting.id + "\" was calibrated with " + listed(used) +
-                     ", but the rig names " + listed(named) + " in the key \"calibration\"",
+                 "the mounting record \"" + mounting.id + "\" was calculated with " + listed(used) +
+                     ", but the key \"calibration\" of the rig names " + listed(named),
                  Remedy::calibrate_anew);
 }
 

@@ -16,17 +16,17 @@ std::string reference_point_gap(const ChainAxis& measured, Axis axis, Sides side
   const bool at_carriage = reference == Reference::carriage;
   if (fixture_is_with_tool(measured, sides)) {
     if (!at_carriage) return "";
-    return "the straightness refers to the carriage, a point that moves with the axis, and not to "
+    return "the straightness is stated at the carriage, a point that moves with the axis, not at "
            "the tool; build a table with the reference \"fixture\" or \"tool\"";
   }
   if (at_carriage) return "";
-  return std::string("the rig states that the ") + sides.moves() +
-         " moves, and the chain states that axis " + letter(axis) + " carries the " +
-         (measured.carries_work ? "work" : "tool") +
-         ". Therefore the fixture is on the side of the work, and straightness at the " +
-         to_string(reference) +
-         " is valid for a point of the work, not for the tool; if the fixture is in the spindle, "
-         "correct the key moves of the rig; if not, build a table with the reference \"carriage\"";
+  return std::string("straightness at the ") + to_string(reference) +
+         " is valid for a point of the work, not for the tool, because the fixture is on the side "
+         "of the work (the rig states that the " +
+         sides.moves() + " moves, and the chain states that axis " + letter(axis) +
+         " carries the " + (measured.carries_work ? "work" : "tool") +
+         "); if the fixture is in the spindle, correct the key \"moves\" of the rig; if not, build "
+         "a table with the reference \"carriage\"";
 }
 
 // Returns the reason why there is no correction: a rotary axis between the two axes changes the
@@ -43,7 +43,7 @@ std::string rotary_axis_gap(const Chain& chain, const ChainAxis& measured,
     return "the rotary axis " + rotary + " lies between axis " + measured.letter + " and axis " +
            correcting.letter + " in the chain " + chain.text +
            ", so the direction of the correction depends on the position of " + rotary +
-           "; build a volumetric table for one position of " + rotary;
+           "; build a volumetric table for a fixed position of " + rotary;
   }
   return "";
 }
@@ -71,8 +71,9 @@ CorrectionSigns correction_signs(const Chain& chain, Axis axis, Sides sides, Ref
     const ChainAxis* correcting = chain.find(by);
     if (!chain.known()) {
       signs.gap[k] =
-          "the kinematic chain of the machine is unknown, so the sign is unknown; add [machine] "
-          "chain, such as \"w-Y-X-b-Z-t\", to the rig or to mdofd.toml, then build the table again";
+          "the kinematic chain of the machine is unknown, so the sign of the correction is "
+          "unknown; add [machine] chain, such as \"w-Y-X-b-Z-t\", to the rig or to mdofd.toml, "
+          "then build the table again";
     } else if (!measured || !correcting) {
       signs.gap[k] = "the chain " + chain.text + " has no axis " + (measured ? by : letter(axis));
     } else {

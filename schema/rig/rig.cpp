@@ -153,7 +153,7 @@ TargetPlane read_plane(TomlTable& table) {
   if (!(plane.flatness_length_m >= kLeastWave_m && plane.flatness_length_m <= kMostWave_m))
     table.reject("flatness_length_mm",
                  "must be from 0.1 to 1000, not " + plain_number(to_mm(plane.flatness_length_m)) +
-                     " (the length of the longest wave of the flatness, in mm)");
+                     "; the key states the longest wavelength of the flatness deviation, in mm");
   return plane;
 }
 
@@ -177,10 +177,11 @@ void check_machine(TomlTable& table, const Rig& rig) {
   if (!in_chain)
     return table.reject("machine", "the chain " + rig.machine.text + " has no axis " + axis);
   if (in_chain->against_command != rig.sides.against_encoder)
-    table.reject("travel", "is \"" + std::string(rig.sides.travel()) + "\", but travel." + axis +
-                               " of [machine] has the opposite sign (\"+\" if the key is missing); "
-                               "correct one of the two values. If the encoder counts against the "
-                               "command of the axis, reverse the encoder (sign of um_per_count)");
+    table.reject("travel",
+                 "is \"" + std::string(rig.sides.travel()) + "\", but travel." + axis +
+                     " of [machine] has the opposite sign (\"+\" if the key is missing); correct "
+                     "one of the two values. If the position of the encoder decreases when the "
+                     "commanded position increases, change the sign of um_per_count");
 }
 
 constexpr std::size_t kMostProbes = 1000;  // limits the time for the comparison of all pairs

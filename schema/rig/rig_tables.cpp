@@ -29,8 +29,9 @@ double read_delay_s(TomlTable& table, const char* meaning) {
   constexpr double kMost_us = 10e6;
   const double delay_us = table.number("delay_us", 0);
   if (!(delay_us >= 0 && delay_us <= kMost_us))
-    table.reject("delay_us",
-                 std::string("must be from 0 to 10000000 us: the delay of the ") + meaning);
+    table.reject(
+        "delay_us",
+        std::string("must be from 0 to 10000000 us; the key states the delay of the ") + meaning);
   return delay_us / 1e6;
 }
 
@@ -44,11 +45,11 @@ void read_encoder(TomlTable& table, Rig& rig) {
   if (!encoder->has("um_per_V") && others) return;
   const double um_per_V = encoder->number("um_per_V");
   if (!(std::abs(um_per_V) >= kLeastScale_um_per_V && std::abs(um_per_V) <= kMostScale_um_per_V))
-    encoder->reject("um_per_V",
-                    "must be the motion of the axis in um per volt of the encoder, from 0.001 to "
-                    "10000000 (negative if the voltage decreases when the position increases), "
-                    "not " +
-                        plain_number(um_per_V));
+    encoder->reject(
+        "um_per_V",
+        "must be the motion of the axis in um for each volt of the encoder: from 0.001 to "
+        "10000000, with a minus sign if the voltage decreases when the position increases, not " +
+            plain_number(um_per_V));
   rig.encoder_um_per_V = um_per_V;
 }
 

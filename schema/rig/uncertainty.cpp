@@ -114,7 +114,8 @@ DeclaredUncertainty3 read_uncertainty3(TomlTable& table, std::string_view key, d
   if (declared.u.empty()) return {};
   DeclaredUncertainty3 three{{}, declared.shape, declared.freedom};
   if (declared.u.size() != 3 && declared.u.size() != 1)
-    table.reject(key, "must be three numbers, along X, Y and Z, or one for all three");
+    table.reject(key,
+                 "must be three numbers (for X, Y and Z), or one number for all three directions");
   for (std::size_t k = 0; k < 3; ++k)
     three.u[k] = declared.u[std::min(k, declared.u.size() - 1)] * to_si;
   three.zero = !three.declared();

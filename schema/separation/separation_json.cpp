@@ -71,8 +71,9 @@ void write_fit(JsonWriter& json, const Separation& fit) {
 
 const char* separation_u_omits() {
   return "undeclared sources (scale of the probe, drift within a set-up, flatness of other "
-         "surfaces), errors of the shifts, unequal lever arms and sag. The tilt of the target "
-         "between the set-ups does not add uncertainty, because the fit determines this tilt";
+         "surfaces), errors of the shifts, lever arms that differ between the set-ups, and the sag "
+         "of the target. The tilt of the target between the set-ups does not add uncertainty, "
+         "because the fit determines this tilt";
 }
 
 std::string separation_json(const SeparationRecord& record) {

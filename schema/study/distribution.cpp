@@ -146,14 +146,14 @@ Result<std::vector<double>> load_sample(const std::filesystem::path& file) {
     const bool good = read_number(line, x);
     if (good) sample.push_back(x);
     if (!good && !first)
-      return bad_input(file.string() + ":" + std::to_string(number) + ": \"" +
-                       std::string(line.substr(0, 40)) +
-                       "\" is not a finite number; the file must be one column of numbers");
+      return bad_input(
+          file.string() + ":" + std::to_string(number) + ": \"" + std::string(line.substr(0, 40)) +
+          "\" is not a finite number; the file must contain one column of numbers only");
     first = false;
   }
   if (sample.size() < 2)
     return bad_input(file.string() + ": " + std::to_string(sample.size()) +
-                     " values; an empirical distribution needs at least two");
+                     " value(s), but an empirical distribution needs at least two");
   std::sort(sample.begin(), sample.end());
   return sample;
 }

@@ -199,9 +199,9 @@ PlannedCorrelation read_correlation(TomlTable& table, StudyPlan& plan,
     for (const auto& target : *targets) {
       const PlannedQuantity* quantity = quantity_with(plan, target.name);
       if (!quantity || quantity->distribution.kind == Kind::constant)
-        table.reject(
-            "quantities",
-            target.name + " has no [[quantity]] that varies; add a [[quantity]] for this name");
+        table.reject("quantities", target.name +
+                                       " has no [[quantity]] in this plan, or its distribution is "
+                                       "\"constant\"; add a [[quantity]] that varies");
       if (!grouped.insert(target.name).second)
         table.reject(
             "quantities",
@@ -235,7 +235,8 @@ void read_bins(TomlTable& table, StudyPlan& plan, const std::set<std::string>& g
                                  "quantity of this plan that has a rectangular distribution");
   if (grouped.contains(plan.binned_key))
     bins->reject("quantity", "\"" + plan.binned_key +
-                                 "\" is correlated with others; bins need an independent quantity");
+                                 "\" is correlated with other quantities; for bins, choose a "
+                                 "quantity without correlation");
 }
 
 }  // namespace

@@ -119,8 +119,8 @@ std::string covers_text(const VolumetricTable& table) {
   std::string text = error_covers_text(table.noise_only, !table.u_not_declared.empty());
   if (!table.u_independent_m.empty())
     text +=
-        "; u_independent is the part from noise, which differs between the positions of an axis; "
-        "u_common is the rest";
+        "; u_independent is the part of u that comes from noise and differs between the positions "
+        "of an axis; u_common is the rest of u";
   return text + "; between the nodes, u also contains the interpolation error";
 }
 

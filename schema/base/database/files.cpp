@@ -87,13 +87,14 @@ bool share(const Descriptor& file, const Range& range) {
 
 Status copy_bytes(const Descriptor& from, const fs::path& name, const fs::path& to) {
   const Descriptor out(::open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (out.fd() < 0) return failed(to, "create the private copy");
+  if (out.fd() < 0) return failed(to, "create a temporary copy of the database");
   off_t at = 0;
   for (off_t left = from.size(); left > 0;) {
     const auto piece = static_cast<std::size_t>(std::min<off_t>(left, off_t{1} << 30));
     const ssize_t done = ::sendfile(out.fd(), from.fd(), &at, piece);
     if (done < 0)
-      return failed(name, "copy the file to a private folder (TMPDIR sets another folder)");
+      return failed(name,
+                    "copy the file to a temporary folder (the variable TMPDIR selects the folder)");
     if (done == 0) break;
     left -= done;
   }
@@ -106,12 +107,11 @@ Status check_room(const fs::path& database, off_t bytes, const fs::path& folder)
   if (::statvfs(folder.c_str(), &disk) != 0) return failed(folder, "query the free space");
   const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize / 2;
   if (static_cast<std::uint64_t>(bytes) <= room) return {};
-  return io_error(database.string() +
-                  ": the journal of this database contains changes, so mdof must copy the database "
-                  "to read it; " +
-                  "the copy needs " + std::to_string(bytes >> 20) + " MB, but may use only " +
+  return io_error(database.string() + ": a copy of this database needs " +
+                  std::to_string(bytes >> 20) + " MB, but may use only " +
                   std::to_string(room >> 20) + " MB in " + folder.string() +
-                  " (half of the free space); set TMPDIR to a folder with more free space");
+                  " (half of the free space); set TMPDIR to a folder with more free space. mdof "
+                  "must read a copy, because the journal of this database contains changes");
 }
 
 enum class Copied { yes, busy };
@@ -158,9 +158,9 @@ Status check_journal(const fs::path& database) {
   if (end.size() != 16 || end.substr(8) != kMagic || end.substr(0, 4) == std::string(4, '\0'))
     return {};
   return bad_input(name.string() +
-                   ": this journal names a super-journal. mdof never makes a super-journal, and "
-                   "SQLite would delete this file, so mdof does not read the database. Remove the "
-                   "journal, or restore the database and the journal from a copy");
+                   ": this journal names a super-journal, a second file that SQLite would delete. "
+                   "mdof never writes such a journal, so mdof does not read the database. Remove "
+                   "the journal, or restore the database and its journal from a copy");
 }
 
 // As in SQLite, a journal whose first byte is 0 is no longer valid.
@@ -226,7 +226,7 @@ Result<PrivateCopy> PrivateCopy::make(const fs::path& database, int timeout_ms) 
   std::error_code ec;
   std::string folder = (fs::temp_directory_path(ec) / "mdof-copy-XXXXXX").string();
   if (ec || !::mkdtemp(folder.data()))
-    return failed(folder, "make a private folder (TMPDIR sets another folder)");
+    return failed(folder, "create a temporary folder (the variable TMPDIR selects its place)");
   PrivateCopy copy{fs::path(folder)};
   constexpr int kStepMs = 10;
   for (int waited_ms = 0;; waited_ms += kStepMs) {

@@ -109,9 +109,10 @@ Status flush_folder(const fs::path& folder) {
   if (descriptor >= 0) ::close(descriptor);
   if (flushed) return {};
   return io_error(folder.string() +
-                  ": the files are written. But mdof could not flush the folder to the disk, so a "
-                  "power cut can still delete the files (" +
-                  std::strerror(error) + "); check the disk, then export the files again");
+                  ": mdof has written the files, but could not flush this folder to the disk (" +
+                  std::strerror(error) +
+                  "), so a power failure can still delete the files; check the disk, then export "
+                  "the files again");
 }
 
 }  // namespace
@@ -201,7 +202,8 @@ Error OutputFiles::undone(Error error) {
                                                       file.path.c_str(), RENAME_EXCHANGE) == 0)
       file.stage = Stage::written;
     if (file.stage == Stage::replaced || file.stage == Stage::exchanged)
-      error.message += "; " + file.path.string() + " was already replaced; export all files again";
+      error.message += "; " + file.path.string() +
+                       " was already replaced by its new version; export all files again";
   }
   return error;
 }
@@ -211,7 +213,7 @@ Status write_file(const fs::path& path, std::string_view text, Existing existing
   MDOF_TRY(const std::size_t file, files.add(path));
   const std::string before = beginning(path);
   if (!before.empty() && is_markup(text) != is_markup(before))
-    return not_replaced(path, "has content of another kind");
+    return not_replaced(path, "does not have the format of the new file");
   MDOF_CHECK(files.write(file, text));
   return files.publish();
 }

@@ -64,7 +64,7 @@ constexpr Advice kAdvice[] = {
      "Another program is using the database: try again when that program has finished."},
     {SQLITE_TOOBIG, "SQLITE_TOOBIG", ErrorCode::bad_input, "A value is too large to be stored."},
     {SQLITE_CONSTRAINT, "SQLITE_CONSTRAINT", ErrorCode::bad_input,
-     "The record breaks a rule of the database and was not stored."},
+     "The database did not store the record, because the record violates a constraint."},
 };
 
 tl::unexpected<Error> error_of(const Session& session, std::string_view doing) {

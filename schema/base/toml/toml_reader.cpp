@@ -85,9 +85,9 @@ TomlTable::TomlTable(std::shared_ptr<Document> document, std::shared_ptr<Node> n
 
 Result<TomlTable> TomlTable::parse(std::string_view text, const std::string& source_name) {
   if (const auto line = toml_line_over_depth(text, kMaxTomlDepth))
-    return bad_input(source_name + ":" + std::to_string(*line) + ": nested more than " +
-                     std::to_string(kMaxTomlDepth) +
-                     " levels deep (by dotted keys or brackets); use fewer levels");
+    return bad_input(source_name + ":" + std::to_string(*line) +
+                     ": this line is nested more than " + std::to_string(kMaxTomlDepth) +
+                     " levels deep (with dotted keys or brackets); use fewer levels");
   auto document = std::make_shared<Document>();
   document->source = source_name;
   try {

@@ -108,11 +108,12 @@ void Check::check_calibration(std::size_t k) {
   if (c.um_per_V)
     within(kFull_V, range_um / std::abs(*c.um_per_V), "probe", k, "um_per_V",
            " V is an unusual full range of the probe \"" + probe.id +
-               "\" (range_um divided by um_per_V); give um of displacement per volt");
+               "\" (range_um divided by um_per_V); give range_um in um, and um_per_V in um of "
+               "displacement per volt");
   if (c.valid_um && std::max(-(*c.valid_um)[0], (*c.valid_um)[1]) > kRange_um.most_possible)
     add(true, "probe", k, "valid_um",
-        "the probe \"" + probe.id + "\" has a limit beyond " + text_of(kRange_um.most_possible) +
-            " um; give raw readings in um");
+        "the probe \"" + probe.id + "\" has a limit of its readings beyond " +
+            text_of(kRange_um.most_possible) + " um; give the limits as raw readings in um");
   double most_um = 0;
   for (const auto& [reading_um, correction_um] : c.linearity)
     most_um = std::max(most_um, std::abs(correction_um));
@@ -124,13 +125,13 @@ void Check::check_calibration(std::size_t k) {
       most_um = std::max(
           most_um,
           std::min(range_um, std::abs(linearity_um(c, first_um + share * (last_um - first_um)))));
-  within(kCorrectionRatio, most_um / range_um, "probe", k,
-         c.polynomial_um.empty() ? "linearity" : "polynomial_um",
-         " times the range is an unusual linearity correction of the probe \"" + probe.id +
-             "\"; give the corrections that are added to the readings, " +
-             (c.polynomial_um.empty() ? "pairs [reading_um, correction_um]"
-                                      : "not the coefficients of a polynomial for the whole "
-                                        "displacement"));
+  within(
+      kCorrectionRatio, most_um / range_um, "probe", k,
+      c.polynomial_um.empty() ? "linearity" : "polynomial_um",
+      " times the range is an unusual linearity correction of the probe \"" + probe.id +
+          "\"; give the corrections that mdof adds to the readings, " +
+          (c.polynomial_um.empty() ? "as pairs [reading_um, correction_um]"
+                                   : "not a polynomial that calculates the displacement itself"));
   if (first_um <= 0 && last_um >= 0) return;
   add(std::abs(c.offset_um) > kRange_um.most_possible, "probe", k, "offset_um",
       text_of(c.offset_um) + " um is outside the range of readings of the probe \"" + probe.id +
@@ -151,10 +152,13 @@ void Check::check_gap(std::size_t k) {
   if (std::abs(closed_um) <= kStandoffShare * standoff_um) return;
   if (low_um < 0 && closed_um <= low_um) return;
   add(closed_um > low_um, "probe", k, "standoff_um",
-      text_of(standoff_um) + " um does not fit offset_um = " + text_of(c.offset_um) +
+      text_of(standoff_um) + " um contradicts offset_um = " + text_of(c.offset_um) +
           " um of the probe \"" + probe.id +
-          "\" with reads = \"gap\": the gap would be closed at the reading " + text_of(closed_um) +
-          " um; remove standoff_um (the gap is then offset_um), or correct one of the two keys");
+          "\" (reads = \"gap\"): with both values, the probe would touch the target at the "
+          "reading " +
+          text_of(closed_um) +
+          " um; correct one of the two keys, or remove standoff_um (mdof then takes offset_um as "
+          "the gap)");
 }
 
 // Checks the largest distance between two probes.

@@ -30,9 +30,10 @@ double positive(TomlTable& table, const char* key, double most) {
 void check_standoff(TomlTable& table, const Probe& probe, const ProbePhysics& physics) {
   if (physics.standoff_m == 0 || probe.calibration.reads_gap) return;
   if (physics.standoff_m < probe.range_m / 2)
-    table.reject("standoff_um", plain_number(to_um(physics.standoff_m)) +
-                                    " um is less than half of range_um, so the gap would be closed "
-                                    "at the end of the range; give the gap at reading 0");
+    table.reject("standoff_um",
+                 plain_number(to_um(physics.standoff_m)) +
+                     " um is less than half of range_um, so the probe would touch the target at "
+                     "the end of its range; give the gap at which the probe reads 0");
 }
 
 ProbePhysics read_probe_physics(TomlTable& table, const Probe& probe) {
@@ -97,15 +98,16 @@ void check_linearity(TomlTable& table, const Probe& probe, bool requested) {
   const char* key = c.polynomial_um.empty() ? "linearity" : "polynomial_um";
   if (c.linearity.empty() && !requested) return;
   if (c.linearity.empty() && c.polynomial_um.empty())
-    return table.reject(key,
-                        "is missing, but [corrections] linearity = true needs this key for each "
-                        "probe; add \"linearity\" or \"polynomial_um\", or remove the correction");
-  const auto range = readings_of_range(probe);
-  if (!rises(c, range))
     return table.reject(
         key,
-        "is not monotonic, so two readings would give the same displacement; correct "
-        "the values (reading and correction in um), or repeat the calibration that gives them");
+        "is missing, but [corrections] linearity = true needs this key for each probe; add "
+        "\"linearity\" or \"polynomial_um\", or remove the correction from [corrections]");
+  const auto range = readings_of_range(probe);
+  if (!rises(c, range))
+    return table.reject(key,
+                        "is not monotonic: the sum of reading and correction does not increase "
+                        "with the reading, so two readings would give the same displacement; "
+                        "correct the values (in um), or repeat the calibration of this probe");
   if (c.linearity.empty() || !requested) return;
   const double middle = (range[0] + range[1]) / 2, half = kRangeCovered * (range[1] - middle);
   if (c.linearity.front()[0] <= middle - half && c.linearity.back()[0] >= middle + half) return;
@@ -125,9 +127,9 @@ void remove_linearity(Rig& rig, RigPhysics& physics) {
 
 void need(TomlTable& table, const char* key, bool known, const char* correction) {
   if (known) return;
-  table.reject(key,
-               std::string("is missing, but [corrections] ") + correction +
-                   " = true needs this key for each probe; add the key, or remove the correction");
+  table.reject(key, std::string("is missing, but [corrections] ") + correction +
+                        " = true needs this key for each probe; add the key, or remove the "
+                        "correction from [corrections]");
 }
 
 void check_needs(TomlTable& root, std::vector<TomlTable>& tables, const Rig& rig,

@@ -94,9 +94,10 @@ TEST(RunUncertainty, ScatterOfVisitsReplacesSmallerNoise) {
   synthetic.runs = 1;
   const auto single = run_uncertainty(rig, synthetic.measure());
   EXPECT_LT(single.points[5].u_random[kEYX], 50e-9);
-  EXPECT_EQ(covers_text(single),
-            "noise only (no uncertainties are declared); noise with periods longer than a stop is "
-            "not included (in a run, no target was approached twice from the same direction)");
+  EXPECT_EQ(
+      covers_text(single),
+      "noise only (no uncertainties are declared); noise with periods longer than a stop is not "
+      "included (in at least one run, no target was approached twice from the same direction)");
 }
 
 // The declared drift explains the differences between the visits, so they do not increase u.

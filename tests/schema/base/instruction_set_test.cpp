@@ -40,7 +40,7 @@ TEST_F(InstructionSetAskedFor, RejectsUnknownSetsByName) {
   ASSERT_FALSE(checked);
   EXPECT_EQ(checked.error().code, ErrorCode::bad_input);
   EXPECT_EQ(checked.error().message.find(
-                "MDOF_INSTRUCTION_SET is \"avx9\", but this processor has baseline"),
+                "MDOF_INSTRUCTION_SET is \"avx9\", but this processor supports only baseline"),
             0u)
       << checked.error().message;
 }

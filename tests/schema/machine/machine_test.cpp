@@ -143,7 +143,8 @@ TEST(MachineToml, ErrorsNameTheInvalidKey) {
       {"EAX_urad = 3", "EAX_um = 3", "EAX_u"},
       {"EC0Y_urad", "EC0X_urad", "EC0"},
       {"EAX_urad = 3", "EC0X_urad = 3",
-       "axis[2].EC0Y_urad: the axis X already has EC0X, and EC0X and EC0Y are the same angle"},
+       "axis[2].EC0Y_urad: the angle between the axes X and Y is given twice: EC0Y is the same "
+       "angle as EC0X"},
       {"u_EC0Y_urad = 0.4", "u_EC0Y_urad = -1", "from 0 to 100000, not -1"},
       {"u_EC0Y_urad = 0.4", "u_EC0Y_urad = 1e300", "u_EC0Y_urad: must be"},
       {"u_EXX_um = 0.2", "u_EXX_um = 10001", "from 0 to 10000, not 10001"},

@@ -124,7 +124,7 @@ TEST(CsvRowParser, AHeaderInQuotesOrBelowOtherLinesNamesTheRemedy) {
   expect_contains(parse("\"time_s\",\"encoder_mm\",\"A_um\"\n0,1,2\n").error,
                   {"x.csv:1: ", "save the file without quotes"});
   expect_contains(parse("Measured by PC 4\n" + kHeader + "0,1,2\n").error,
-                  {"x.csv:1: no column time_s", "delete it or begin it with #"});
+                  {"x.csv:1: no column time_s", "put # at its beginning"});
 }
 
 TEST(CsvRowParser, RoundsTimesToTheNearestNanosecond) {
@@ -274,9 +274,9 @@ TEST(CsvRowParser, StopsAfterTheStatedNumberOfBadLines) {
 
 TEST(CsvRowParser, RejectsTimeThatDoesNotIncrease) {
   expect_contains(parse(kHeader + "0,1,2\n1,1,2\n0.5,1,2\n").error,
-                  {"x.csv:4: ", "time_s", "backwards"});
+                  {"x.csv:4: ", "time_s", "decreases"});
   expect_contains(parse(kHeader + "0,1,2\n1,1,2\n1.0,1,2\n").error,
-                  {"x.csv:4: ", "time_s", "stands still"});
+                  {"x.csv:4: ", "time_s", "does not change"});
 }
 
 TEST(CsvRowParser, RecognisesADecimalComma) {

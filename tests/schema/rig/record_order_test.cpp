@@ -95,10 +95,10 @@ TEST(CalibratedRig, RejectsTwoRecordsOfOneDateWithTheSameValue) {
   const std::string one = part_of(mounting("2026-11-02", 2.5)),
                     other = part_of(mounting("2026-11-02", 9));
   const auto id = [](const std::string& part) { return part.substr(part.find("mounting-"), 28); };
-  expect_refused(
-      with_parts({one, other}),
-      {id(one), id(other), "are both of 2026-11-02 and both contain offset_um of the probe \"B\"",
-       "keep only one"});
+  expect_refused(with_parts({one, other}),
+                 {id(one), id(other),
+                  "have the same date, 2026-11-02, and both contain offset_um of the probe \"B\"",
+                  "keep only one"});
   // Two results of one certificate: the scale and the linearity.
   CalibrationRecord scale = sensitivity_of_B("2026-10-30", 0);
   scale.probes[0].linearity.clear();
@@ -116,11 +116,12 @@ TEST(CalibratedRig, RejectsAMountingThatWasCalibratedWithOtherSensitivities) {
   record.sensitivities = {id(used)};
   EXPECT_TRUE(with_parts({part_of(record), used}));
   expect_refused(with_parts({part_of(record), other}),
-                 {"calibrated with \"" + id(used) + "\", but the rig names \"" + id(other) + "\""});
-  expect_refused(with_parts({part_of(record)}), {"but the rig names no sensitivity record"});
+                 {"calculated with \"" + id(used) +
+                  "\", but the key \"calibration\" of the rig names \"" + id(other) + "\""});
+  expect_refused(with_parts({part_of(record)}), {"of the rig names no sensitivity record"});
   record.sensitivities = std::vector<std::string>{};
   EXPECT_TRUE(with_parts({part_of(record)}));
-  expect_refused(with_parts({used, part_of(record)}), {"calibrated with no sensitivity record"});
+  expect_refused(with_parts({used, part_of(record)}), {"calculated with no sensitivity record"});
 }
 
 }  // namespace

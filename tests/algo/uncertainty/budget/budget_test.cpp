@@ -80,10 +80,10 @@ TEST(Budget, NoiseOfIndependentTargetsIsCorrect) {
   EXPECT_EQ(slope.u, slope.u_random);
   // Without repeated visits, noise with periods longer than a stop is unknown. The text states
   // this.
-  EXPECT_NE(covers_text(slope).find("noise with periods longer than a stop is not included (in a "
-                                    "run, no target was approached "
-                                    "twice from the same direction)"),
-            std::string::npos);
+  EXPECT_NE(
+      covers_text(slope).find("noise with periods longer than a stop is not included (in at least "
+                              "one run, no target was approached twice from the same direction)"),
+      std::string::npos);
   synthetic.runs = 3;
   EXPECT_EQ(
       covers_text(budget(RunBudgets::create(rig, synthetic.measure()).value(), "EYX_slope_urad")),

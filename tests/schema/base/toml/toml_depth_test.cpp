@@ -29,8 +29,8 @@ TEST(TomlDepth, IsLimitedBeforeParsing) {
         repeated("\"x.y\" . ", 40'000) + "a = 1",
         "a = " + repeated("[{" + repeated("a.", 30) + "a=", 200) + "1" + repeated("}]", 200)})
     EXPECT_EQ(refusal("name = 1\n" + deep),
-              "rig.toml:2: nested more than 32 levels deep (by dotted keys or brackets); use "
-              "fewer levels")
+              "rig.toml:2: this line is nested more than 32 levels deep (with dotted keys or "
+              "brackets); use fewer levels")
         << deep.substr(0, 40);
 }
 
@@ -70,7 +70,8 @@ TEST(TomlDepth, IsCountedAfterStrings) {
   for (const char* before :
        {"t = \"\"", "t = ''", "t = \"a\\\"b\"", "t = 'a\\'", "t = \"\"\"\"\"\"",
         "t = \"\"\"x\"\"\"\"\"", "t = '''x'''''", "t = 1 # \"", "t = \"#\""})
-    EXPECT_NE(refusal(before + deep).find("rig.toml:2: nested"), std::string::npos) << before;
+    EXPECT_NE(refusal(before + deep).find("rig.toml:2: this line is nested"), std::string::npos)
+        << before;
 }
 
 }  // namespace

@@ -138,13 +138,14 @@ TEST(RigCheck, ReportsAStandoffThatIsNotTheGapReading) {
   expect_right(gap + "offset_um = 100\n");
   expect_right(gap + "offset_um = 100\nstandoff_um = 100\n");
   expect_right(gap + "offset_um = 103\nstandoff_um = 100\n");  // a calibration has moved the zero
-  expect_warned(
-      gap + "offset_um = 100\nstandoff_um = 250\n",
-      {"r.toml:17: ", "standoff_um", "250 um", "offset_um = 100", "closed at the reading -150"});
+  expect_warned(gap + "offset_um = 100\nstandoff_um = 250\n",
+                {"r.toml:17: ", "standoff_um", "250 um", "offset_um = 100",
+                 "touch the target at the reading -150"});
   expect_refused(gap + "offset_um = 100\nstandoff_um = 5\n",
-                 {"r.toml:17: ", "standoff_um", "closed at the reading 95"});
+                 {"r.toml:17: ", "standoff_um", "touch the target at the reading 95"});
   expect_right(gap + "valid_um = [-100, 100]\nstandoff_um = 250\n");
-  expect_refused(gap + "valid_um = [-100, 100]\nstandoff_um = 80\n", {"closed at the reading -80"});
+  expect_refused(gap + "valid_um = [-100, 100]\nstandoff_um = 80\n",
+                 {"touch the target at the reading -80"});
 }
 
 TEST(RigCheck, LimitsPointsAndValidReadings) {

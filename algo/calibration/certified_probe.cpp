@@ -122,10 +122,10 @@ class CertificateReader {
   tl::unexpected<Error> nothing() const {
     return bad_input(
         from_.source +
-        ": the certificate contains no sensitivity (a quantity in volts per length) and no table "
-        "that mdof can read. A table is a list of readings in um or V (refType "
-        "basic_measuredValue) and a second list (refType basic_measurementError or "
-        "basic_referenceValue); ask the laboratory for a DCC with these refTypes, or write "
+        ": the certificate contains neither a sensitivity (a quantity in volts per length) nor a "
+        "table that mdof can read. Such a table consists of a list of readings (refType "
+        "basic_measuredValue) and a list of errors (basic_measurementError) or of reference values "
+        "(basic_referenceValue); ask the laboratory for a DCC with these refTypes, or write "
         "um_per_V and linearity into the rig by hand");
   }
 
@@ -182,8 +182,8 @@ class CertificateReader {
     const double ratio = um_per_V / *of_rig;
     if (ratio >= kLeastRatio && ratio <= kMostRatio) return {};
     return bad_input(
-        at(s.line) + "the sensitivity gives um_per_V = " + number(um_per_V) + ", but probe \"" +
-        own_.id + "\" of " + rig_.source + " has " + number(*of_rig) +
+        at(s.line) + "the sensitivity of the certificate gives um_per_V = " + number(um_per_V) +
+        ", but probe \"" + own_.id + "\" of " + rig_.source + " has " + number(*of_rig) +
         "; give the certificate of this probe, or correct the keys \"um_per_V\" and \"reads\" of "
         "the rig");
   }
@@ -301,7 +301,7 @@ class CertificateReader {
       return bad_input(
           at(read.line) + "the sensitivity (" + number(*probe.um_per_V) +
           " um/V) and the table of the certificate both correct the scale of the probe, so mdof "
-          "would correct the scale twice; set um_per_V of probe \"" +
+          "would correct the scale twice. Set um_per_V of probe \"" +
           own_.id + "\" in " + rig_.source + (of_rig ? " (" + number(*of_rig) + ")" : "") +
           " to the value that the laboratory used for the readings of the table, or choose one "
           "result of the certificate: " +
@@ -330,7 +330,7 @@ class CertificateReader {
       return bad_input(
           at(line) + "two rows of the table have " +
           (step_um > 0 ? "readings that differ by " + number(step_um) +
-                             " um, and almost the same displacement"
+                             " um, but almost the same displacement"
                        : "the same reading") +
           "; ask the laboratory for a table that was measured in one direction of motion, or for "
           "the means of both directions");

@@ -76,12 +76,13 @@ class Fit {
       if (!(pose_.cwiseAbs().maxCoeff() < 25)) break;  // 0.25 rad, the limit of the model
       if (size < (steps_ > kChoosingSteps ? kDescentDone : kStepDone)) return {};
     }
-    return fail(ErrorCode::check,
-                "no positions of the probes and no tilts of the target agree with these readings; "
-                "check that the target stays in one clamping during each log, and that only the "
-                "axis of this log moves (Y in Y=FILE). Also check that the target moves in the "
-                "direction that mdof calculates from the rig and the encoder",
-                Remedy::reverse_target);
+    return fail(
+        ErrorCode::check,
+        "no positions of the probes and no tilts of the target agree with these readings. Check "
+        "that the target stays in the same clamping during a log, and that only one axis moves: "
+        "the axis that is given with the log (Y for Y=FILE). Also check that the target moves in "
+        "the direction that mdof calculates from the rig and the encoder",
+        Remedy::reverse_target);
   }
 
   double solve_poses() {
@@ -319,9 +320,9 @@ Status check_misfit(const Rig& rig, const MountingCalibration& found) {
                   "readings is " +
                   plain_number(misfit, 3) + " times their uncertainty (limit " +
                   plain_number(kMostMisfit) +
-                  "); calibrate the sensitivities of the probes first, or declare "
-                  "u_sensitivity_ppm; check that the target is flat and did not move in its clamp, "
-                  "and that the axes are straight",
+                  "). Calibrate the sensitivities of the probes first, or declare "
+                  "u_sensitivity_ppm. Also check that the target is flat and did not move in its "
+                  "clamp, and that the axes are straight",
               Remedy::calibrate_sensitivity);
 }
 

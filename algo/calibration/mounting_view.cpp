@@ -120,8 +120,9 @@ class UnseenReporter {
     }
     double length = 0;
     if (is_unseen(zero, length))
-      out_.sentences.push_back("the common zero offset of " + ids_of(model_, group) +
-                               "; the mean of offset_um in the rig is not changed");
+      out_.sentences.push_back(
+          "the common zero offset of " + ids_of(model_, group) +
+          ". The calibration does not change the mean of offset_um of these probes in the rig");
   }
 
   void find_other_unseen() {
@@ -146,16 +147,18 @@ class UnseenReporter {
         out_.sentences.push_back(
             "the position of " + id + " along " +
             std::string(1, "XYZ"[largest(machine(model_, model_.along(k, j)))]) +
-            " relative to the other probes: clamp the target at more tilts, with larger "
-            "differences");
+            " relative to the other probes. To determine the position, clamp the target at more "
+            "tilts, with larger differences between the tilts");
     if (unseen(unknown_of(k, kZero)))
       out_.sentences.push_back("the zero offset of " + id + " relative to the other probes");
     if (unseen(unknown_of(k, kTowards1)) || unseen(unknown_of(k, kTowards2)))
-      out_.sentences.push_back("the direction of " + id + ": the tilts and readings are too small");
-    if (unseen(unknown_of(k, kScale)))
       out_.sentences.push_back(
-          "the sensitivity of " + id +
-          ": only a calibration of the sensitivity can determine the sensitivity");
+          "the direction of " + id +
+          ", because the tilts of the target and the readings of the probe are too small");
+    if (unseen(unknown_of(k, kScale)))
+      out_.sentences.push_back("the sensitivity of " + id +
+                               ", because a calibration of the mounting does not determine it; "
+                               "calibrate the sensitivity separately");
   }
 
   const MountingModel& model_;

@@ -90,15 +90,14 @@ SlopeUncertainty slope_uncertainty(const std::vector<std::vector<Reading>>& plac
 
 std::vector<std::string> undetectable_effects(const Rig& rig) {
   std::vector<std::string> sentences = {
-      "the scale error of the encoder: the sensitivity contains the whole scale error",
+      "the scale error of the encoder, which the calibrated sensitivity therefore contains",
       "the product of two angles: the squareness error of the axis to the plane, and the tilt of "
-      "the target. For example, 1 mrad and 5 mrad change the sensitivity by 5 ppm"};
+      "the target. For example, angles of 1 mrad and 5 mrad change the sensitivity by 5 ppm"};
   if (!rig.uncertainty.encoder.declared())
-    sentences.insert(
-        sentences.begin(),
-        "encoder errors that repeat at the same position, because the rig does not declare "
-        "[encoder] u_um (u includes only the part of these errors that is visible in the residuals "
-        "of the line)");
+    sentences.insert(sentences.begin(),
+                     "encoder errors that repeat at the same position: the rig does not declare "
+                     "[encoder] u_um, so u includes only the part of these errors that is visible "
+                     "in the residuals of the fitted line");
   return sentences;
 }
 
@@ -142,9 +141,9 @@ Status check_steps(const Probe& probe, const std::vector<Reading>& means) {
                 "probe \"" + probe.id + "\": the reading changes by " +
                     plain_number(to_um(change_m), 4) + " um in a step of " +
                     plain_number(to_um(step_m), 4) + " um, from the reading " +
-                    plain_number(to_um(means[i - 1].read_m), 4) + " um (limits of the change: " +
-                    plain_number(kLeast, 3) + " and " + plain_number(kMost, 3) +
-                    " of the step). The probe is at the end of its range, or the target did not "
+                    plain_number(to_um(means[i - 1].read_m), 4) +
+                    " um (limits: " + plain_number(kLeast, 3) + " and " + plain_number(kMost, 3) +
+                    " times the step). The probe is at the end of its range, or the target did not "
                     "move. Measure only at positions at which the reading follows the target");
   }
   return {};
@@ -152,9 +151,9 @@ Status check_steps(const Probe& probe, const std::vector<Reading>& means) {
 
 Status check(const Probe& probe, const Line& line) {
   if (line.slope >= kLeast && line.slope <= kMost) return {};
-  const std::string wrong = "probe \"" + probe.id + "\" reads " + plain_number(line.slope, 4) +
-                            " um for 1 um of travel (limits " + plain_number(kLeast, 3) + " and " +
-                            plain_number(kMost, 3) + ")";
+  const std::string wrong = "probe \"" + probe.id + "\": the reading changes by " +
+                            plain_number(line.slope, 4) + " um for 1 um of travel (limits " +
+                            plain_number(kLeast, 3) + " and " + plain_number(kMost, 3) + ")";
   if (line.slope < 0)
     return fail(ErrorCode::check,
                 wrong + "; check the keys \"reads\" and \"measures\" of this probe in the rig",

@@ -53,8 +53,8 @@ Result<std::map<std::string, PartsOfRuns>> all_contributors(const std::vector<Ri
   for (const Run& run : runs) points += run.points.size();
   const auto too_many = [] {
     return bad_input(
-        "the runs have too many points for the number of uncertainties that their rigs declare; "
-        "leave some runs out");
+        "the runs have too many points: with the uncertainties that their rigs declare, the "
+        "calculation would take too long; leave some runs out");
   };
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!rigs[r].declares_uncertainty() && !run_options(runs[r].header).remove_drift) continue;

@@ -33,10 +33,10 @@ Status check_one(const Run& run, const Run& first) {
                      name_of(first) + " measures axis " + letter(axis) +
                      "; build a table from runs of one axis");
   if (error != positioning_name(axis))
-    return bad_input(
-        name_of(run) + " contains the imported error " + error +
-        ", whose reference point is unknown; a table needs the imported positioning error (" +
-        positioning_name(axis) + ")");
+    return bad_input(name_of(run) + " contains the imported error " + error +
+                     ", whose reference point is unknown; from imported runs, mdof builds tables "
+                     "of the positioning error only (" +
+                     positioning_name(axis) + ")");
   if (run.header.simulated != first.header.simulated)
     return bad_input(name_of(run.header.simulated ? run : first) + " is simulated and " +
                      name_of(run.header.simulated ? first : run) +
@@ -137,8 +137,8 @@ Result<double> command_sign(const RunHeader& run, std::optional<bool> against_co
   if (stated.sense == PositioningSense::body && !against)
     return bad_input("run " + std::to_string(run.id) +
                      " was imported with the sense \"body\", but without the travel direction of "
-                     "the axis (\"+\" or \"-\"), so the sign in the direction of the command is "
-                     "unknown; import the file again with the travel direction");
+                     "the axis (\"+\" or \"-\"), so the sign of the error relative to the command "
+                     "is unknown; import the file again with the travel direction");
   return stated.sense == PositioningSense::body && *against ? -1 : 1;
 }
 
@@ -148,7 +148,7 @@ Status check_travel(const RunHeader& run, bool against_command) {
   return bad_input("run " + std::to_string(run.id) + " was imported with travel \"" +
                    (*stated ? "-" : "+") + "\", but the machine file states travel \"" +
                    (*stated ? "+" : "-") + "\" for axis " + letter(run.axis) +
-                   "; correct the wrong value");
+                   "; correct the machine file, or import the file again");
 }
 
 Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs,

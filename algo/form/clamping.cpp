@@ -68,7 +68,8 @@ Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const Surfac
   }
   if (!(square > 0))
     return bad_input(after.name + " and " + released.name +
-                     " are identical, so there is no springback and K cannot be calculated");
+                     " are identical: the surface does not spring back after the release, so K "
+                     "cannot be calculated");
   result.K = product / square;
   SurfaceMap left = result.plastic;
   for (std::size_t k = 0; k < left.z_m.size(); ++k) left.z_m[k] -= result.K * result.elastic.z_m[k];

@@ -167,8 +167,8 @@ Result<CuttingResult> next_cut(const CuttingPasses& passes) {
   if (passes.gain == CuttingGain::optimal && !passes.random_rms_m &&
       (!passes.repeated || passes.cuts.size() < 2))
     return fail(ErrorCode::usage,
-                "the optimal gain depends on the RMS of the random error of a pass; give this RMS, "
-                "or give two or more passes with the same path");
+                "the RMS of the random error of a pass is unknown, but the optimal gain depends on "
+                "it; give this RMS, or give two or more passes with the same path");
   MDOF_TRY(std::vector<SurfaceMap> errors, errors_of(passes));
   for (const SurfaceMap& error : errors) result.error.push_back(figures_of(error));
   result.pixels = result.error.front().pixels;

@@ -50,10 +50,10 @@ Status common_travel(const ReferenceLines& a, const ReferenceLines& b, Paralleli
   found.to_m = std::min(a.last_m, b.last_m);
   const double longer = std::max(a.last_m - a.first_m, b.last_m - b.first_m);
   if (found.to_m - found.from_m >= kLeastShare * longer) return {};
-  return bad_input("run " + std::to_string(found.run_a) + " covers " +
-                   in_mm_text(a.first_m, a.last_m) + " and run " + std::to_string(found.run_b) +
-                   " covers " + in_mm_text(b.first_m, b.last_m) +
-                   "; the common travel is less than half of the longer travel; measure both runs "
+  return bad_input("the travel that run " + std::to_string(found.run_a) + " (" +
+                   in_mm_text(a.first_m, a.last_m) + ") and run " + std::to_string(found.run_b) +
+                   " (" + in_mm_text(b.first_m, b.last_m) +
+                   ") have in common is less than half of the longer travel; measure both runs "
                    "over the same travel");
 }
 

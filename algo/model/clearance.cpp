@@ -60,8 +60,8 @@ std::string clearance_text(const MotionClearance& motion) {
   const std::string axis(1, letter(motion.axis));
   if (motion.probes.empty())
     return axis +
-           " does not move the target towards any probe. But a tilted target changes the gaps: "
-           "with a tilt of 1 mrad, by 1 um for each mm of travel";
+           " does not move the target towards any probe. But if the target is tilted, the motion "
+           "changes the gaps: by 1 um for each mm of travel if the tilt is 1 mrad";
   std::string ids, senses, contact;
   double least_m = motion.probes.front().range_m;
   for (const ApproachedProbe& probe : motion.probes) {

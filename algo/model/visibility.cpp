@@ -79,9 +79,9 @@ std::string describe_unseen(const Fixture& fixture, const std::vector<bool>& use
     if (i > 0) text += i + 1 == seen.unseen.size() ? " and " : ", ";
     text += seen.unseen[i];
   }
-  return text + " (rank " + std::to_string(seen.rank) +
-         " of 5); five probes are needed: three on one plane, not in a line, and two on a second "
-         "plane, at different positions along the motion";
+  return text + " (their readings determine " + std::to_string(seen.rank) +
+         " of 5 unknowns); five probes are needed: three on one plane, not in a line, and two on a "
+         "second plane, at different positions along the motion";
 }
 
 }  // namespace mdof::algo

@@ -167,7 +167,7 @@ Status OnTheFly::check_has_points() const {
   if (summary_.scans == 0) return bad_input("no scan has an encoder position");
   if (passes_.empty())
     return bad_input("the axis travels from " + travel +
-                         ", but this range contains no whole bin of " +
+                         ", but this range contains no complete bin of " +
                          plain_number(to_mm(grid_.bin_m())) + " mm around a target",
                      Remedy::smaller_bins);
   std::size_t bins = 0;
@@ -186,7 +186,7 @@ Status OnTheFly::check_has_points() const {
   // bins fast. Larger bins would then contain the stops.
   const bool too_small = needed_m > grid_.bin_m();
   if (too_small && (dense || count_left_out(passes_, BinFault::too_few) > 0)) {
-    return bad_input("at " + mm_s(speed_m_s) + " and " + plain_number(rate_hz) + " Hz a bin of " +
+    return bad_input("at " + mm_s(speed_m_s) + " and " + plain_number(rate_hz) + " Hz, a bin of " +
                          plain_number(to_mm(grid_.bin_m())) + " mm has " +
                          plain_number(grid_.bin_m() / speed_m_s * rate_hz, 3) +
                          " scans, but needs " + std::to_string(kLeastReadingsPerBin),
@@ -195,7 +195,7 @@ Status OnTheFly::check_has_points() const {
   return bad_input("the axis does not move at a steady speed in any of the " +
                        std::to_string(bins) + " bins from " + travel + " (" +
                        plain_number(to_mm(travel_m), 4) +
-                       " mm): in each bin the axis stops or changes its speed",
+                       " mm of travel): in each bin, the axis stops or changes its speed",
                    Remedy::replay_with_stops);
 }
 

@@ -55,13 +55,13 @@ Status check_on_the_fly(const OnTheFlyOptions& o, const std::vector<double>& tar
     return wrong("to_mm", "must be greater than from_mm");
   if (o.interval_mm > 0 && o.from_mm && o.to_mm &&
       !((*o.to_mm - *o.from_mm) / o.interval_mm < kMostTargets))
-    return wrong("interval_mm", "gives more than 10000 targets");
+    return wrong("interval_mm", "gives more than 10000 targets; give a larger interval");
   if (!(o.bin_mm >= 0 && std::isfinite(o.bin_mm)))
     return wrong("bin_mm", "must be 0 (automatic) or greater");
   const double apart = apart_mm(o, targets_m);
   if (o.bin_mm > apart * (1 + kAlike))
-    return wrong("bin_mm", "must not exceed the target interval of " + plain_number(apart) +
-                               " mm, because otherwise a reading would count at two targets");
+    return wrong("bin_mm", "must not exceed the interval of the targets, " + plain_number(apart) +
+                               " mm; otherwise a reading would count at two targets");
   if (std::min(apart, o.bin_mm > 0 ? o.bin_mm : apart) < kLeastBin_mm)
     return wrong("interval_mm, bin_mm", "must be 0.001 or more");
   return {};

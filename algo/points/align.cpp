@@ -138,9 +138,9 @@ Status Aligner::push(SampleBlock& block, FrameBlock& out) {
     return {};
   }
   if (block.time_ns.front() <= encoder_.newest_ns) {
-    return bad_input("device \"" + block.device + "\": the time does not increase from " +
-                     std::to_string(encoder_.newest_ns) + " ns to " +
-                     std::to_string(block.time_ns.front()) + " ns");
+    return bad_input("device \"" + block.device + "\": the time stamp " +
+                     std::to_string(block.time_ns.front()) + " ns follows " +
+                     std::to_string(encoder_.newest_ns) + " ns, but the time stamps must increase");
   }
   encoder_.newest_ns = block.time_ns.back();
   take_whole(block, out);
@@ -175,8 +175,8 @@ Status Aligner::enqueue_channel(const SampleBlock& block, std::size_t channel, T
     const std::int64_t t = block.time_ns[i] - track.delay_ns;
     if (t <= track.newest_ns) {
       return bad_input("device \"" + block.device + "\", channel " + track.id +
-                       ": the time does not increase from " + std::to_string(track.newest_ns) +
-                       " ns to " + std::to_string(t) + " ns");
+                       ": the time stamp " + std::to_string(t) + " ns follows " +
+                       std::to_string(track.newest_ns) + " ns, but the time stamps must increase");
     }
     const bool after_gap =
         track.newest_ns != INT64_MIN && is_gap(track, t - track.newest_ns, all_channels);

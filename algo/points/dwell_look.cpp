@@ -119,9 +119,9 @@ std::string DwellDetector::why_no_stop() const {
   const std::string tolerance = plain_number(to_um(summary_.tolerance_m)) + " um";
   const std::string longest = plain_number(summary_.longest_still_s) + " s";
   if (crept())
-    return "for " + longest + ", the axis moved by no more than " + tolerance + " within each " +
+    return "the axis moved slowly for " + longest + ": by at most " + tolerance + " within each " +
            plain_number(options_.window_s) +
-           " s. In total the axis moved too far for one stop, and mdof cannot separate the stops";
+           " s, but in total too far for one stop, so mdof cannot separate the stops";
   return "the axis stayed within " + tolerance + " for at most " + longest +
          ", but a stop must last " + plain_number(options_.shortest_s()) + " s";
 }

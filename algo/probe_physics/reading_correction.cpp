@@ -25,7 +25,7 @@ std::string closed_text(const std::string& probe, const ProbePhysics& physics, d
                 " mm radius would touch the target at a gap of " + plain_number(to_um(gap_m)) +
                 " um"
           : "the gap would be " + plain_number(to_um(gap_m)) + " um";
-  return "probe " + probe + " cannot be corrected: " + what +
+  return "the reading of probe " + probe + " cannot be corrected: " + what +
          "; correct standoff_um or sensing_radius_mm in the rig";
 }
 

@@ -53,7 +53,7 @@ Result<double> snap_to_steps(std::vector<double>& position_m, double match_m) {
       return bad_input(
           "the positions are not equally spaced (" + in_mm(x) + " is " + in_mm(std::abs(x - on)) +
               " away from a multiple of the step of " + in_mm(step) +
-              "), so the probe does not measure the same points of the shifted target again",
+              "), so the probe does not measure the same places of the target after a shift",
           Remedy::measure_equal_intervals);
     x = on;
   }
@@ -69,16 +69,17 @@ Result<long> step_on_target(const ReadAt& at, const SetUp& set_up, std::size_t n
   const double off = (steps - std::round(steps)) * grid.step_m;
   if (std::abs(off) <= match_m) return std::lround(steps);
   if (set_up.turn.end_for_end)
-    return bad_input("set-up " + std::to_string(number) + ": the target was turned about " +
-                     in_mm(set_up.shift_m / 2) + ", so this set-up measures points that are " +
+    return bad_input("set-up " + std::to_string(number) +
+                     ": the centre of the turn of the target is at " + in_mm(set_up.shift_m / 2) +
+                     ", so this set-up measures places of the target that are " +
                      in_mm(std::abs(off)) +
-                     " away from those of the first set-up; turn the target about a measured place "
-                     "of the target, or about the middle between two such places");
-  return bad_input("set-up " + std::to_string(number) + ": the shift of " + in_mm(set_up.shift_m) +
-                       " is " + in_mm(std::abs(off)) + " away from a multiple of the step of " +
-                       in_mm(grid.step_m) +
-                       ", so this set-up measures other points of the target than the first set-up",
-                   Remedy::shift_by_intervals);
+                     " away from the places that the first set-up measures; turn the target about "
+                     "a measured place, or about the middle between two measured places");
+  return bad_input(
+      "set-up " + std::to_string(number) + ": the shift of " + in_mm(set_up.shift_m) + " is " +
+          in_mm(std::abs(off)) + " away from a multiple of the step of " + in_mm(grid.step_m) +
+          ", so this set-up does not measure the same places of the target as the first set-up",
+      Remedy::shift_by_intervals);
 }
 
 bool moved_along(const SetUp& set_up) {

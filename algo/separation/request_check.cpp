@@ -57,8 +57,9 @@ Status check_request(const SeparationRequest& request) {
   if (!are_set_ups_identical(request)) return {};
   return bad_input(
       "the target has the same position and orientation in all set-ups, so the machine cannot be "
-      "separated from the target; state in which set-up the target was turned or how far the "
-      "target was shifted, or measure a set-up with the target turned or shifted");
+      "separated from the target. If the target was turned, state in which set-up; if it was "
+      "shifted, state how far. If neither, measure a further set-up with the target turned or "
+      "shifted");
 }
 
 Status check_shared(const Grid& grid, const std::vector<SetUp>& set_ups) {

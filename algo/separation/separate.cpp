@@ -209,9 +209,10 @@ ReadingUncertainty judge(const Equations& e, const Solution& solution, Separatio
   result.u_reason =
       freedom > 0
           ? "the scatter about the fit (" + std::to_string(freedom) + " degrees of freedom)" +
-                declared_text(result, e) + ", because not every reading has a u above 0"
-          : "unknown: not every reading has a u above 0, and the fit has no degrees of freedom to "
-            "estimate u; give the standard uncertainty of the readings (u_um)";
+                declared_text(result, e) +
+                "; the u of the readings is not used, because not every reading has a u above 0"
+          : "unknown: not every reading has a u above 0, and the fit has no degrees of freedom, so "
+            "it cannot estimate u; give the standard uncertainty of the readings (u_um)";
   return {VectorXd::Constant(e.u.size(), result.residual_m), static_cast<double>(freedom)};
 }
 

@@ -25,8 +25,8 @@ Status check_corners(int first, int second) {
   if (first == second)
     return bad_input(
         "both set-ups contain the angle of the square with the same sign, so this angle cannot be "
-        "separated from the angle of the machine; in one set-up, turn the square over about X or "
-        "Y, so that one of its two faces is on the other side. Give the new positions of the "
+        "separated from the angle of the machine. Turn the square over about X or Y in one of the "
+        "set-ups, so that one of its two faces is on the other side. Give the new positions of the "
         "probes and of the [[plane]] in the rig of this set-up");
   return {};
 }

@@ -31,10 +31,10 @@ Status check_state(const Run& run, bool take_partial, const std::string& what) {
   const std::string is =
       name_of(run) + (state == RunState::failed ? " " : " is ") + to_string(state);
   if (state == RunState::partial)
-    return bad_input(is + ", but complete runs are needed for " + what +
-                         "; the notices of the run say what is missing",
+    return bad_input(is + ", but mdof needs complete runs for " + what +
+                         "; the notices of the run state what is missing",
                      Remedy::take_partial_runs);
-  return bad_input(is + "; complete runs are needed for " + what);
+  return bad_input(is + ", but mdof needs complete runs for " + what);
 }
 
 bool continues_from(const Run& run, const Run& other) {

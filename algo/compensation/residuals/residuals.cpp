@@ -47,26 +47,28 @@ Status check_same_set_up(const CompensationTable& applied, const CompensationTab
   if (applied.axis != table.axis)
     return bad_input(name + " is for axis " + letter(applied.axis) +
                      ", but the runs measure axis " + letter(table.axis) +
-                     "; give the table of this axis");
+                     "; give a table of the axis that the runs measure");
   if (applied.has_positioning())
     return bad_input(name +
-                     " contains positioning errors, which the probes do not measure; give a "
-                     "table from measured runs");
+                     " contains positioning errors, which the probes do not measure; give a table "
+                     "that was built from measured runs");
   if (applied.sides != table.sides || applied.machine != table.machine ||
       applied.stated != table.stated)
     return bad_input(name +
-                     " and the rig of the runs differ in moves, travel, [machine] or the "
-                     "reference point; measure with the rig of the table");
+                     " and the rig of the runs differ in at least one of moves, travel, [machine] "
+                     "and the reference point; measure with the rig of the table");
   for (const auto& [of_applied, of_table, approach] :
        {std::tuple{&applied.forward, &table.forward, "forward"},
         std::tuple{&applied.reverse, &table.reverse, "reverse"}})
     if (has_values(*of_applied) != has_values(*of_table))
-      return bad_input(std::string(has_values(*of_table) ? name : "the runs") + " have no " +
-                       approach + " approach; measure the approaches of the table");
+      return bad_input(std::string("the ") + approach + " approach is missing in " +
+                       (has_values(*of_table) ? name : "the runs") +
+                       "; the runs must contain the same approaches as the table");
   const CorrectionSigns signs = signs_of_table(applied);
   if (std::all_of(signs.factor.begin(), signs.factor.end(), [](int f) { return f == 0; }))
     return bad_input(name + " gives no correction (" + signs.gap[0] +
-                     "), so a run measures the whole errors; build a table from the runs alone");
+                     "), so the runs contain the whole errors, not only what a correction leaves; "
+                     "build a new table from these runs alone");
   return {};
 }
 
@@ -80,8 +82,8 @@ Status check_targets(const CompensationTable& applied, const CompensationTable& 
     if (std::none_of(table.position_m.begin(), table.position_m.end(), [&](double at) {
           return std::abs(at - x[i]) <= kTargetWindowShare * interval_m;
         }))
-      return bad_input("the runs have no target at " + plain_number(to_mm(x[i]), 7) +
-                       " mm, where table " + std::to_string(applied.id) +
+      return bad_input("the runs have no target at the position " + plain_number(to_mm(x[i]), 7) +
+                       " mm, at which table " + std::to_string(applied.id) +
                        " has a value; measure at least at the targets of the table");
   }
   return {};

@@ -274,9 +274,8 @@ Status check_measured(const VolumetricTable& table, const VolumetricRequest& req
   std::string names;
   for (const std::string& name : table.not_measured) names += (names.empty() ? "" : ", ") + name;
   return bad_input(
-      "the table would not correct these errors, because they were not measured: " + names +
-          "; add these errors to the machine file, with the value 0 where an error is "
-          "known to be 0",
+      "these errors were not measured, so the table would not correct them: " + names +
+          "; add the errors to the machine file (give the value 0 if an error is known to be 0)",
       Remedy::allow_incomplete);
 }
 

@@ -43,8 +43,8 @@ Result<ByTarget> by_target(const std::vector<PositioningReading>& readings) {
   }
   if (targets.size() >= 2) return targets;
   return bad_input(std::to_string(targets.size()) +
-                   " targets: the parameters of ISO 230-2 need at least two targets (the test plan "
-                   "of ISO 230-2 needs five); measure at more targets");
+                   " target(s), but the parameters of ISO 230-2 need at least two targets (the "
+                   "test plan of ISO 230-2 needs five); measure at more targets");
 }
 
 // One reading has no standard deviation, so each target needs two readings. A single run with one
@@ -54,9 +54,10 @@ Status check_count(double target_m, const char* approach, std::size_t count, boo
   if (wanted ? count >= 2 || (single_run && count == 1) : count == 0) return {};
   const std::string place = place_of(target_m) + ": ";
   if (count == 0)
-    return bad_input(place + "no reading in " + approach +
-                     " direction, but other targets have readings in this direction; measure this "
-                     "target in this direction, or leave out the target or the whole direction");
+    return bad_input(
+        place + "no reading in " + approach +
+        " direction, but other targets have readings in this direction; measure this target in "
+        "this direction, leave out this target, or leave out all readings in this direction");
   return bad_input(place + "only one reading in " + approach +
                    " direction, but repeatability needs at least two runs (ISO 230-2 needs five); "
                    "measure more runs, or leave out this target");

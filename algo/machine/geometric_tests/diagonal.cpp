@@ -129,8 +129,8 @@ Result<DiagonalSquareness> squareness_from_diagonals(const DiagonalLines& lines)
                             : (d.mean * d.mean - x.mean * x.mean - y.mean * y.mean) / product;
   if (!(std::abs(cosine) < 0.1))
     return bad_input(
-        "the measured lengths do not fit two axes that are nearly square; check the order and the "
-        "unit of the lengths");
+        "the measured lengths do not fit two axes that are nearly perpendicular to each other; "
+        "check the order and the unit of the lengths");
   s.angle_error_rad = -std::asin(cosine);  // acos(c) - 90°
   const double by_sine = 1 / std::sqrt(1 - cosine * cosine);
   // ∂θ/∂length = -∂cos/∂length / sin θ.

@@ -51,8 +51,8 @@ double turns_of(const std::vector<double>& angles) {
 
 tl::unexpected<Error> not_in_order(std::size_t i, const std::string& why) {
   return bad_input("reading " + std::to_string(i + 1) + " of the circle: " + why +
-                   ", so the readings are probably not in the order of time; sort them, or give "
-                   "the time of each reading (time_s)");
+                   ", so the readings are probably not in the order of time; sort the readings, or "
+                   "give the time of each reading (time_s)");
 }
 
 // Readings without times. Errors: a step of more than 90°; more than one change of the direction.

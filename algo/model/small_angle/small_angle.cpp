@@ -35,7 +35,7 @@ Result<Roles> find_roles(const Fixture& fixture) {
           " measures a plane with a flatness map, which these models cannot use");
     }
     if (std::abs(probe.n_C.dot(probe.u_M)) < kAlong) {
-      return not_of_this_kind("probe " + probe.id + " is not square to its plane");
+      return not_of_this_kind("probe " + probe.id + " is not perpendicular to its plane");
     }
     if (std::abs(probe.u_M.z()) > kAlong) {
       roles.top.push_back(i);

@@ -90,9 +90,9 @@ Status check_forward(const StudyPlan& plan, const Fixture& fixture) {
     const bool fixture_K = quantity.name == "temperature.fixture_K";
     if ((fixture_K && plan.fixture_per_K == 0) ||
         (quantity.name == "temperature.target_K" && plan.target_per_K == 0))
-      return bad_input(quantity.where + ": " + quantity.name + " has no effect without " +
+      return bad_input(quantity.where + ": " + quantity.name + " has no effect, because " +
                        (fixture_K ? "fixture" : "target") +
-                       "_ppm_per_K in [expansion]; add that key");
+                       "_ppm_per_K in [expansion] is missing or 0; set this key");
     if (quantity.name.ends_with("map_percent") && !map)
       return bad_input(
           quantity.where + ": the rig has no flatness map for " + quantity.name +
@@ -129,8 +129,9 @@ Result<PlanAxis> PlanAxis::create(const StudyPlan& plan, const Rig& rig, const s
   if (!solver) return in_context(plan.source + ": rig", solver.error());
   if (rig.sides != Sides{})
     return bad_input(
-        plan.source + ": a plan needs a rig with moves = \"target\" and travel = \"+\", but " +
-        rig.source + " has other values. Use a copy of the rig without these two keys" +
+        plan.source + ": the rig " + rig.source +
+        " does not have moves = \"target\" and travel = \"+\", which a plan needs. Use a copy of "
+        "the rig without these two keys" +
         (rig.sides.target_travel_m(1) < 0
              ? ", and reverse the sign of travel_mm in the plan: the target of this rig moves "
                "against the encoder, and the effects of rig errors depend on the position of the "

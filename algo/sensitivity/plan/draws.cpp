@@ -92,11 +92,10 @@ Status PlanDraws::add_group(const PlannedCorrelation& planned) {
                      ": these quantities belong to two rigs; correlate only quantities of one rig");
   for (const std::size_t m : group.members) {
     if (drawn_[m].readings != drawn_[group.members[0]].readings)
-      return bad_input(
-          planned.where + ": " + drawn_[m].target.name + " and " +
-          drawn_[group.members[0]].target.name +
-          " cannot be correlated, because one of them is noise, which has a new random value for "
-          "each reading");
+      return bad_input(planned.where + ": " + drawn_[m].target.name + " and " +
+                       drawn_[group.members[0]].target.name +
+                       " cannot be correlated, because one of the two is noise (a new random value "
+                       "for each reading); remove one of the two");
   }
   groups_.push_back(std::move(group));
   return {};

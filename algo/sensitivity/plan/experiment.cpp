@@ -91,8 +91,8 @@ Result<std::unique_ptr<ScalableExperiment>> PlanExperiment::create(const StudyPl
                                                                    const Rig& rig) {
   if (plan.whole_run)
     return bad_input(plan.source +
-                     ": output_of = \"run\" needs a simulation of whole runs, but this is a "
-                     "simulation of single points");
+                     ": output_of = \"run\" needs a simulation of whole runs, but the study "
+                     "simulates single points");
   std::unique_ptr<PlanExperiment> e(new PlanExperiment(plan));
   const auto asks = [&](auto... kinds) {
     return std::any_of(plan.outputs.begin(), plan.outputs.end(),

@@ -79,7 +79,7 @@ Decision decision(const Budget& budget, double limit, const std::string& against
   else if (size - d.guard_band > limit)
     d.conformity = Conformity::not_conform;
   else  // or the value is NaN
-    d.reason = "the value lies within the guard band of the tolerance";
+    d.reason = "the value is too close to the limit of the tolerance (within the guard band)";
   return d;
 }
 

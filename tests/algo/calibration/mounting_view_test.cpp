@@ -54,17 +54,18 @@ TEST(MountingView, NamesAProbeRelativeToTheOthers) {
   using Sentences = std::vector<std::string>;
   EXPECT_EQ(sentences(1, kZero), Sentences{"the zero offset of B relative to the other probes"});
   for (const auto which : {kTowards1, kTowards2})
-    EXPECT_EQ(sentences(4, which),
-              Sentences{"the direction of E: the tilts and readings are too small"});
-  EXPECT_EQ(sentences(3, algo::kScale), Sentences{"the sensitivity of D: only a calibration of the "
-                                                  "sensitivity can determine the sensitivity"});
+    EXPECT_EQ(sentences(4, which), Sentences{"the direction of E, because the tilts of the target "
+                                             "and the readings of the probe are too small"});
+  EXPECT_EQ(sentences(3, algo::kScale),
+            Sentences{"the sensitivity of D, because a calibration of the mounting does not "
+                      "determine it; calibrate the sensitivity separately"});
   // D measures along Y, so the unknowns of its position are along X and Z.
   for (const auto which : {kPlace1, kPlace2}) {
     const bool is_x = std::abs(model.along(3, which == kPlace1 ? 0 : 1).x()) > 0.5;
     EXPECT_EQ(sentences(3, which),
               Sentences{std::string("the position of D along ") + (is_x ? "X" : "Z") +
-                        " relative to the other probes: clamp the target at more tilts, with "
-                        "larger differences"});
+                        " relative to the other probes. To determine the position, clamp the "
+                        "target at more tilts, with larger differences between the tilts"});
   }
   // The sensitivity of A has no declared u, so it is not an unknown.
   EXPECT_TRUE(named(model, {unit(model, 0, algo::kScale)}).sentences.empty());
@@ -89,10 +90,9 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
       Eigen::VectorXd(unit(model, 0, kZero) + unit(model, 1, kZero) + unit(model, 2, kZero));
   const Unseen zero = named(model, {zeros, unit(model, 4, kZero)});
   EXPECT_EQ(zero.sentences,
-            (std::vector<std::string>{
-                "the common zero offset of A, B, C; the mean of offset_um in the rig "
-                "is not changed",
-                "the zero offset of E relative to the other probes"}));
+            (std::vector<std::string>{"the common zero offset of A, B, C. The calibration does not "
+                                      "change the mean of offset_um of these probes in the rig",
+                                      "the zero offset of E relative to the other probes"}));
   EXPECT_EQ(zero.apart.cols(), 1);
 }
 

@@ -132,7 +132,7 @@ TEST(ParallelismByHand, NeedsHalfOfTheTravelInCommon) {
   EXPECT_TRUE(parallelism(over(1, 2), over(2, 0)));
   const auto less = parallelism(over(1, 0), over(2, 3));
   ASSERT_FALSE(less);
-  EXPECT_NE(less.error().message.find("run 1 covers 0 to 31.25 mm and run 2 covers 23.4375"),
+  EXPECT_NE(less.error().message.find("run 1 (0 to 31.25 mm) and run 2 (23.4375"),
             std::string::npos)
       << less.error().message;
   EXPECT_FALSE(parallelism(over(1, 3), over(2, 0)));

@@ -69,9 +69,13 @@ TEST(Visibility, DescribesTheProbesAndUnseenErrors) {
   const auto text = [&](std::vector<std::string> unseen) {
     return describe_unseen(fixture, {false, true, false, true, true}, {3, 0, std::move(unseen)});
   };
-  EXPECT_EQ(text({"ECX"}).find("probes B D E cannot measure ECX (rank 3 of 5)"), 0u);
-  EXPECT_EQ(text({"EYX", "ECX"}).find("probes B D E cannot separate EYX and ECX (rank"), 0u);
-  EXPECT_EQ(text({"EYX", "EZX", "ECX"}).find("probes B D E cannot separate EYX, EZX and ECX (rank"),
+  EXPECT_EQ(text({"ECX"}).find(
+                "probes B D E cannot measure ECX (their readings determine 3 of 5 unknowns)"),
+            0u);
+  EXPECT_EQ(text({"EYX", "ECX"}).find("probes B D E cannot separate EYX and ECX (their readings"),
+            0u);
+  EXPECT_EQ(text({"EYX", "EZX", "ECX"})
+                .find("probes B D E cannot separate EYX, EZX and ECX (their readings"),
             0u);
 }
 

@@ -175,12 +175,12 @@ TEST(OnTheFlyRun, RangeDeterminesTheTargets) {
 TEST(OnTheFlyRun, ExplainsWhyThereIsNoPoint) {
   const Status too_short = measured({.travel_m = 0.8e-3}).check_has_points();
   ASSERT_FALSE(too_short);
-  expect_in(too_short.error().message, "contains no whole bin of 1 mm around a target");
+  expect_in(too_short.error().message, "contains no complete bin of 1 mm around a target");
   OnTheFlyOptions fine;
   fine.interval_mm = 0.02;  // 2 and 4 scans per bin; kLeastReadingsPerBin + 1 are required
   const Status dense = measured({}, fine).check_has_points();
   ASSERT_FALSE(dense);
-  expect_in(dense.error().message, "and 1000 Hz a bin of 0.02 mm has ");
+  expect_in(dense.error().message, "and 1000 Hz, a bin of 0.02 mm has ");
 }
 
 // The axis stops for 0.5 s between the bins and moves 1 mm in 5 ms from stop to stop. A bin has two
@@ -261,7 +261,7 @@ TEST(OnTheFlyRun, ExplanationStatesTheMeanSpeed) {
   const Status why = run.check_has_points();
   ASSERT_FALSE(why);
   expect_in(why.error().message, "at 6.6");
-  expect_in(why.error().message, "mm/s and 1000 Hz a bin of 0.02 mm has 3");
+  expect_in(why.error().message, "mm/s and 1000 Hz, a bin of 0.02 mm has 3");
 }
 
 // The forward pass has one gap, before the scan period is known; the reverse pass has two gaps.

@@ -44,8 +44,9 @@ TEST(TargetGridLimits, ErrorsNameTheKey) {
   EXPECT_EQ(options_error(grid(1, 0, 0, 9999)), "");
   EXPECT_NE(options_error(grid(1, 0, 0, 10000)).find("more than 10000 targets"), std::string::npos);
   EXPECT_EQ(options_error(grid(2, 2)), "");
-  EXPECT_NE(options_error(grid(2, 2.1)).find("bin_mm must not exceed the target interval of 2 mm"),
-            std::string::npos);
+  EXPECT_NE(
+      options_error(grid(2, 2.1)).find("bin_mm must not exceed the interval of the targets, 2 mm"),
+      std::string::npos);
   EXPECT_EQ(options_error(grid(0.001)), "");
   EXPECT_NE(options_error(grid(0.0009)).find("must be 0.001 or more"), std::string::npos);
   EXPECT_NE(options_error(grid(1, 0.0009)).find("must be 0.001 or more"), std::string::npos);

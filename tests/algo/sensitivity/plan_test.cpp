@@ -393,7 +393,7 @@ TEST(PlanExperiment, RejectsPlansThatCannotBeEvaluated) {
       normal("probe.A.drift_nm", 5) + normal("probe.A.noise_nm", 5) +
       "[[correlation]]\nquantities = [\"probe.A.drift_nm\", \"probe.A.noise_nm\"]\n"
       "coefficient = 0.5\n");
-  EXPECT_NE(noise.find("one of them is noise"), std::string::npos) << noise;
+  EXPECT_NE(noise.find("one of the two is noise"), std::string::npos) << noise;
 }
 
 }  // namespace

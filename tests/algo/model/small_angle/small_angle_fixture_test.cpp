@@ -64,7 +64,7 @@ TEST(SmallAngleFixture, MeasuresAlongTheAxes) {
     EXPECT_TRUE(says(refused(fixture), "measures along neither")) << k;
     fixture = five_probe_fixture();
     fixture.probes[k].n_C = Eigen::Vector3d(0, 0.6, 0.8);
-    EXPECT_TRUE(says(refused(fixture), "is not square to its plane")) << k;
+    EXPECT_TRUE(says(refused(fixture), "is not perpendicular to its plane")) << k;
     fixture = five_probe_fixture();
     fixture.probes[k].n_C = fixture.probes[k].u_M = Eigen::Vector3d::UnitX();
     EXPECT_TRUE(says(refused(fixture), "measures along neither")) << k;

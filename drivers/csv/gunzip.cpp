@@ -30,7 +30,7 @@ Status Gunzip::next_member(std::string_view& input) {
     const std::size_t rest = input.find_first_not_of('\0');
     input.remove_prefix(rest == input.npos ? input.size() : rest);
     if (input.empty()) return {};
-    return bad_input("the gzip data end and other data follow" + position_text(unpacked_) +
+    return bad_input("other data follow the end of the gzip data" + position_text(unpacked_) +
                      "copy the file again");
   }
   inflateReset(stream_.get());

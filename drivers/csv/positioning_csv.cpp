@@ -101,13 +101,12 @@ Status check_nominal(const CsvTable& table, const std::vector<PositioningReading
   }
   if (within_m == 0 || !first || last->target_m - first->target_m > kMostScatter_m) return {};
   const auto line = [&](const Place& p) { return std::to_string(table.header_line + 1 + p.row); };
-  return bad_input(
-      table.where(first->row) + "column target_mm: the positions in the lines " + line(*first) +
-      " and " + line(*last) + " differ by " +
-      plain_number(to_um(last->target_m - first->target_m), 3) +
-      " um. Positions that differ by more than " + plain_number(to_um(kSameTarget_m)) +
-      " um are separate targets; target_mm must be the nominal position, which is the same in all "
-      "runs");
+  return bad_input(table.where(first->row) + "column target_mm: the positions in the lines " +
+                   line(*first) + " and " + line(*last) + " differ by " +
+                   plain_number(to_um(last->target_m - first->target_m), 3) +
+                   " um. Positions that differ by more than " + plain_number(to_um(kSameTarget_m)) +
+                   " um are separate targets; give the nominal position as target_mm, which is the "
+                   "same in all runs");
 }
 
 // If the direction is not a number, adds the valid values to the error.

@@ -288,9 +288,9 @@ Status CsvStream::check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t
   const bool fast = device_ns > 2 * host_ns + kPaceWindow_ns;
   const bool slow = host_ns > kPaceWindow_ns && device_ns < host_ns / 2;
   if (fast || slow)
-    return bad_input(source_ + ": column time_s advanced by " + seconds(device_ns) + " in " +
-                     seconds(host_ns) +
-                     " of real time; time_s must be in seconds and increase as fast as real time");
+    return bad_input(
+        source_ + ": column time_s advanced by " + seconds(device_ns) + " in " + seconds(host_ns) +
+        " of real time; give time_s in seconds, so that it increases as fast as real time");
   if (host_ns > kPaceWindow_ns) pace_from_ = {rows.back().time_ns, received_ns};
   return {};
 }

@@ -75,8 +75,8 @@ Result<ImportedSeries> read(const std::string& path, const std::string& text,
   if (format == "csv" && !error.angle && has_column(text, "deviation_urad") &&
       !has_column(text, "deviation_um"))
     return bad_input(source +
-                         ": the column deviation_urad contains an angular error, but this error is "
-                         "a length",
+                         ": the column deviation_urad contains an angular error, but the error of "
+                         "this import is a length",
                      Remedy::name_angular_error);
   if (format == "rtl") return parse_rtl(text, source, error.is_stated);
   return format == "iso230-2" ? read_positioning_series(path, descriptor)

@@ -223,10 +223,11 @@ class Rtl {
     last_run_ = run;
     const std::size_t before = std::exchange(last_target_, target);
     if (!same || right) return {};
-    return wrong("run " + std::to_string(run) + " goes from target " + std::to_string(before) +
-                 " to " + std::to_string(target) +
-                 "; odd runs must go forward and even runs backward; convert a unidirectional "
-                 "test to CSV with columns target_mm,direction,run,deviation_um");
+    return wrong(
+        "run " + std::to_string(run) + " goes from target " + std::to_string(before) + " to " +
+        std::to_string(target) +
+        ", but odd runs must go forward and even runs backward. If the test was unidirectional, "
+        "convert the file to CSV with columns target_mm,direction,run,deviation_um");
   }
 
   // For runs that were not measured, programs write zeros; examples are the reverse runs of a

@@ -80,10 +80,10 @@ Status check_rate(const Command& command, double rate_hz) {
   const double true_hz = rate_of(command);
   if (std::abs(true_hz / rate_hz - 1) <= kRateTolerance) return {};
   const double each_us = convert_us(command);
-  return bad_input("the board cannot scan at rate_hz = " + plain_number(rate_hz) +
-                   "; the nearest rate is " + plain_number(true_hz, 9) + " Hz with " +
-                   std::to_string(command.inputs.size()) + " inputs" +
-                   (each_us > 0 ? " that are " + plain_number(each_us) + " us apart" : ""));
+  return bad_input(
+      "the board cannot scan at rate_hz = " + plain_number(rate_hz) + "; the nearest rate is " +
+      plain_number(true_hz, 9) + " Hz with " + std::to_string(command.inputs.size()) + " inputs" +
+      (each_us > 0 ? ", converted at intervals of " + plain_number(each_us) + " us" : ""));
 }
 
 Notice uncalibrated(const std::string& why) {

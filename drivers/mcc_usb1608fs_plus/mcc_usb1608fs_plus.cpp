@@ -26,9 +26,9 @@ std::vector<std::size_t> words_of(const std::vector<Input>& inputs) {
 }
 
 const char* const kOverrun =
-    "the FIFO of the device has overflowed, so an unknown number of scans is missing and later "
-    "times are unknown; lower rate_hz, or end programs that slow down this computer (this computer "
-    "did not read the USB for 80 ms)";
+    "the FIFO of the device has overflowed, because this computer did not read the USB for 80 ms. "
+    "An unknown number of scans is missing, so the times of later scans are unknown; lower "
+    "rate_hz, or end programs that slow down this computer";
 
 }  // namespace
 

@@ -165,9 +165,9 @@ Status ModbusClient::Impl::prove(int address, modbus::Shape regular) {
   const modbus::Shape sentinel = sentinels.pick(regular);
   if (sentinel.count == 0)
     return io_error(
-        "to detect late replies, mdof reads a number of registers that no request of the profile "
-        "reads. But the requests of this profile use every possible number; remove a value from "
-        "the profile");
+        "mdof cannot detect late replies from this device: a test request must ask for another "
+        "number of registers than all requests of the profile, but the profile uses every possible "
+        "number; remove a value from the profile");
   const int last = modbus::kLastAddress + 1 - sentinel.count;
   const auto pdu = modbus::read_request(static_cast<modbus::Function>(sentinel.function),
                                         std::min(address, last), sentinel.count);

@@ -32,7 +32,7 @@ ChannelOptions read_channel(TomlTable& channel) {
   ChannelOptions read{{}, channel.number("most_counts_per_s", 0)};
   if (read.most_counts_per_s < 0 || !std::isfinite(read.most_counts_per_s))
     channel.reject("most_counts_per_s",
-                   "must be greater than 0, or 0 for the maximum count rate of the input");
+                   "must be 0 (the maximum count rate of the input) or greater");
   if (!channel.has("counting")) return read;
   const std::string counting = channel.string("counting");
   if (counting == "x1") read.options = kEnabled;

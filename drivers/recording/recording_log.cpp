@@ -192,11 +192,12 @@ Result<ReadState> RecordingLog::read(SampleBlock& block, std::chrono::millisecon
 Status RecordingLog::check_end() {
   if (!seal_ || (seal_->chunks == chunks_ && seal_->sha256 == sha256_of(*seal_, sha256_)))
     return {};
-  return bad_input(file_.string() + ": the seal does not match the file (sealed chunks: " +
-                   std::to_string(seal_->chunks) +
-                   ", chunks in the file: " + std::to_string(chunks_) +
-                   "). The chunks that were read are undamaged, but the " +
-                   "end of the recording may be missing; restore the file from a copy");
+  return bad_input(
+      file_.string() +
+      ": the seal at the end of the recording does not match the file (sealed chunks: " +
+      std::to_string(seal_->chunks) + ", chunks in the file: " + std::to_string(chunks_) +
+      "). The chunks that were read are undamaged, but the " +
+      "end of the recording may be missing; restore the file from a copy");
 }
 
 Progress RecordingLog::progress() const {

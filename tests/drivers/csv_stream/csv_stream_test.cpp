@@ -167,7 +167,7 @@ TEST(CsvStream, RefusesTimesInMilliseconds) {
   CsvStream stream = over_tcp(served);
   ASSERT_TRUE(stream.open());
   const Collected all = collect(stream, 1000);
-  EXPECT_NE(all.error.find("time_s must be in seconds"), std::string::npos) << all.error;
+  EXPECT_NE(all.error.find("give time_s in seconds"), std::string::npos) << all.error;
 }
 
 TEST(CsvStream, OpeningFailsWithoutAHeader) {

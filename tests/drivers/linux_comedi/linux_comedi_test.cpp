@@ -199,8 +199,8 @@ TEST_F(ComediBoard, ReportsTheTrueRateAndRefusesAWrongOne) {
   expect_refused("the nearest rate is 9881.42292");
   board_->tick_ns = 70'000;
   expect_refused(
-      "the board cannot scan at rate_hz = 10000; the nearest rate is 7142.85714 Hz with 2 inputs "
-      "that are 70 us apart");
+      "the board cannot scan at rate_hz = 10000; the nearest rate is 7142.85714 Hz with 2 inputs, "
+      "converted at intervals of 70 us");
   board_->tick_ns = 1000;
   // The conversions of two inputs take longer than the period of a scan.
   board_->least_convert_ns = 60'000;

@@ -51,14 +51,14 @@ Result<algo::TableLimits> LimitOptions::limits() const {
 void add_limit_options(CLI::App& command, LimitOptions& limits) {
   command
       .add_option("--limit-um", limits.um,
-                  "Largest permitted error or correction, in urad for angles [default: 1000 um, "
-                  "10000 urad]")
+                  "Largest permitted error or correction in um (for angles: urad) [default: 1000 "
+                  "um, 10000 urad]")
       ->check(positive_number())
       ->type_name("UM");
   command
       .add_option("--limit-um-per-mm", limits.um_per_mm,
-                  "Largest permitted slope of an error or correction, in urad/mm for angles "
-                  "[default: 50 um/mm, 500 urad/mm]")
+                  "Largest permitted slope of an error or correction in um/mm (for angles: "
+                  "urad/mm) [default: 50 um/mm, 500 urad/mm]")
       ->check(positive_number())
       ->type_name("UM");
 }
@@ -91,7 +91,9 @@ void add_only_axis_option(CLI::App& command, std::string& axis) {
 }
 
 void add_model_option(CLI::App& command, std::string& model) {
-  command.add_option("--model", model, "Model for the errors: simplified, exact or rigid")
+  command
+      .add_option("--model", model,
+                  "Model that calculates the errors from the readings: simplified, exact or rigid")
       ->check(CLI::IsMember({"simplified", "exact", "rigid"}))
       ->type_name("MODEL")
       ->capture_default_str();

@@ -33,8 +33,9 @@ Result<Served> read_device(TomlTable& table, const Wiring& wiring) {
 void refuse_keys_of_driver(TomlTable& machine) {
   for (const char* key : {"repeats", "loop", "rate_hz", "packet_ms", "pace", "gap", "disconnect"})
     if (machine.has(key))
-      machine.reject(
-          key, "has no effect in mdof-simulate (it belongs to the driver simulator); remove it");
+      machine.reject(key,
+                     "has no effect in mdof-simulate, because this key belongs to the driver "
+                     "simulator; remove this key");
 }
 
 }  // namespace

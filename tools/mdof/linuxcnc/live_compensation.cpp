@@ -215,14 +215,13 @@ class LiveLimits {
     const auto moves = place_of("motion-controller", other);
     if (!reads || !moves || thread != other || *moves < *reads)
       return refuse(
-          "[HAL]HALFILE: the HAL files must add (addf) motion-command-handler, and after it "
-          "motion-controller, to the same thread" +
+          "[HAL]HALFILE: the HAL files do not add (addf) motion-command-handler and "
+          "motion-controller to one thread in this order; correct the addf lines" +
           unseen);
     if (wiring_.signal_of.contains("motion.homing-inhibit"))
       refuse(
-          "[HAL]HALFILE: a HAL file connects motion.homing-inhibit, but this pin must be connected "
-          "to the mdof component only (to prevent homing while an offset is active); remove this "
-          "connection");
+          "[HAL]HALFILE: a HAL file connects motion.homing-inhibit; remove this connection. Only "
+          "the mdof component may connect this pin, to prevent homing while an offset is active");
     const std::string at = " " + thread + " ";
     live_.hal =
         "# Live compensation by mdof. This file must be the last HALFILE of [HAL].\n"

@@ -79,10 +79,10 @@ Result<std::optional<rpc::Client>> writing_daemon(const std::string& database,
   if (fs::equivalent(theirs, file, ec) && !ec) return std::optional(std::move(*client));
   if (!busy)
     return fail(ErrorCode::conflict,
-                "the mdofd at " + socket + " uses " + theirs + ", but this command uses " +
-                    file.string() +
+                "the mdofd at " + socket + " uses the database " + theirs +
+                    ", but this command uses " + file.string() +
                     "; give the database of this mdofd with --db, or leave out --socket");
-  return held(file, "the mdofd at " + socket + " uses " + theirs +
+  return held(file, "the mdofd at " + socket + " uses the database " + theirs +
                         "; use --socket to give the socket of the mdofd that uses this database");
 }
 

@@ -80,10 +80,10 @@ std::string tolerance(const AllocatedTolerance& t) {
 constexpr const char* kNotMet = ": none; the limit is not met even with the value 0";
 
 std::string allocation(const Allocation& a) {
-  std::string text = "\nTolerances for |" + with_unit(a.output) +
-                     "| <= " + fixed(a.limit, decimals_for(a.limit)) + " with probability " +
+  std::string text = "\nLargest tolerances with which |" + with_unit(a.output) +
+                     "| <= " + fixed(a.limit, decimals_for(a.limit)) + " has the probability " +
                      percent(a.probability) +
-                     "; probability with the planned values: " + percent(a.reached) + "\n";
+                     " (probability with the planned values: " + percent(a.reached) + ")\n";
   for (const AllocatedTolerance& t : a.alone)
     text += "  alone     " +
             (t.value == 0 && a.reached < a.probability ? t.tolerance + kNotMet : tolerance(t)) +
@@ -96,6 +96,9 @@ std::string allocation(const Allocation& a) {
     for (const AllocatedTolerance& t : pair) words.push_back(tolerance(t));
     text += "  pair      " + joined(words, " with ") + "\n";
   }
+  text += "alone: the other tolerances have their planned values\n";
+  if (!a.frontier.empty())
+    text += "pair: a value of the first tolerance, with the largest value of the second\n";
   return text;
 }
 

@@ -62,15 +62,18 @@ void declare_trials(CLI::App& command, SensitivityCommand& o) {
       .add_option("--coverage", o.coverage,
                   "Coverage probability of the intervals [default: 0.95, or as in the plan]")
       ->type_name("P");
-  auto* adaptive = command.add_flag("--adaptive", o.adaptive,
-                                    "Run trials until the tolerance is reached (JCGM 101 7.9)");
+  auto* adaptive = command.add_flag(
+      "--adaptive", o.adaptive,
+      "Run trials until the results are stable within --tolerance or --digits (JCGM 101, 7.9)");
   command
       .add_option("--digits", o.digits,
                   "Number of significant digits of each standard deviation that must be stable "
                   "(JCGM 101, 7.9) [default: 2]")
       ->needs(adaptive)
       ->type_name("N");
-  command.add_option("--tolerance", o.tolerances, "Tolerance of one output, such as EBX_urad=0.01")
+  command
+      .add_option("--tolerance", o.tolerances,
+                  "Numerical tolerance of the results of one output, such as EBX_urad=0.01")
       ->needs(adaptive)
       ->type_name("KEY=VALUE");
   command

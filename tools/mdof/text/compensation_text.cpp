@@ -102,11 +102,12 @@ std::string table_of_positioning_text(const CompensationTable& t) {
 std::string table_text(const CompensationTable& t, std::int64_t generation) {
   if (t.has_positioning()) return table_of_positioning_text(t);
   return noise_only_notice(t.noise_only()) + simulated_notice(t.simulated) +
-         wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) + ", " +
-                     state_of(generation) + ", created " + t.created_utc + ", from " +
-                     runs_of(t.runs) +
-                     (t.added_to ? ", added to table " + std::to_string(*t.added_to) : ""),
-                 terminal_columns()) +
+         wrapped(
+             "table " + std::to_string(t.id) + ", axis " + letter(t.axis) + ", " +
+                 state_of(generation) + ", created " + t.created_utc + ", from " + runs_of(t.runs) +
+                 (t.added_to ? ", whose errors were added to table " + std::to_string(*t.added_to)
+                             : ""),
+             terminal_columns()) +
          "\n"
          "error = actual - nominal position of the moving " +
          t.sides.moves() + "\nstraightness " +

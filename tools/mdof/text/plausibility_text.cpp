@@ -76,7 +76,9 @@ std::string targets_text(const Plausibility& p) {
          " forward, " + times(sum(most.second)) + " in reverse\n";
   if (odd == 0) return out;
   out += "visits     " + std::to_string(odd) +
-         (odd == 1 ? " target differs:\n" : " targets differ:\n") + table.text();
+         (odd == 1 ? " target has another number of visits:\n"
+                   : " targets have another number of visits:\n") +
+         table.text();
   if (odd > kMostRows) out += "... and " + std::to_string(odd - kMostRows) + " more, see --json\n";
   return out;
 }

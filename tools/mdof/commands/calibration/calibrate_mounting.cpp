@@ -169,10 +169,9 @@ Action declare_mounting(CLI::App& command) {
       ->required()
       ->type_name("RIG.toml");
   command
-      .add_option(
-          "--reversed", o->reversed,
-          "Axes along which the target moves opposite to the direction that mdof calculates "
-          "from the rig and the encoder")
+      .add_option("--reversed", o->reversed,
+                  "Axes along which mdof calculates the wrong direction of the target motion from "
+                  "the rig and the encoder; mdof then uses the opposite direction")
       ->delimiter(',')
       ->type_name("X,Y,Z")
       ->check(CLI::IsMember({"X", "Y", "Z"}));

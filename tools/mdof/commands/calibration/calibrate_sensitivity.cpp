@@ -139,8 +139,8 @@ Action declare_sensitivity(CLI::App& command) {
       ->type_name("RIG.toml");
   command.add_option("--probe", o->probe, "Probe to calibrate")->required()->type_name("ID");
   command.add_flag("--reversed", o->reversed,
-                   "The target moves opposite to the direction that mdof calculates from the rig "
-                   "and the encoder");
+                   "Use the opposite direction of the target motion, because mdof calculates the "
+                   "wrong direction from the rig and the encoder");
   add_record_options(command, o->record);
   add_json_flag(command, o->json);
   return [o] { return calibrate(*o); };

@@ -21,8 +21,8 @@ Result<std::int64_t> generation_in(const Result<Active>& active, std::int64_t ta
 void add_expected_generation_option(CLI::App& command, std::optional<std::int64_t>& generation) {
   command
       .add_option("--expected-generation", generation,
-                  "Make the change only if the active tables still have this generation (see mdof "
-                  "status)")
+                  "Refuse the change if the generation number of the active tables differs from "
+                  "this number (mdof status prints the number)")
       ->type_name("N");
 }
 

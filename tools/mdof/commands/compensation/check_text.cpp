@@ -33,19 +33,19 @@ std::string causes_text(const CheckedError& e) {
         e.error +
         ": nothing to correct, because all errors are smaller than the last digit of the format\n";
   if (e.by_reversal > kShown)
-    text +=
-        e.error + ": " + fixed(e.by_reversal * 1e6, 4) + unit +
-        (e.approach.empty() ? " remain in each approach"
-                            : " remain at positions that are not approached " + e.approach) +
-        ", because the errors differ between the approaches and the file has one value for both" +
-        (e.one_way ? " (not included in \"after\")\n"
-         : e.approach.empty()
-             ? "\n"
-             : "; if every position is approached " + e.approach + ", give --one-approach\n");
+    text += e.error + ": " + fixed(e.by_reversal * 1e6, 4) + unit +
+            (e.approach.empty() ? " remain in each approach"
+                                : " remain at positions that are not approached " + e.approach) +
+            ", because the file has one value for both approaches, but the errors of the "
+            "approaches differ" +
+            (e.one_way ? " (not included in \"after\")\n"
+             : e.approach.empty()
+                 ? "\n"
+                 : "; if every position is approached " + e.approach + ", give --one-approach\n");
   if (e.outside > kShown)
     text += e.error + ": " + fixed(e.outside * 1e6, 4) + unit +
-            " remain at measured positions beyond the ends of the file, because the controller "
-            "uses the values at the ends there (not included in \"before\" and \"after\")\n";
+            " remain at measured positions beyond the ends of the file. There, the controller uses "
+            "the value at the nearest end (not included in \"before\" and \"after\")\n";
   if (e.error_by_ramp > kShown)
     text +=
         e.error + ": " + fixed(e.error_by_ramp * 1e6, 4) + unit +
@@ -108,10 +108,12 @@ std::string check_text(const controllers::Check& check) {
   const std::size_t columns = terminal_columns();
   const std::string most = plain_number(check.most_residual_m * 1e6);
   std::string text =
-      "limit: the largest residual that the rounding of the format, --tolerance-um and the causes "
-      "below can cause, but at most the permitted residual: " +
-      most + " µm (angles: " + most + " µrad) and " + plain_number(check.share * 100) +
-      " % of \"before\"; see --residual-um and --residual-percent\n";
+      "limit: largest permitted value of \"after\". The limit of a table of one axis is the "
+      "residual that the rounding of the format, --tolerance-um and the causes below can cause. "
+      "The limit is never above " +
+      most + " µm (angles: " + most + " µrad), and never above " + plain_number(check.share * 100) +
+      " % of \"before\" (or the last digit of the format, if this digit is larger); see "
+      "--residual-um and --residual-percent\n";
   for (const CheckedError& e : check.errors) text += causes_text(e);
   if (check.nothing_to_correct())
     text +=

@@ -133,11 +133,12 @@ Action declare_build(CLI::App& command) {
                    "Keep the slope of straightness; do not subtract the least-squares line");
   command.add_flag("--partial", o->partial, "Also accept partial runs");
   command
-      .add_option("--add-to", o->add_to,
-                  "Number of the table that was active while the runs were measured. The new table "
-                  "is the sum of this table and of the remaining errors in the runs. The new table "
-                  "has the slope and the reference point of this table. mdof refuses runs that "
-                  "were not measured with this table, and runs without all targets of this table")
+      .add_option(
+          "--add-to", o->add_to,
+          "Number of the table that was active while the runs were measured. The new table is the "
+          "sum of this table and of the errors that remained in the runs. The new table has the "
+          "slope and the reference point of this table. mdof refuses a run that was measured "
+          "without this table, and a run that lacks a target of this table")
       ->type_name("TABLE");
   add_reference_option(command, o->reference)
       ->description(

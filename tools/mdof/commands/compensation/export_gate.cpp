@@ -71,7 +71,7 @@ Status judge_sign(const controllers::Format& format, const ExportRequest& reques
   if (format.sign_confirmed) return {};
   const std::string why = std::string(format.sense) + " (" + format.source + ")";
   if (!request.unverified_sign)
-    return fail(ErrorCode::usage, std::string("the sign of ") + format.name +
+    return fail(ErrorCode::usage, std::string("the correction sign of the format ") + format.name +
                                       " is not confirmed: " + why +
                                       ". A wrong sign doubles the error; verify the sign on the "
                                       "machine, then give --unverified-sign");

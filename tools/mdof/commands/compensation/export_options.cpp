@@ -21,33 +21,34 @@ void add_export_options(CLI::App& command, ExportRequest& request, const std::st
   command
       .add_option(
           "--tolerance-um", request.tolerance_um,
-          "Leave out table points; the linear interpolation then differs from the full table by at "
-          "most this value (for angles: urad)")
+          "Leave out points of the table; linear interpolation between the remaining points "
+          "differs from the full table by at most this value in um (for angles: urad)")
       ->check(not_negative_number());
   command
-      .add_option(
-          "--residual-um", request.residual_um,
-          "Largest permitted residual of an error (for angles: urad); mdof adds --tolerance-um to "
-          "this limit")
+      .add_option("--residual-um", request.residual_um,
+                  "Largest permitted error after the correction in um (for angles: urad); mdof "
+                  "adds --tolerance-um to this limit")
       ->check(finite_number())
       ->capture_default_str();
   command
       .add_option("--residual-percent", request.residual_percent,
-                  "Largest permitted residual of an error, in percent of the error")
+                  "Largest permitted error after the correction, in percent of the error before "
+                  "the correction")
       ->check(finite_number())
       ->capture_default_str();
   add_limit_options(command, request.limits);
   command
-      .add_option("--home-mm", request.home_mm,
-                  "Home position of each axis, such as X=10,Y=-20, or one number if there is one "
-                  "table; mdof shifts the table so that the correction is 0 at this position")
+      .add_option(
+          "--home-mm", request.home_mm,
+          "Home position of each axis, such as X=10,Y=-20 (for one table, one number is enough); "
+          "mdof subtracts the correction at this position from all corrections of the table")
       ->type_name("AXIS=MM,…");
   command.add_flag("--cut-range", request.cut_range,
                    "If values are missing, export the longest range without a gap");
   command.add_flag(
       "--one-approach", request.one_approach,
-      "If values exist for one approach only, use these values for both approaches. If the format "
-      "has one value for both approaches, accept the remaining reversal error");
+      "If a table has values for one approach only, use these values for both approaches. If the "
+      "format has one value for both approaches, accept the reversal error that remains");
   command
       .add_option("--joint", request.joints,
                   "linuxcnc: joints of the axes, such as X=0,Z=1; a gantry has two joints, such as "

@@ -33,10 +33,10 @@ Status check_request(const ExportRequest& request) {
   if (!std::isfinite(request.tolerance_um))
     return fail(ErrorCode::usage, "--tolerance-um must be a finite number");
   if (request.tolerance_um > kMostTolerance_um)
-    return fail(ErrorCode::usage,
-                "--tolerance-um " + plain_number(request.tolerance_um, 3) +
-                    " is so large that the thinned table would lose the errors; give at most " +
-                    plain_number(kMostTolerance_um, 3));
+    return fail(ErrorCode::usage, "--tolerance-um " + plain_number(request.tolerance_um, 3) +
+                                      " is too large, because the exported table would no longer "
+                                      "contain the errors; give at most " +
+                                      plain_number(kMostTolerance_um, 3));
   if (!(request.residual_um > 0 && request.residual_um <= kMostResidual_um))
     return fail(ErrorCode::usage,
                 "--residual-um must be above 0 and at most " + plain_number(kMostResidual_um, 3));
@@ -155,7 +155,7 @@ Status apply_one_approach(CompensationTable& table, const ExportRequest& request
     if (!request.one_approach)
       return bad_input(what +
                        "; measure both approaches, or use these values for both approaches with "
-                       "--one-approach (this does not correct a reversal error)");
+                       "--one-approach (a reversal error then remains)");
     out.options.marks.push_back("ONE APPROACH: " + what + "; a reversal error is not corrected");
     (has(forward) ? reverse : forward) = has(forward) ? forward : reverse;
     return {};
@@ -243,9 +243,10 @@ Status export_volume(store::Store& store, const ExportRequest& request,
   const std::int64_t id = request.tables.front();
   MDOF_TRY(const bool volume, store.is_volumetric(id));
   if (!volume || request.tables.size() > 1)
-    return fail(ErrorCode::usage, std::string(out.format->name) +
-                                      " takes exactly one volumetric table; build this table with: "
-                                      "mdof compensation build --machine");
+    return fail(ErrorCode::usage,
+                std::string(out.format->name) +
+                    " exports exactly one volumetric table; give the number of one volumetric "
+                    "table (to build such a table, use: mdof compensation build --machine)");
   MDOF_TRY(const VolumetricTable table, store.volumetric(id));
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
   MDOF_CHECK(judge(judged, request, out));
@@ -271,7 +272,8 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
   const std::string name = "squareness " + std::to_string(stored.id);
   if (stored.axes != AxisPair{})
     return bad_input(name + " is " + squareness_name(stored.axes) +
-                     "; the controllers of this format take the squareness of X and Y only");
+                     ", but this format contains only EC0Y (squareness of X and Y); give a "
+                     "squareness of X and Y");
   MDOF_TRY(const Rig x, rig_of_run(store, stored.run_a));
   MDOF_TRY(const Rig y, rig_of_run(store, stored.run_b));
   if (!(x.machine == y.machine))
@@ -281,13 +283,12 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
   for (const Rig* rig : {&x, &y}) {
     const ChainAxis* measured = rig->machine.find(letter(rig->axis));
     if (measured && !fixture_is_with_tool(*measured, rig->sides))
-      return bad_input(
-          name +
-          " is the angle at the fixture, not at the tool: the keys \"moves\" and \"chain\" in "
-          "the rig of axis " +
-          letter(rig->axis) +
-          " state that the fixture is on the side of the work; measure with the fixture in the "
-          "spindle, or correct the key \"moves\" in the rig");
+      return bad_input(name +
+                       " is the angle at the fixture, but the controller needs the angle at the "
+                       "tool. According to the keys \"moves\" and \"chain\" in the rig of axis " +
+                       letter(rig->axis) +
+                       ", the fixture is on the side of the work. Measure with the fixture in the "
+                       "spindle, or correct the key \"moves\" in the rig");
   }
   // The squareness depends on its reference point. Tables of these rigs have the same reference
   // point by default.
@@ -328,8 +329,8 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   if (square && (request.squareness.empty() || !request.tables.empty()))
     return fail(ErrorCode::usage,
                 request.format +
-                    " contains only the squareness; give --squareness with the "
-                    "number of a stored squareness or \"latest\", and give no table");
+                    " exports only a squareness, not tables; give --squareness with the number of "
+                    "a stored squareness or \"latest\", and leave out TABLE");
   if (!square && !request.squareness.empty())
     return fail(ErrorCode::usage,
                 request.format + " exports tables, not squareness; leave out --squareness");

@@ -173,7 +173,8 @@ Status form_clamp(const FormClampCommand& o) {
   MDOF_CHECK(check_out(o.out, {o.before, o.after, o.released}));
   if (o.K && !o.released.empty())
     return fail(ErrorCode::usage,
-                "mdof calculates K from the map RELEASED; leave out RELEASED or --K");
+                "RELEASED and --K exclude each other, because mdof calculates K (plastic / elastic "
+                "deformation) from the map RELEASED; leave out RELEASED or --K");
   MDOF_TRY(const Clamped found, clamped(o));
   show_notices(found.notices, true);
   if (o.released.empty() && !o.K)

@@ -123,11 +123,11 @@ std::string compare_text(const Compared& compared, const FormCompareCommand& o) 
                      in_um(found.rms_m) + " µm about the mean, " + std::to_string(found.pixels) +
                      " pixels\n";
   if (o.register_how == "rigid")
-    text += "B is shifted by x " + in_mm(compared.pose.shift_x_m) + " mm, y " +
+    text += "relative to A, B is shifted by x " + in_mm(compared.pose.shift_x_m) + " mm, y " +
             in_mm(compared.pose.shift_y_m) + " mm and turned by " +
             fixed(compared.pose.turn_rad * 180 / std::numbers::pi, 5) +
             "° about the middle of A (x " + in_mm(compared.x_middle_m) + " mm, y " +
-            in_mm(compared.y_middle_m) + " mm) relative to A\n";
+            in_mm(compared.y_middle_m) + " mm)\n";
   if (o.register_how != "none") text += "piston and tilt are removed\n";
   return text;
 }
@@ -138,7 +138,7 @@ Status form_compare(const FormCompareCommand& o) {
   MDOF_TRY(const SurfaceMap b, load_map(o.b, o.maps));
   if (are_identical(a, b))
     warn(o.b + ": this map is identical to " + o.a +
-         "; if these are two measurements, one was given twice");
+         ", so one measurement was probably given twice");
   Compared compared;
   MDOF_TRY(compared.found, algo::compare(a, b, register_from(o.register_how)));
   compared.measured = a.measured();

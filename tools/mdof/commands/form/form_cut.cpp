@@ -86,7 +86,7 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
       "\n";
   if (found.factor)
     text += "optimal gain " + fixed(*found.factor, 4) +
-            ": the next path corrects the mean error of the passes times this factor\n";
+            ": the correction of the next path is the mean error of all passes times this gain\n";
   if (found.left_by_smoothing_rms_m)
     text += "error that the next path does not correct because of the smoothing (squares of " +
             plain_number(o.smooth_mm) + " mm): RMS " + in_um(*found.left_by_smoothing_rms_m) +
@@ -97,9 +97,9 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
       in_um(*found.random_rms_m) +
       " µm per pass\n"
       "lowest RMS error that further passes can reach: " +
-      in_um(*found.floor_gain_one_m) + " µm (gain 1), " + in_um(*found.floor_mean_m) +
-      " µm (mean of all passes)" +
-      (found.floor_optimal_m ? ", " + in_um(*found.floor_optimal_m) + " µm (optimal gain)" : "") +
+      in_um(*found.floor_gain_one_m) + " µm (--gain 1), " + in_um(*found.floor_mean_m) +
+      " µm (--gain mean)" +
+      (found.floor_optimal_m ? ", " + in_um(*found.floor_optimal_m) + " µm (--gain optimal)" : "") +
       "\n" + (*found.converges ? "the passes converge" : "THE PASSES DO NOT CONVERGE") +
       "\nnext path: " + o.out + "\n";
   return text;
@@ -112,7 +112,7 @@ Status form_cut(const FormCutCommand& o) {
                 "or more passes with --repeated");
   if (o.gain != "optimal" && o.random_um)
     return fail(ErrorCode::usage,
-                "--random-um is used only with --gain optimal; add this option or leave out "
+                "--random-um is used only with --gain optimal; add --gain optimal, or leave out "
                 "--random-um");
   MDOF_CHECK(check_out(o.out, {o.wanted}));
   MDOF_CHECK(check_out(o.out, o.cuts));
@@ -132,9 +132,9 @@ Status form_cut(const FormCutCommand& o) {
   if (o.random_um) passes.random_rms_m = from_um(*o.random_um);
   passes.smooth_m = from_mm(o.smooth_mm);
   MDOF_TRY(const algo::CuttingResult found, algo::next_cut(passes));
-  warn_few_common_pixels(
-      passes.wanted, found.pixels,
-      "the next path has no height at the remaining pixels, and mdof form path bridges these gaps");
+  warn_few_common_pixels(passes.wanted, found.pixels,
+                         "the next path has no height at the remaining pixels (\"mdof form path\" "
+                         "bridges these gaps)");
   MDOF_CHECK(
       save_maps(found.next, o.out, {{"next-path", "Path of the next pass", found.next}}, o.plots));
   return o.json ? write_line(cut_json(found, o)) : write_out(cut_text(found, o));

@@ -279,10 +279,10 @@ std::string path_text(const FoundPath& found, const FormPathCommand& o) {
                      mm(found.request.outer_radius_m) +
                      " mm inwards, centre x = " + mm(found.request.x_centre_m) +
                      " mm, y = " + mm(found.request.y_centre_m) + " mm; duration " +
-                     plain_number(found.duration_s / 60) + " min\n" + "points: measured " +
-                     std::to_string(found.counts.measured) + ", extended " +
-                     std::to_string(found.counts.extended) + ", bridged " +
-                     std::to_string(found.counts.bridged) + "\n";
+                     plain_number(found.duration_s / 60) + " min\n" +
+                     "points: on measured pixels " + std::to_string(found.counts.measured) +
+                     ", extended beyond the edge " + std::to_string(found.counts.extended) +
+                     ", bridged over gaps " + std::to_string(found.counts.bridged) + "\n";
   text += (std::isnan(found.undulations)
                ? "undulations unknown"
                : plain_number(found.undulations, 9) + " undulations per turn, " +
@@ -294,8 +294,9 @@ std::string path_text(const FoundPath& found, const FormPathCommand& o) {
             " Hz removes from the path: PV " + in_um(found.left_out->pv) + " µm, RMS " +
             in_um(found.left_out->rms) + " µm\n";
   if (const auto rough = feed_roughness_if_closed(found))
-    text += "roughness by feed and tool radius: Ra " + plain_number(rough->Ra_m * 1e9) +
-            " nm, Rt " + plain_number(rough->Rt_m * 1e9) + " nm\n";
+    text += "theoretical roughness from feed and tool radius: Ra " +
+            plain_number(rough->Ra_m * 1e9) + " nm, Rt " + plain_number(rough->Rt_m * 1e9) +
+            " nm\n";
   return text;
 }
 
@@ -334,7 +335,8 @@ Action declare_form_path(CLI::App& command) {
   command
       .add_option("--out", o->out,
                   "Write the tool path to this file: CSV with the columns "
-                  "t_s,rho_mm,theta_deg,z_um,on_part (1: measured, 2: extended, 0: bridged), or "
+                  "t_s,rho_mm,theta_deg,z_um,on_part (1: measured, 2: extended beyond the edge, 0: "
+                  "bridged over a gap), or "
                   "G-code if the file name ends in .ngc, .nc, .gcode or .tap. theta and C are "
                   "angles on the part from +X towards +Y: seen from +z, the part turns clockwise "
                   "under the tool")
@@ -366,8 +368,8 @@ Action declare_form_path(CLI::App& command) {
       ->capture_default_str();
   command
       .add_option("--undulation-share", o->undulation_share,
-                  "Smallest amplitude of an undulation that mdof counts, as a share of the largest "
-                  "amplitude")
+                  "Share of the largest amplitude; undulations with a smaller amplitude do not "
+                  "count for the bandwidth")
       ->check(number_in(1e-9, 1))
       ->capture_default_str();
   command

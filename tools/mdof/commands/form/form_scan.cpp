@@ -19,8 +19,8 @@ namespace {
 
 constexpr const char* kScanU =
     "the noise between neighbouring heights, and u of the subtracted axis errors. u does not "
-    "contain noise that neighbouring heights have in common, errors of the probe calibration, of "
-    "the encoder, of the spindle and of the spindle angle, or undeclared delays of the readings";
+    "contain: noise that is common to neighbouring heights; errors of the probe calibration, the "
+    "encoder, the spindle and the spindle angle; undeclared delays of the readings";
 
 struct FormScanCommand {
   std::vector<std::string> runs;

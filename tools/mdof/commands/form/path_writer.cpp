@@ -60,7 +60,7 @@ Status PathWriter::begin() {
     text_ =
         "(mdof form path: X is the radius in mm, Z points towards +z)\n"
         "(C is the angle on the part from +X towards +Y: seen from +z, the part turns clockwise)\n"
-        "(bring the tool to Z of the first move before this program)\n"
+        "(before you start this program, move the tool to the Z of the first move)\n"
         "G21 G90\n";
   }
   return {};

@@ -107,10 +107,9 @@ Action declare_machine_budget(CLI::App& command) {
   command.add_option("--threads", o->threads, "Number of threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command
-      .add_option(
-          "--target-um", o->target_um,
-          "Also print the largest permitted u of each source, so that 95 % of the error vectors "
-          "are shorter than this length")
+      .add_option("--target-um", o->target_um,
+                  "Length that 95 % of the error vectors must not exceed; mdof also prints the "
+                  "largest permitted u of each source")
       ->check(positive_number());
   add_json_flag(command, o->json);
   return [o] { return machine_budget(*o); };

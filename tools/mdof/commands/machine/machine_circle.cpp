@@ -310,10 +310,9 @@ Status machine_circle(const MachineCircleCommand& o) {
   if (!measured.empty()) {
     MDOF_TRY(const auto csv, drivers::read_csv_table(measured, {"angle_deg"}, {"ccw_um", "cw_um"}));
     if (csv.columns[1].empty() && csv.columns[2].empty())
-      return bad_input(
-          csv.source +
-          ": has neither a column ccw_um nor a column cw_um; add at least one of them, "
-          "with the radial deviations in this direction");
+      return bad_input(csv.source +
+                       ": the columns ccw_um and cw_um are missing; add one or both (radial "
+                       "deviations of the counter-clockwise and the clockwise path)");
     MDOF_TRY(algo::CircularPath path, read_path(csv));
     auto circle = evaluated(std::move(path));
     if (!circle) return in_context(csv.source, std::move(circle.error()));
@@ -339,7 +338,7 @@ Action declare_machine_circle(CLI::App& command) {
   command
       .add_option("FILE", o->file,
                   "MACHINE.toml to predict the test from the errors of the machine, or CSV of a "
-                  "measured path with the columns angle_deg (from the first axis towards the "
+                  "measured path. Columns of the CSV: angle_deg (from the first axis towards the "
                   "second axis), ccw_um and cw_um (radial deviations)")
       ->required()
       ->type_name("");

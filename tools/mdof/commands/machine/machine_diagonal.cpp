@@ -224,9 +224,9 @@ Action declare_machine_diagonal(CLI::App& command) {
   const auto o = std::make_shared<MachineDiagonalCommand>();
   command
       .add_option("FILE", o->file,
-                  "MACHINE.toml, or CSV of measured lines with the columns line (1: first axis, 2: "
-                  "second axis, 3: diagonal, 4: other diagonal), length_mm and deviation_um; each "
-                  "repeated measurement is another row")
+                  "MACHINE.toml to predict the diagonals, or CSV of measured lines. Columns of the "
+                  "CSV: line (1: first axis, 2: second axis, 3: diagonal, 4: other diagonal), "
+                  "length_mm and deviation_um. Each repeated measurement is another row")
       ->required()
       ->type_name("");
   command.add_option("--plane", o->plane, "Plane of the first and the second axis")

@@ -37,15 +37,15 @@ std::string counted_text(const algo::Perpendicularity& p) {
   if (!p.tilt_known)
     text +=
         "EA0C and EB0C contain a part of the tilt error motion of the table (2 cycles per turn), "
-        "because the file does not have both columns EAC_urad and EBC_urad.\n";
+        "because the column EAC_urad or EBC_urad (or both) is missing.\n";
   if (!p.axes_known)
     text +=
         "EA0C and EB0C contain a part of the errors of X and Y (1 cycle per turn), because the "
-        "file does not have the column axes_um.\n";
+        "column axes_um is missing.\n";
   if (!p.drift_fitted)
     text +=
-        "The readings cover too little of a second turn, so EA0C and EB0C contain the drift of "
-        "the height. u does not contain this drift. To separate the drift, measure at least two "
+        "The readings do not cover enough of a second turn. Therefore EA0C and EB0C contain the "
+        "drift of the height, but u does not. To separate the drift, measure at least two "
         "turns, with the readings in the order of time.\n";
   return text;
 }

@@ -185,9 +185,9 @@ std::string grooving_rotary_text(const algo::GroovingTable& t) {
   table.add({"true value (simulated machine)", angle_urad(t.EA0C_rad), angle_urad(t.EB0C_rad), ""});
   return table.text(terminal_columns()) +
          wrapped("range of the table height over one turn at radius " + in_mm(t.radius_m) +
-                     " mm: " + range_um(t.range_m) +
-                     " µm; without the table tilt: " + range_um(t.range_without_tilt_m) +
-                     " µm; without the table tilt and the perpendicularity: " +
+                     " mm: " + range_um(t.range_m) + " µm; after subtraction of the table tilt: " +
+                     range_um(t.range_without_tilt_m) +
+                     " µm; after subtraction of the table tilt and the perpendicularity: " +
                      range_um(t.range_left_m) + " µm (from the errors of X and Y)",
                  terminal_columns()) +
          "\n";

@@ -98,7 +98,7 @@ Action declare_drift(CLI::App& command) {
 
 Command drift_command() {
   return {.name = "drift",
-          .summary = "Find when the system has warmed up, from a log of a parked axis",
+          .summary = "Find when the system has warmed up, from a log of an axis at rest",
           .footer =
               "Exit code 1: the system has not warmed up yet. To see the drift of a run, use: mdof "
               "show RUN --figures\n"

@@ -79,9 +79,9 @@ std::string progress_line(const auto& event) {
   std::string line = "point " + std::to_string(points);
   if (of) line += " of " + std::to_string(*of);
   if (all > points)
-    line += ", " + std::to_string(all - points) +
-            " more have no error values or were not "
-            "requested";
+    line +=
+        " (other points, without error values or not requested: " + std::to_string(all - points) +
+        ")";
   const double awaited_mm = number(event, "awaited_mm");
   return points == of || std::isnan(awaited_mm) ? line
                                                 : line + ", next " + fixed(awaited_mm, 3) + " mm";
@@ -125,8 +125,9 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
       stopped = now;
     }
     if (stopped && now - *stopped > kEndPatience)
-      return io_error("mdofd has not reported the end of run " + std::to_string(run) +
-                      "; see mdof status");
+      return io_error("run " + std::to_string(run) +
+                      ": mdofd was asked to end this run, but has not reported its end within " +
+                      std::to_string(kEndPatience.count() / 1000) + " s; see mdof status");
     if (!client.connected())
       return in_context(
           "this command no longer receives the progress of run " + std::to_string(run),

@@ -163,9 +163,9 @@ std::string milling_sensitivity_text(const MillingSensitivityRequest& request,
                   [](const algo::VaryingInput& input) { return !input.declared; }))
     text += "* u is taken as 1 % of the value, because the plan declares no u of this input\n";
   return text + "\n" + shares.text(terminal_columns()) +
-         wrapped("share: total Sobol index (with interactions), from " +
+         wrapped("share: total Sobol index (with interactions) ± its standard error, from " +
                      std::to_string(request.trials) +
-                     " trials, and its standard error, which decreases with more --trials",
+                     " trials; more trials (--trials) reduce the standard error",
                  terminal_columns()) +
          "\n" + dropped_text(request, found);
 }

@@ -187,10 +187,10 @@ std::string assumptions_text(const LoadedPart& part) {
             "\n";
   if (std::any_of(part.causes.begin(), part.causes.end(), has_only_u))
     text += wrapped(
-                "At least one cause has an uncertainty u, but no value. The RMS of such a cause "
-                "and of its layer is the root of the expected mean square. The largest error and "
-                "the error of 95 % of the points are medians of the trials, so this RMS can be "
-                "larger.",
+                "Some causes have an uncertainty u, but no value. For such a cause and for its "
+                "layer, RMS is the root of the expected mean square. The largest error and the "
+                "error of 95 % of the points are medians of the trials. Therefore this RMS can be "
+                "larger than both of them.",
                 terminal_columns()) +
             "\n";
   return text;

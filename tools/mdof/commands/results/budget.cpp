@@ -187,9 +187,8 @@ Action declare_budget(CLI::App& command) {
           "--tolerance", o->tolerance,
           "Largest permitted value of the figure, in the unit of the figure. mdof prints "
           "\"conform\", \"not conform\" or \"undecided\" (ISO 14253-1:2017). The result is always "
-          "\"undecided\" if U is incomplete (the rig does not declare every uncertainty, or no "
-          "target was approached twice from the same direction), or if a notice makes the run "
-          "doubtful, because the effect of such a notice on the figure is unknown")
+          "\"undecided\" in these cases: the rig does not declare every uncertainty; no target was "
+          "approached twice from the same direction; a notice makes the run doubtful")
       ->check(not_negative_number());
   command
       .add_option(

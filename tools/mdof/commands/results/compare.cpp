@@ -47,7 +47,7 @@ std::string effect_text(const daemon::ComparedFigure& figure) {
   if (figure.effect != daemon::Effect::reduced) return text;
   const double left = std::abs(figure.after.value), before = std::abs(figure.before.value);
   return left > figure.after.U ? text + " by factor " + fixed(before / left, 1)
-                               : text + " to a value within U";
+                               : text + " to a value that is not larger than its U";
 }
 
 std::string um_cell(double value, double U) {
@@ -88,11 +88,11 @@ std::string comparison_text(const daemon::Comparison& c) {
   return text +
          wrapped("± is the standard uncertainty u, U the expanded uncertainty (95 %). u contains " +
                      covers_text(c) +
-                     ". The change is |after| - |before|. U of the change treats the runs as "
-                     "independent. Uncertainties that both runs have in common cancel, so this U "
-                     "is more likely too large than too small. If the sign of a figure has "
-                     "changed, the common uncertainties add, and u of the change is u before plus "
-                     "u after. Effect \"changed\": the magnitude is the same within U, but the "
+                     ". The change is |after| - |before|. For U of the change, mdof treats the "
+                     "runs as independent. Uncertainties that both runs have in common cancel, so "
+                     "this U is more likely too large than too small. If the sign of a figure has "
+                     "changed, the common uncertainties add; u of the change is then the sum of "
+                     "both u. Effect \"changed\": the magnitude is the same within U, but the "
                      "sign or the shape has changed.",
                  terminal_columns()) +
          "\n";

@@ -61,9 +61,10 @@ std::string parallelism_text(const Parallelism& found) {
              "The result is valid only if neither the target nor the fixture was moved relative to "
              "the machine between the runs. ± is the standard uncertainty u. It contains " +
                  covers_text(found.planes.front().budget) +
-                 ". mdof treats the scale, linearity and tilt factor of a probe and the flatness "
-                 "of a plane as common to both runs if both rigs declare the uncertainty; u then "
-                 "contains only the difference of both effects. mdof treats all other declared "
+                 ". The following uncertainties are common to both runs if both rigs declare them: "
+                 "scale, linearity and tilt factor of a probe (with the same calibration "
+                 "certificate), and flatness of a plane. For these, u contains only the difference "
+                 "between the effects on the two runs. mdof treats all other declared "
                  "uncertainties as independent, so u may be too large if the set-up stayed the "
                  "same. The result uses the least-squares slopes. All slopes refer to the "
                  "fixture.",

@@ -59,28 +59,29 @@ std::string sentence_of(const daemon::Trend& trend) {
   if (!chart)
     return figure + ": " + std::to_string(values.size()) +
            (values.size() == 1 ? " value is" : " values are") +
-           " too few for control limits (the limits need a baseline of " +
+           " too few for control limits (needed: a baseline of " +
            (trend.baseline > 0 ? std::to_string(trend.baseline) + " values)"
                                : "at least " + std::to_string(algo::kLeastBaselineValues) +
-                                     " values, and one value after them)");
-  const std::string provisional = chart->baseline < kFirmBaseline
-                                      ? "; the limits are provisional (baseline of " +
-                                            std::to_string(chart->baseline) + " values)"
-                                      : "";
+                                     " values, and one value after the baseline)");
+  const std::string provisional =
+      chart->baseline < kFirmBaseline
+          ? "; the limits are provisional, because their baseline has only " +
+                std::to_string(chart->baseline) + " values"
+          : "";
   if (chart->moved) {
     const auto& since = values[chart->moved->since];
     return figure + " has moved by " + with_u(trend, chart->moved->by, chart->moved->u) + " " +
-           unit_of(trend) + " since run " + runs_of(since) + " (" + since.started_utc + "): run " +
-           runs_of(values.back()) +
+           unit_of(trend) + " since run " + runs_of(since) + " (" + since.started_utc +
+           "): the value of run " + runs_of(values.back()) +
            (daemon::trend_signal(*chart, values.size() - 1) == "outside"
-                ? " is outside the limits (Shewhart, 3 sigma)"
+                ? " is outside the control limits (Shewhart, 3 sigma)"
                 : " is at least the eighth value in a row on one side of the centre (Western "
                   "Electric)") +
            provisional;
   }
   if (!chart->outside.empty())
-    return figure + ": run " + runs_of(values[chart->outside.back()]) +
-           " was outside the limits; later runs are inside" + provisional;
+    return figure + ": the value of run " + runs_of(values[chart->outside.back()]) +
+           " is outside the control limits; the values of later runs are inside" + provisional;
   return figure + " has not moved" + provisional;
 }
 
@@ -98,8 +99,9 @@ std::string text_of(const daemon::Trend& trend) {
   std::string out = trend.figure + "\n";
   if (trend.chart)
     out += "centre " + shown(trend, trend.chart->centre) + ", sigma " +
-           shown(trend, trend.chart->sigma) + " " + unit_of(trend) + " of the first " +
-           std::to_string(trend.chart->baseline) + " values (moving range)\n";
+           shown(trend, trend.chart->sigma) + " " + unit_of(trend) +
+           " (moving range), both from the first " + std::to_string(trend.chart->baseline) +
+           " values\n";
   out += table.text(terminal_columns());
   if (!trend.values.empty())
     out += wrapped("± is the standard uncertainty u (" + covers_text(trend.u_covers) +

@@ -93,8 +93,8 @@ Command separate_shift_command() {
           .footer =
               "Positions must be equally spaced, and each shift must be a whole multiple of this "
               "spacing. Shifts alone cannot separate a parabola, or a periodic error whose period "
-              "divides all shifts. If one set-up has the target turned about the moving axis "
-              "but not shifted, mdof can separate all errors except offset and slope.\n"
+              "divides all shifts. With one more set-up, in which the target is turned about the "
+              "moving axis but not shifted, mdof can separate all errors except offset and slope.\n"
               "Examples:\n"
               "  mdof separate shift 4 5 6 --shift-mm 0 5 15 --surface top\n"
               "  mdof separate shift a.csv b.csv c.csv --shift-mm 0 5 0 --turned 3 --moves target "

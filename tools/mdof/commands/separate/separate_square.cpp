@@ -29,10 +29,9 @@ struct SquareCommand {
 };
 
 std::string covers_of(const SquareReversal& s) {
-  return s.noise_only
-             ? "noise and repeatability only"
-             : "noise, and the uncertainties that the rig files declare; mdof treats these as "
-               "common to both set-ups";
+  return s.noise_only ? "noise and repeatability only"
+                      : "noise, and the uncertainties that the rig files declare; mdof treats "
+                        "these uncertainties as common to both set-ups";
 }
 
 std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& run,
@@ -117,10 +116,10 @@ Command separate_square_command() {
       .summary =
           "Separate the squareness of the machine from the angle of a square that was turned over",
       .footer =
-          "For each set-up, mdof calculates EC0Y as if the square were exact: first and second. "
-          "Then EC0Y of the machine = (first + second)/2. The angle error of the square is half "
-          "of the difference between first and second; the planes in the rigs determine the sign "
-          "of this error.\n"
+          "mdof calculates EC0Y of each set-up as if the square were exact. The two values are "
+          "called first and second here. EC0Y of the machine = (first + second)/2. The angle error "
+          "of the square is half of the difference between first and second; the planes in the "
+          "rigs determine the sign of this error.\n"
           "Example:\n"
           "  mdof separate square 1 2 3 4",
       .declare = declare_separate_square};

@@ -81,9 +81,8 @@ Result<LoadedSources> load_files(const SourceOptions& options) {
   if (options.moves.empty())
     return fail(
         ErrorCode::usage,
-        "missing option --moves: a file does not state whether the axis moves the target or the "
-        "fixture, and the sign of the target height depends on this; give --moves target or "
-        "--moves fixture");
+        "missing option --moves: the sign of the target height depends on the body that the axis "
+        "moves, and a file does not state this body; give --moves target or --moves fixture");
   const Sides sides{options.moves == "fixture", options.travel == "-"};
   LoadedSources loaded = nothing_yet(options, {*axis_from(options.axis), sides});
   loaded.request.at.place_m = from_mm(options.at_mm);
@@ -131,9 +130,9 @@ Status check_places(const std::vector<Vec3>& at, const SourceOptions& options,
                                  " in " + loaded.record.sources[0].name + " and at " +
                                  at_text(at[k]) + " in " + loaded.record.sources[k].name;
       if (i == static_cast<std::size_t>(loaded.record.axis))
-        return bad_input(differ + "; the position of this probe must be the same along " +
+        return bad_input(differ + "; give set-ups in which the probe has the same position along " +
                          letter(loaded.record.axis) +
-                         ", otherwise the probe measures another position on the target");
+                         ", because the probe otherwise measures another position on the target");
       loaded.notices.push_back(notice(NoticeCode::places_differ, "", {{"difference", differ}}));
     }
   return {};

@@ -46,16 +46,16 @@ Diagnosis diagnose(const drivers::DriverSpec& device, const DeviceFinding& found
     // Some sources have suspect times when they are opened.
     if (channel.values == 0 ||
         (channel.unusable > 0 && channel.worst != to_string(Quality::suspect)))
-      return {channel.values == 0 ? Level::bad : Level::doubtful,
-              what + ": channel " + channel.id + " gives " +
-                  (channel.values == 0
-                       ? "no usable value"
-                       : std::to_string(channel.unusable) + " of " + std::to_string(found.scans) +
-                             " values that are not usable") +
-                  " (worst quality: " + channel.worst + ")",
-              "check the sensor and its wiring; show the values of the device with: mdof device "
-              "monitor " +
-                  device.name};
+      return {
+          channel.values == 0 ? Level::bad : Level::doubtful,
+          what + ": channel " + channel.id + ": " +
+              (channel.values == 0 ? "no value is usable"
+                                   : std::to_string(channel.unusable) + " of " +
+                                         std::to_string(found.scans) + " values are not usable") +
+              " (worst quality: " + channel.worst + ")",
+          "check the sensor and its wiring; show the values of the device with: mdof device "
+          "monitor " +
+              device.name};
   }
   return {
       found.lost > 0 ? Level::doubtful : Level::good,

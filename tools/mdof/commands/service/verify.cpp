@@ -48,8 +48,8 @@ Status verify_database(const std::string& option, const std::string& head, Sourc
   MDOF_TRY(const bool has_head, head.empty() ? Result<bool>(true) : store.has_hash(head));
   if (!has_head)
     check.findings.push_back(
-        "the chain of hashes has no link with the hash " + head +
-        " (--head): data that was stored before mdofd reported this hash was removed or changed");
+        "data that was stored before mdofd reported the hash " + head +
+        " (--head) was removed or changed: the chain of hashes does not contain this hash");
   const auto sources = daemon::verify_sources(store);
   // If the database is damaged, its list of files may be missing; the damage was reported above.
   if (!sources) return check.findings.empty() ? Status(tl::unexpected(sources.error())) : Status();

@@ -118,10 +118,13 @@ Status judge(const Study& study, const StudyResult& result, const StudyRecorder&
     const std::string key = unsolved_output(result);
     return key.empty() ? Status() : not_solved(study, key, result.trials);
   }
-  return fail(ErrorCode::check,
-              "interrupted after " + std::to_string(result.trials) + " trials; " +
-                  (recorder.id() ? "continue with " + recorder.continue_command()
-                                 : std::string("only a study with --db FILE can be continued")));
+  return fail(
+      ErrorCode::check,
+      "interrupted after " + std::to_string(result.trials) + " trials; " +
+          (recorder.id()
+               ? "continue with " + recorder.continue_command()
+               : std::string(
+                     "the study cannot be continued, because it was started without --db FILE")));
 }
 
 Status finish(const SensitivityCommand& command, Job& job, StudyState state,

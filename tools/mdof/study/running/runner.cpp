@@ -108,7 +108,7 @@ bool StudyRunner::rule_ended() const {
 
 std::string StudyRunner::not_settled() const {
   if (!rule_ || rule_->settled()) return "";
-  const std::string what = "the requested tolerance was not reached";
+  const std::string what = "the requested tolerance of the results was not reached";
   const auto output = rule_->unsettled_output();
   if (!output) return what + " within the permitted number of trials; give a larger --trials";
   return what + ": a block of " + std::to_string(batch_trials_) +

@@ -67,8 +67,9 @@ std::string improvement_text(const Budget& b, std::size_t width) {
   if (b.lines.empty() || !(b.u > 0)) return "";
   if (b.u_by_trials)
     return wrapped(
-               "The deviations are not larger than their uncertainties, so u is calculated by "
-               "Monte Carlo. The contributions are of first order, and they do not add up to u.",
+               "The deviations are not larger than their uncertainties. Therefore mdof calculates "
+               "u by Monte Carlo. The contributions are calculated by first-order propagation, so "
+               "they do not add up to u.",
                width) +
            "\n";
   const BudgetLine& first = b.lines.front();

@@ -46,7 +46,7 @@ std::string mounting_text(const MountingCalibration& found, const Rig& rig, std:
   std::string text = noise_only_notice(!rig.declares_uncertainty()) + table.text(width);
   text += "\n" + std::to_string(found.clampings) + " clampings, whose tilts differ by up to " +
           plain_number(found.tilt_rad * 1e3, 3) + " mrad, " + std::to_string(found.readings) +
-          " readings\nchi-square " + plain_number(found.chi_square, 4) + " of " +
+          " readings\nchi-square " + plain_number(found.chi_square, 4) + " with " +
           std::to_string(found.freedom) + " degrees of freedom" +
           (found.explained ? ""
                            : "; chi-square is larger than expected from the noise, so u was "

@@ -142,9 +142,9 @@ Status calibrate(const MountingCommand& command) {
     warn(
         "chi-square is larger than expected from the noise of the readings. Possible causes: a "
         "probe has a wrong sensitivity, and the rig does not declare its u_sensitivity_ppm; the "
-        "target is not flat; the target moved in its clamp; the axis is not straight. mdof has "
-        "increased the uncertainties, but the increased uncertainties do not contain an error that "
-        "all clampings have in common. Runs with this record are doubtful");
+        "target is not flat; the target moved in its clamp; the axis is not straight. Therefore "
+        "mdof has increased the uncertainties. They still do not contain an error that all "
+        "clampings have in common. Runs with this record are doubtful");
   fill(record, found, rig, sources.files);
   if (!command.record.out.empty())
     MDOF_CHECK(write_record(command.record.out, record_text(record)));

@@ -35,13 +35,13 @@ std::string causes_text(const CheckedError& e) {
   if (e.by_reversal > kShown)
     text += e.error + ": " + fixed(e.by_reversal * 1e6, 4) + unit +
             (e.approach.empty() ? " remain in each approach"
-                                : " remain at positions that are not approached " + e.approach) +
+                                : " remain if the approach is not " + e.approach) +
             ", because the file has one value for both approaches, but the errors of the "
             "approaches differ" +
             (e.one_way ? " (not included in \"after\")\n"
              : e.approach.empty()
                  ? "\n"
-                 : "; if every position is approached " + e.approach + ", give --one-approach\n");
+                 : "; if the approach is always " + e.approach + ", give --one-approach\n");
   if (e.outside > kShown)
     text += e.error + ": " + fixed(e.outside * 1e6, 4) + unit +
             " remain at measured positions beyond the ends of the file. There, the controller uses "

@@ -45,8 +45,8 @@ Status judge_beside_volume(store::Store& store, const CompensationTable& table,
                     " for a controller that does not apply the volumetric table, give --not-active",
                 alone.error().remedy);
   marks.push_back("VOLUMETRIC TABLE ACTIVE: " + name +
-                  " was exported while a volumetric table was active. A controller that applies "
-                  "both corrects the positioning error twice");
+                  " was exported while a volumetric table was active. If a controller applies both "
+                  "tables, it corrects the positioning error twice");
   return {};
 }
 

@@ -43,8 +43,9 @@ void add_export_options(CLI::App& command, ExportRequest& request, const std::st
           "Home position of each axis, such as X=10,Y=-20 (for one table, one number is enough); "
           "mdof subtracts the correction at this position from all corrections of the table")
       ->type_name("AXIS=MM,…");
-  command.add_flag("--cut-range", request.cut_range,
-                   "If values are missing, export the longest range without a gap");
+  command.add_flag(
+      "--cut-range", request.cut_range,
+      "If the table lacks values, export the longest range of positions without a gap");
   command.add_flag(
       "--one-approach", request.one_approach,
       "If a table has values for one approach only, use these values for both approaches. If the "

@@ -118,18 +118,18 @@ Action declare_machine_budget(CLI::App& command) {
 }  // namespace
 
 Command machine_budget_command() {
-  return {
-      .name = "machine budget",
-      .summary = "Calculate the error budget of a machine and show which error to reduce first",
-      .footer =
-          "mdof calculates u by linear propagation (GUM), and intervals and lengths of "
-          "error\nvectors by Monte Carlo with the exact product of rotations. Measured "
-          "errors\nreplace the declared sources of the same errors. The keys of MACHINE.toml are "
-          "in\nshare/doc/mdof/machine.md.\nExamples:\n "
-          " mdof machine budget --preset co-planar --at X=60,Y=40\n "
-          " mdof machine budget machine.toml --target-um 0.8\n "
-          " mdof machine budget machine.toml --run 1 --run 2",
-      .declare = declare_machine_budget};
+  return {.name = "machine budget",
+          .summary = "Calculate the error budget of a machine and show which error to reduce first",
+          .footer =
+              "mdof calculates u by linear propagation (GUM). It calculates intervals and the\n"
+              "lengths of error vectors by Monte Carlo, with the exact product of rotations.\n"
+              "Measured errors replace the declared sources of the same errors. The keys of\n"
+              "MACHINE.toml are in share/doc/mdof/machine.md.\n"
+              "Examples:\n"
+              "  mdof machine budget --preset co-planar --at X=60,Y=40\n"
+              "  mdof machine budget machine.toml --target-um 0.8\n"
+              "  mdof machine budget machine.toml --run 1 --run 2",
+          .declare = declare_machine_budget};
 }
 
 }  // namespace mdof::tools

@@ -117,7 +117,8 @@ std::string diagonals_text(const Machine& machine, const std::vector<algo::Diago
          ": diagonals predicted from the errors of the machine\n" + table.text(terminal_columns()) +
          "predicted, measured: range (largest minus smallest) of the deviation of the\n"
          "tool along the diagonal (ISO 230-6)\n"
-         "difference: measured minus predicted deviation, where it is largest\n" +
+         "difference: measured minus predicted deviation, at the position with the\n"
+         "largest magnitude of this difference\n" +
          kNoU + "\n" + missing_text(diagonals.front().not_measured, {}, terminal_columns());
 }
 

@@ -229,10 +229,10 @@ Command export_command() {
       .summary = "Write samples of a recording as CSV, or runs as CSV, JSON, DCC or QIF",
       .footer =
           "A DCC or QIF document is a test report. The document states that it is not a\n"
-          "calibration certificate of an accredited laboratory. Missing entries read \"not "
-          "stated\". A DCC needs the country and,\n"
-          "for a run from a CSV log without \"# started:\", the date; give them with --set or\n"
-          "in [report] of the rig.\n"
+          "calibration certificate of an accredited laboratory. Missing\n"
+          "entries read \"not stated\". A DCC needs the country. For a run from a CSV log\n"
+          "without the line \"# started:\", it also needs the date. Give both with --set or in\n"
+          "[report] of the rig.\n"
           "\n"
           "Examples:\n"
           "  mdof export run-12.mdofrec --csv log_X.csv --rig rig_X.toml\n"

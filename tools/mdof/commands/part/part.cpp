@@ -179,12 +179,13 @@ bool has_only_u(const algo::PartCause& cause) {
 std::string assumptions_text(const LoadedPart& part) {
   std::string text;
   for (const auto& [axis, points] : part.unknown_approach)
-    text += wrapped("axis " + axis + " has not moved before " + std::to_string(points) +
-                        (points == 1 ? " point" : " points") +
-                        " of the path, so the approach is unknown at these points; mdof uses the "
-                        "mean of both approaches",
-                    terminal_columns()) +
-            "\n";
+    text +=
+        wrapped("axis " + axis + ": the approach is unknown at " + std::to_string(points) +
+                    (points == 1 ? " point" : " points") +
+                    " of the path, because the axis has not moved yet; mdof uses the mean of both "
+                    "approaches there",
+                terminal_columns()) +
+        "\n";
   if (std::any_of(part.causes.begin(), part.causes.end(), has_only_u))
     text += wrapped(
                 "Some causes have an uncertainty u, but no value. For such a cause and for its "

@@ -196,9 +196,9 @@ Status add_machine_layers(LoadedPart& part) {
                      "measured errors; add measured errors to the machine file, or give tables of "
                      "the axes in the part file: axes = \"table:N\"");
   if (budget && found.budget.empty())
-    return bad_input(
-        part.plan.machine +
-        ": the machine file has no [[source]]; the layer \"budget\" needs one or more");
+    return bad_input(part.plan.machine +
+                     ": the layer \"budget\" needs one or more [[source]] tables, but the machine "
+                     "file has none; add [[source]], or remove this layer from the part file");
   part.not_measured = found.not_measured;
   part.beyond_tables = found.beyond;
   warn_outside_tables(found.beyond);

@@ -124,8 +124,8 @@ Result<drivers::PositioningCsv> readings_of_imported(const Run& run) {
   const std::string name = "run " + std::to_string(run.header.id);
   if (run.header.provenance.model != positioning_name(run.header.axis))
     return bad_input(name + " was imported as " + run.header.provenance.model +
-                     "; for an imported run, mdof calculates parameters of ISO 230-2 only if the "
-                     "run contains positioning errors (" +
+                     "; mdof calculates the parameters of ISO 230-2 of an imported run only from "
+                     "positioning errors (" +
                      positioning_name(run.header.axis) + ")");
   if (daemon::has_unknown_approach(run))
     return bad_input(name +
@@ -199,13 +199,14 @@ Action declare_iso230_2(CLI::App& command) {
                                "CSV, CSV.gz, or - for standard input, with the columns target_mm, "
                                "direction (1 or -1), run, deviation_um")
                    ->type_name("");
-  auto* run = command
-                  .add_option("--run", o->run,
-                              "Evaluate the errors of this stored run (number, or \"latest\"), or "
-                              "the readings of an imported run, such as a laser file")
-                  ->type_name("RUN")
-                  ->check(run_argument_error)
-                  ->excludes(file);
+  auto* run =
+      command
+          .add_option("--run", o->run,
+                      "Number of the stored run, or \"latest\"; mdof evaluates the errors of the "
+                      "run, or its readings if the run was imported (such as a laser file)")
+          ->type_name("RUN")
+          ->check(run_argument_error)
+          ->excludes(file);
   command
       .add_option("--error", o->of_run.errors,
                   "Evaluate this error of the run, such as EYX [default: all five errors]")

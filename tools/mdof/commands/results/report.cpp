@@ -106,7 +106,7 @@ Action declare_report(CLI::App& command) {
 Command report_command() {
   return {
       .name = "report",
-      .summary = "Write a report of stored runs as one HTML file that prints to A4",
+      .summary = "Write a report of stored runs as one HTML file (A4 when printed)",
       .footer =
           "The report needs no other file and has no script. It contains title, results with u, U\n"
           "and k, decisions, conditions, fixture, calibrations, notices, charts, points, and how\n"

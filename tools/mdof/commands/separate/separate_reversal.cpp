@@ -63,9 +63,10 @@ Action declare_separate_reversal(CLI::App& command) {
       ->expected(2)
       ->type_name("");
   add_source_options(command, o->of);
-  command.add_option("--turned-at-mm", o->turned_at_mm,
-                     "Position of the axis about which the target was turned end for end, along "
-                     "the moving axis in carriage coordinates [default: middle of the readings]");
+  command.add_option(
+      "--turned-at-mm", o->turned_at_mm,
+      "For a target that was turned end for end: position of the axis of rotation along the moving "
+      "axis, in carriage coordinates [default: middle of the readings]");
   add_output_options(command, o->output);
   return [o] { return reversal(*o); };
 }

@@ -108,8 +108,9 @@ Status verify(const VerifyCommand& command) {
   show_notices(check.notices, true);
   for (const auto& finding : check.findings) say(finding);
   if (!check.findings.empty())
-    return fail(ErrorCode::check, "verify: " + std::to_string(check.findings.size()) +
-                                      " finding(s); restore the items named above from a backup");
+    return fail(ErrorCode::check,
+                "verify: " + std::to_string(check.findings.size()) +
+                    " fault(s) found; restore the items that are named above from a backup");
   if (command.json) return {};
   if (head.link > 0) say("the newest link of the chain of hashes is " + head_text(head));
   return write_line(

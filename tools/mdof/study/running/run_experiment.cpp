@@ -188,9 +188,9 @@ class RunExperiment final : public algo::PlanExperimentBase {
     for (const auto& q : e->axis_->draws().drawn()) {
       if (is_noise(q.target.effect) && q.group != algo::kNoCause)
         return bad_input(
-            plan.quantities[q.quantity].where +
-            ": for output_of = \"run\", the noise of each sample is independent; remove " +
-            q.target.name + " from the [[correlation]], or use output_of = \"point\"");
+            plan.quantities[q.quantity].where + ": " + q.target.name +
+            " cannot be correlated, because the noise of each sample is independent if output_of "
+            "= \"run\"; remove it from the [[correlation]], or use output_of = \"point\"");
     }
     return std::unique_ptr<algo::ScalableExperiment>(std::move(e));
   }

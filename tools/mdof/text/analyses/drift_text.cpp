@@ -35,8 +35,8 @@ std::string closures_text(const Run& run, const std::vector<algo::Closure>& clos
     table.add(std::move(row));
   }
   return wrapped(
-             "closure: change of the errors between the first point of a run and a later point "
-             "at the same target; errors at the fixture",
+             "closure: change of the errors from the first point of a run to a later point at the "
+             "same target. The errors refer to the fixture",
              width) +
          "\n" + table.text(width);
 }

@@ -349,7 +349,7 @@ class Devices(unittest.TestCase):
         self.daemon.stop()
         type(self).client = self.daemon.start()
         self.wait_until(lambda: all(d["state"] == "open" for d in self.devices().values()), "not all are open")
-        self.assertTrue(any('clock of device "capa-1" was not settled' in w for w in warnings()))
+        self.assertTrue(any('clock of device "capa-1" had not settled' in w for w in warnings()))
         self.wait_until(lambda: all(d["clock"]["settled"] for d in self.devices().values()), "clocks do not settle")
         self.assertEqual(warnings(), [])
 

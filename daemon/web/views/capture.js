@@ -12,7 +12,7 @@ const number = (form, key) => form.get(key) === "" || form.get(key) === null ? u
 // a separator.
 export function targetsFrom(text) {
   return text.split(/[\s;]+/).map((word) => word.replace(/,$/, "")).filter(Boolean).map((word) => {
-    if (word.includes(",")) throw new Error(`target "${word}" may be one number or several; write a point in decimals and a space between targets`);
+    if (word.includes(",")) throw new Error(`target "${word}" is ambiguous; write a point for decimals (12.5) and a space between targets`);
     if (!Number.isFinite(Number(word))) throw new Error(`target "${word}" is not a number; write targets in mm, such as 0 12.5 25`);
     return Number(word);
   });
@@ -66,7 +66,7 @@ class Wizard {
       h("fieldset", {}, h("legend", {}, "2 Targets"), field("Targets are", this.kind), this.even, this.list),
       h("fieldset", {}, h("legend", {}, "3 Repeats"), h("div", {class: "fields"}, this.repeats,
         field("Signal period of the scale/µm", input("scale_period_um", "", {min: 0}),
-          "optional: mdofd warns if the intervals hide the periodic error of the scale"))),
+          "optional; mdofd then warns if the intervals between targets hide the periodic error of the scale"))),
       this.preview, this.wrong, h("p", {class: "buttons"}, h("button", {class: "main"}, "Start the run")));
     this.show();
   }

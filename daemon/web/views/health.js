@@ -31,7 +31,7 @@ export function reasons(info, devices, compensation) {
   }
   if (info.axes.length === 0) found.push(["configuration", "mdofd has no axis to measure; add an [[axis]] to mdofd.toml and restart mdofd"]);
   if (info.store_jobs_dropped + info.store_points_dropped > 0)
-    found.push(["queues", `the disk was too slow, so mdofd dropped ${info.store_jobs_dropped} blocks and ${info.store_points_dropped} points`]);
+    found.push(["queues", `the disk was too slow, so mdofd dropped ${info.store_jobs_dropped} blocks of samples and ${info.store_points_dropped} points`]);
   if (info.calls_refused > 0) found.push(["calls", `mdofd refused ${info.calls_refused} calls, because too many calls were waiting`]);
   return found;
 }

@@ -39,7 +39,7 @@ function pairCharts(key, a, b) {
     apart.set([{label: "difference", colour: "text", points: plain(gap)}], `Largest difference ${short(largest)} ${unit}`);
   };
   return {charts: [over, apart], draw, element: h("div", {}, over.element, apart.element,
-    h("p", {}, gap.size === 0 ? "The runs have no target in common." : `Largest difference between the means of the runs (only approaches that both runs have): ${short(largest)} ${unit}`))};
+    h("p", {}, gap.size === 0 ? "The runs have no target in common." : `Largest difference between the means of the runs (only for approaches that were measured in both runs): ${short(largest)} ${unit}`))};
 }
 
 const effects = {reduced: "▼ reduced", increased: "▲ increased", "not shown": "● not shown", changed: "◆ changed in sign or shape"};

@@ -13,7 +13,7 @@ export function controlSeries({values, centre}) {
     points: values.map((v, i) => [i + 1, of(v), of(v), of(v)]).filter((p) => isNumber(p[2]))});
   const value = (v, i) => [i + 1, v.value - (v.u ?? 0), v.value, v.value + (v.u ?? 0)];
   return [{label: "value", name: "value ± u", colour: "blue", dash: false, points: values.map(value)},
-    {label: "beyond", name: "beyond the limits, or the eighth value in a row on one side of the centre line", colour: "orange", dash: false, marks: true,
+    {label: "beyond", name: "beyond the limits, or at least the eighth value in a row on one side of the centre line", colour: "orange", dash: false, marks: true,
       points: values.map((v, i) => v.signal ? value(v, i) : null).filter(Boolean)},
     line("centre", "text", false, () => centre), line("lower limit", "orange", true, (v) => v.low), line("upper limit", "orange", true, (v) => v.high)];
 }
@@ -66,7 +66,7 @@ class Trend {
     this.body.replaceChildren(h("p", {class: of.moved ? "notice doubtful" : "result", role: "status"}, verdict(key, of)), this.chart.element,
       table(`Values in ${unit}, in the order of time`, [["runs"], ["started", "w"], ["value", "n"], ["u", "n"], ["lower limit", "n"], ["upper limit", "n"], ["signal", "w"]],
         of.values.map(rowOf)),
-      h("p", {class: "quiet"}, isNumber(of.centre) ? `Centre ${short(of.centre)} ${unit}, sigma ${fixed(of.sigma, 4)} ${unit} of the first ${of.baseline} values (Shewhart, 3 sigma). Limits contain noise and repeatability only.` : ""),
+      h("p", {class: "quiet"}, isNumber(of.centre) ? `Centre ${short(of.centre)} ${unit}, sigma ${fixed(of.sigma, 4)} ${unit} of the first ${of.baseline} values (Shewhart, 3 sigma). The limits include noise and repeatability only.` : ""),
       covers(of) ?? "", notices([...of.notices, ...of.left_out.map((text) => `left out: ${text}`)]) ?? "");
     this.chart.set(controlSeries(of), verdict(key, of));
   }

@@ -51,7 +51,7 @@ export function planePicture(nodes, plane, largest_um) {
   nodes.map((n) => arrow(...place(n), n[3 + a] * long, -n[3 + b] * long)),
   [xs[0], xs.at(-1)].map((x) => text(edge + (x - xs[0]) * scale, height - kEdge + 22, fixed(x, 1))), text(edge + span * scale / 2, height - kEdge + 22, `${kAxes[a]}/mm`),
   [ys[0], ys.at(-1)].map((y) => text(kEdge - 26, height - edge - (y - ys[0]) * scale + 4, fixed(y, 1))), text(kEdge - 26, kEdge - 14, `${kAxes[b]}/mm`)),
-  h("p", {class: "quiet"}, `Seen ${view}. Longest arrow: ${fixed(largestInPlane, 3)} µm in the plane. A stronger blue shows a larger correction in space (0 to ${fixed(largest_um, 3)} µm).`)];
+  h("p", {class: "quiet"}, `Seen ${view}. Longest arrow: ${fixed(largestInPlane, 3)} µm in the plane. A stronger blue shows a longer correction vector X, Y, Z (0 to ${fixed(largest_um, 3)} µm).`)];
 }
 
 // Reads the grid in pages. All pages must have the same generation; if the generation changes,

@@ -31,7 +31,8 @@ Result<HttpAccess> http_at(const std::string& address) {
     return fail(ErrorCode::usage,
                 "\"" + address.substr(0, 64) +
                     "\" is not a local address with a port; give, for example, 127.0.0.1:8080 or "
-                    "[::1]:8080; from another computer, use a tunnel (ssh -L 8080:localhost:8080)");
+                    "[::1]:8080; to open the page on another computer, use a tunnel (ssh -L "
+                    "8080:localhost:8080)");
   out.address = v6 ? "::1" : "127.0.0.1";
   out.port = *port;
   return out;

@@ -52,8 +52,8 @@ void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDela
       channel.reject("id", problem);
     if (!(delay_us >= 0 && delay_us <= kMost_us)) {
       channel.reject("delay_us", "must be from 0 to " + plain_number(kMost_us, kDigits) +
-                                     "; set 0 for the channel with the shortest delay, and set the "
-                                     "additional delay for each other channel");
+                                     "; set 0 for the channel with the shortest delay. For each "
+                                     "other channel, set its delay relative to that channel");
     } else if (delay_us / 1e6 > settle_s) {
       channel.reject("delay_us", too_long(delay_us / 1e6, settle_s), Remedy::raise_settle,
                      plain_number(delay_us / 1e6, kDigits));

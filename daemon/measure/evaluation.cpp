@@ -243,12 +243,12 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   if (table.has_positioning())
     return fail(ErrorCode::conflict,
                 "table " + std::to_string(table.id) + " contains " + positioning_name(table.axis) +
-                    ". An axis can have only one active table, so table " +
+                    " and is not activated. An axis can have only one active table, so table " +
                     std::to_string(table.id) +
-                    " would replace the table that contains the straightness and the angles. "
-                    "Instead, build a table of a plane or a volume from both tables; mdofd then "
-                    "also serves the positioning errors. Without such a table, the controller must "
-                    "read the positioning errors from a file",
+                    " would replace the table that contains the straightness and the angles. Build "
+                    "a table of a plane or a volume from both tables; mdofd then also serves the "
+                    "positioning errors. Or let the controller read the positioning errors from a "
+                    "file",
                 Remedy::export_table);
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);

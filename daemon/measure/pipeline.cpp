@@ -203,7 +203,7 @@ Status Pipeline::check_has_points() const {
     return bad_input("the encoder stays at " + plain_number(to_mm(s.encoder_min_m), 7) + " mm" +
                      " (within " + plain_number(to_um(travel_m)) + " um" +
                      "): the axis did not move, or encoder_mm is not the axis position; check the "
-                     "encoder's channel and unit");
+                     "channel and the unit of the encoder");
   }
   if (stops_without_position_ > 0 && stops_without_position_ == found_.size())
     return bad_input(words::text(not_placed()));

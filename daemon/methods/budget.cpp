@@ -110,8 +110,8 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                              "\"fixture\""};
   table.add(
       {.name = "run.analyse",
-       .summary = "Calculates the straightness of a run by each reference line, its angles, their "
-                  "uncertainties and the drift.",
+       .summary = "Calculates the results of a run: the straightness for each reference line, the "
+                  "angles, the uncertainty of each result, and the drift.",
        .params = {{"run", ParamType::integer, "id of the run", true}, reference},
        .members =
            "{run, axis, model, simulated, superseded_by, ...reference, ...covers, straightness: "
@@ -134,7 +134,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                    "EAX_range_urad; if at_mm is given, the name of an error, such as EYX_um",
                    true},
                   {"at_mm", ParamType::number,
-                   "position of the error; mdofd uses the nearest target", false},
+                   "position of the error; mdofd uses the target nearest to this position", false},
                   reference},
        .members = "budgets",
        .example = R"({"run": 1, "figure": "EYX_straightness_um"})",
@@ -147,8 +147,8 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                   {"after", ParamType::integer, "id of the run after the compensation", true},
                   reference},
        .result = "two imported runs of positioning errors have the figures E, E_forward, E_reverse "
-                 "and B of ISO 230-2; the notices also contain other differences between the "
-                 "runs",
+                 "and B of ISO 230-2. Notices state whether the travel, the rig or the model of "
+                 "the two runs differs",
        .members = "{axis, before: integer, after: integer, ...reference?, coverage, simulated, "
                   "...covers, figures: {{figure}: {before: stated, after: stated, change!: stated, "
                   "effect, change_at_targets}}, points: [{position_mm: number, forward: "
@@ -192,8 +192,8 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
   table.add(
       {.name = "parallelism.fit",
        .summary = "Calculates the parallelism of two motions along one axis (ISO 230-1): the angle "
-                  "between the reference lines of their straightness, with uncertainty budgets. "
-                  "Nothing is stored.",
+                  "between the reference lines of the two straightness errors. The result contains "
+                  "uncertainty budgets. Nothing is stored.",
        .params = {{"run_a", ParamType::integer, "id of the reference run (datum)", true},
                   {"run_b", ParamType::integer,
                    "id of the run that is compared with run_a; both runs are along the same axis",

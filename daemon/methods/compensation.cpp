@@ -255,8 +255,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                           "free text that explains the change; stored in the history", false,
                           "\"\""};
   const rpc::Param expected{"expected_generation", ParamType::integer,
-                            "generation that compensation.status returned before the decision. If "
-                            "any active table has changed since then, the call changes nothing and "
+                            "generation that compensation.status returned before you decided. If "
+                            "an active table has changed since then, the call changes nothing and "
                             "fails with error -32001; the message names the active tables",
                             false};
   std::vector<rpc::Param> build_params{
@@ -279,7 +279,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
              .summary =
                  "Builds a table of one axis from runs and stores the table without activating it.",
              .params = std::move(build_params),
-             .result = "with the first points; compensation.table gives all of them, in pages",
+             .result = "the result contains only the first points; compensation.table returns all "
+                       "points, in pages",
              .members = "{...active_table, active, ...table_points, ...notices}",
              .example = R"({"runs": [1]})",
              .writes = true,
@@ -328,8 +329,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                    "fails with error -32001",
                    false},
                   {"u_parts", ParamType::boolean,
-                   "for the volume: also return the two parts of u of each node: u_common (causes "
-                   "common to all nodes) and u_independent (noise)",
+                   "for the volume: also return two parts of u for each node: u_common (from "
+                   "causes that all nodes have in common) and u_independent (from noise)",
                    false, "false"}},
        .result = "points of the volume: X, Y, Z in mm, three corrections and three u in um; with "
                  "u_parts also three u_common and three u_independent",
@@ -339,9 +340,9 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .handler = [&m](const Params& p) { return grid(m, p); }});
   table.add(
       {.name = "compensation.at",
-       .summary = "Returns the correction at a position. Between grid points, the correction "
-                  "is interpolated linearly. Outside the grid, it is the value at the end of "
-                  "the grid, \"inside\" is false, and u is null.",
+       .summary = "Returns the correction at a position. Between grid points, the correction is "
+                  "interpolated linearly. Outside the grid, the correction is the value at the end "
+                  "of the grid, \"inside\" is false, and u is null.",
        .params =
            {axis,
             {"position_mm", ParamType::number, "position on the axis; required for an axis", false},

@@ -47,8 +47,7 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
   json.end_object();
   if (!(u.minCoeff() > 0))
     json.field("u_reason",
-               "u of a component is null (unknown) if no error with a known u and no other source "
-               "of uncertainty acts on this component");
+               "u is null (unknown) for each component on which no known uncertainty acts");
   std::vector<std::string> missing, no_u;
   for (const auto& names : error.not_measured) algo::add_new(names, missing);
   for (const auto& names : error.no_u) algo::add_new(names, no_u);

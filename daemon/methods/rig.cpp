@@ -77,7 +77,7 @@ Result<std::string> get_rig(Methods& m, const Params& params) {
 
 void add_rig_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "rig.get",
-             .summary = "Returns the configured fixture of an axis: probes, their ranges and their "
+             .summary = "Returns the configured fixture of an axis: the probes with ranges and "
                         "calibrations.",
              .params = {{"axis", ParamType::string, "X, Y or Z", true}},
              .result = "the notices name overdue calibrations",

@@ -352,8 +352,8 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "run.stop",
        .summary = "Ends a run that is under way, and evaluates the run.",
        .params = {run, {"abort", ParamType::boolean, "mark the run as aborted", false, "false"}},
-       .result = "if mdofd renumbered the targets at the end, \"run\" is a new run that supersedes "
-                 "the stopped run",
+       .result = "if mdofd renumbered the targets at the end of the run, it stored a new run that "
+                 "supersedes the stopped run; \"run\" is then the new run",
        .members = "{run, axis, state: string|null, supersedes, notices: [notice]|null}",
        .example = R"({"run": 1})",
        .writes = true,

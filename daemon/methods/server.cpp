@@ -187,9 +187,10 @@ Result<ActiveTables> load_active(store::Store& store) {
     }
     if (active && active->table.lacks_reference_point) {
       std::fprintf(stderr,
-                   "compensation table %lld of axis %c is from an older version and is not served, "
-                   "because it states neither its reference point nor the sign of its corrections; "
-                   "build a new table from its runs and activate the new table\n",
+                   "mdofd does not serve compensation table %lld of axis %c: an older version "
+                   "stored this table without the reference point and without the sign of the "
+                   "corrections. Build a new table from the runs of this table, and activate the "
+                   "new table\n",
                    static_cast<long long>(active->table.id), letter(axis));
       continue;
     }
@@ -239,9 +240,9 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.info",
              .summary = "Returns the version, the uptime, the axes and the generation (a number "
                         "that increases with each change of an active table).",
-             .result = "\"chain\" is the last link of the chain of hashes of the database. "
-                       "With its sha256, a later verification detects whether data stored before "
-                       "this reply were removed or changed",
+             .result = "\"chain\" is the last link of the chain of hashes of the database. Keep "
+                       "its sha256. A later verification of the database with this sha256 detects "
+                       "whether data that were stored before this reply were removed or changed",
              .members =
                  "{server, version: string, protocol, started_utc, uptime_s, database, generation, "
                  "store_jobs_dropped, store_points_dropped, calls_refused, storage, "

@@ -56,10 +56,10 @@ std::vector<rpc::Param> squareness_params(std::vector<rpc::Param> more) {
   all.push_back({"partial", ParamType::boolean, "also accept partial runs", false, "false"});
   all.push_back({"run_z", ParamType::integer, "id of the run along Z", false});
   all.push_back({"run_a", ParamType::integer,
-                 "id of the run along the first axis, in the order X, Y, Z; give run_a and run_b "
-                 "instead of run_x, run_y, run_z",
+                 "id of the run along the axis that is first in the order X, Y, Z; give either "
+                 "run_a and run_b, or two of run_x, run_y and run_z",
                  false});
-  all.push_back({"run_b", ParamType::integer, "id of the run along the second axis", false});
+  all.push_back({"run_b", ParamType::integer, "id of the run along the other axis", false});
   return all;
 }
 

@@ -107,18 +107,17 @@ void add_tables_methods(rpc::MethodTable& table, Methods& m) {
            "generation}], volumes: [{...volume_table, active, generation}]}",
        .example = R"({"axis": "X", "count": 10})",
        .handler = on_query(m, list_tables)});
-  table.add({.name = "compensation.table",
-             .summary =
-                 "Returns a stored table, active or not, with its points in pages. The table is of "
-                 "an axis, or of a plane or a volume.",
-             .params = {{"table", ParamType::integer, "id of the table", true},
-                        rpc::offset_param(),
-                        rpc::count_param(kMaxRowsPage)},
-             .members =
-                 "{...active_table, active, ...table_points}|{...active_volume, active, offset, "
-                 "points: [[number|null]]}",
-             .example = R"({"table": 1, "offset": 0, "count": 20})",
-             .handler = on_query(m, get_table)});
+  table.add(
+      {.name = "compensation.table",
+       .summary = "Returns a stored table, active or not, with its points in pages. The table "
+                  "corrects an axis, a plane or a volume.",
+       .params = {{"table", ParamType::integer, "id of the table", true},
+                  rpc::offset_param(),
+                  rpc::count_param(kMaxRowsPage)},
+       .members = "{...active_table, active, ...table_points}|{...active_volume, active, offset, "
+                  "points: [[number|null]]}",
+       .example = R"({"table": 1, "offset": 0, "count": 20})",
+       .handler = on_query(m, get_table)});
 }
 
 }  // namespace mdof::daemon

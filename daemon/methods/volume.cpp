@@ -244,14 +244,16 @@ void add_volume_methods(rpc::MethodTable& table, Methods& m) {
   params.push_back({"approach", ParamType::string, "approach direction: mean, forward or reverse",
                     false, "\"mean\""});
   params.push_back({"incomplete", ParamType::boolean,
-                    "also build the table if an error that acts at the tool was not measured",
+                    "also build the table if an error that affects the position of the tool was "
+                    "not measured",
                     false, "false"});
   for (rpc::Param& limit : limit_params()) params.push_back(std::move(limit));
   table.add({.name = "compensation.build_volume",
              .summary = "Builds a table of corrections over a plane or a volume from the measured "
                         "errors of a machine, and stores the table without activating it.",
              .params = std::move(params),
-             .result = "with the first nodes; compensation.table gives all of them, in pages",
+             .result = "the result contains only the first nodes; compensation.table returns all "
+                       "nodes, in pages",
              .members = "{...active_volume, active, offset, points: [[number|null]], ...notices}",
              .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-Y-t\"}\n)"
                         R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"

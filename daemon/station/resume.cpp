@@ -139,8 +139,8 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
                    Remedy::set_encoder_then_start);
   if (of_run.kind == Kind::absolute && now.kind != Kind::none)
     return refused(cut_off.id,
-                   "the positions of this run are the readings of the device, but the present "
-                   "positions of the axis are not the readings of the device; start a new run");
+                   "the positions of this run are the readings of the device without an offset, "
+                   "but the present positions of the axis contain an offset; start a new run");
   return refused(cut_off.id,
                  "the positions of this run are machine positions (" + datum_text(of_run) +
                      "), but the encoder has lost its datum since the run",

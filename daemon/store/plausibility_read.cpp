@@ -16,9 +16,9 @@ Result<std::optional<Plausibility>> Store::plausibility(std::int64_t run) {
   if (!found) return std::optional<Plausibility>();
   auto stored = read_plausibility_json(std::string(row.text(0)));
   if (stored) return std::optional(std::move(*stored));
-  return bad_input(file().string() + ": the plausibility of run " + std::to_string(run) +
-                   " was changed after it was stored: " + stored.error().message +
-                   "; restore the database from a backup");
+  return bad_input(file().string() + ": the results of the plausibility checks of run " +
+                   std::to_string(run) + " were changed after they were stored: " +
+                   stored.error().message + "; restore the database from a backup");
 }
 
 }  // namespace mdof::store

@@ -66,8 +66,9 @@ Status check_schema_is_current(Connection& connection) {
   if (version == known_version()) return {};
   if (version == 0)
     return bad_input(connection.file().string() +
-                     ": the database is empty. A copy of a database that mdofd is using lacks the "
-                     "entries in its file -wal; copy it with: sqlite3 DATABASE \".backup 'COPY'\"");
+                     ": the database is empty. If it is a copy of a database that mdofd was using, "
+                     "the entries of the file -wal are missing; make the copy with: sqlite3 "
+                     "DATABASE \".backup 'COPY'\"");
   return bad_input(connection.file().string() + ": has schema version " + std::to_string(version) +
                    ", but this program needs version " + std::to_string(known_version()) +
                    "; to update the database, start mdofd or store a run");

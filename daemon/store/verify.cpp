@@ -97,9 +97,9 @@ Status Store::check_head(const ChainHead& reported) {
   MDOF_TRY(const bool found, store::has_link(connection_, reported));
   if (found) return {};
   MDOF_TRY(const ChainHead now, chain_head());
-  return bad_input(file().string() + ": the chain of hashes has no link " +
-                   std::to_string(reported.link) + " with hash " + reported.sha256 +
-                   ", which mdofd reported last; the chain ends at link " +
+  return bad_input(file().string() + ": mdofd last reported link " + std::to_string(reported.link) +
+                   " of the chain of hashes with hash " + reported.sha256 +
+                   ", but the chain does not contain this link. The chain ends at link " +
                    std::to_string(now.link) +
                    ", so the newest entries are missing or were changed. Restore the database from "
                    "a backup. Or, to continue with this database, remove " +

@@ -297,10 +297,10 @@ Status Store::check_generation(std::optional<std::int64_t> expected) {
   MDOF_TRY(const std::int64_t now, generation());
   if (now == *expected) return {};
   return fail(ErrorCode::changed,
-              "the active tables have changed since they were read: the generation is " +
-                  std::to_string(now) + ", not " + std::to_string(*expected) +
-                  "; active now: " + active_text() +
-                  ". Your change was not made; read the active tables again, then decide again");
+              "your change was not made, because the active tables have changed since you read "
+              "them: the generation is " +
+                  std::to_string(now) + ", not " + std::to_string(*expected) + "; active now: " +
+                  active_text() + "; read the active tables again, then decide again");
 }
 
 }  // namespace mdof::store

@@ -31,8 +31,9 @@ Result<Source> source_of(TomlTable& table, const std::vector<AxisConfig>& above)
       known += (known.empty() ? "" : ", ") + device.name;
     }
   }
-  return bad_input(table.where("same_as") + ": no [[axis]] above has a device named \"" + name +
-                   "\"; devices above: " + (known.empty() ? "none" : known));
+  return bad_input(table.where("same_as") +
+                   ": no earlier [[axis]] of this file has a device named \"" + name +
+                   "\"; devices of earlier axes: " + (known.empty() ? "none" : known));
 }
 
 // Error: two axes cannot share this device. Two axes can share only hardware whose channels are

@@ -26,13 +26,14 @@ Status check_rate(const drivers::DeviceInfo& device, const algo::AlignOptions& a
     return bad_input(
         who + "max_gap_s = " + plain_number(align.max_gap_s) +
         " s is shorter than the interval between samples (" + plain_number(interval_s) +
-        " s), so all values of the device would be missing; remove max_gap_s from [measure] (mdofd "
-        "then calculates the gap from the sampling rate), or sample faster");
+        " s), so all values of the device would be missing; sample faster, or remove max_gap_s "
+        "from [measure]. Without this key, mdofd calculates the longest gap from the sampling "
+        "rate");
   if (align.lag_bound_s < 2 * interval_s)
     return bad_input(who + "lag_bound_s = " + plain_number(align.lag_bound_s) +
                      " s is shorter than two intervals between samples (" +
                      plain_number(2 * interval_s) +
-                     " s), so the readings of its probes would count as missing; set lag_bound_s "
+                     " s), so the readings of this device would count as missing; set lag_bound_s "
                      "in [measure] to " +
                      plain_number(2 * interval_s) + " or more, or sample faster");
   return {};

@@ -21,19 +21,17 @@ Status check_applied(store::Store& store, std::int64_t table,
     const std::string name = "run " + std::to_string(id);
     if (!run.start_known)
       return bad_input(name +
-                       ": the time of the measurement is unknown, so mdof does not know "
-                       "whether " +
-                       of +
-                       " was active; state the start in the log (# "
-                       "started: 2026-11-20T10:11:12Z), and replay the log");
+                       ": the time of the measurement is unknown, so it is unknown whether " + of +
+                       " was active; state the start of the measurement in the log (# started: "
+                       "2026-11-20T10:11:12Z), and replay the log");
     MDOF_TRY(const auto active, applied_tables(store, id));
     if (active == std::vector{table}) continue;
     std::string names;
     for (const std::int64_t other : active)
       names += (names.empty() ? "table " : " and table ") + std::to_string(other);
-    return bad_input(name + " was not measured with " + of +
-                     " alone (active during the run: " + (names.empty() ? "no table" : names) +
-                     "), so its errors are not the residuals of this table; activate " + of +
+    return bad_input(name + ": the errors of this run are not the residual errors of " + of +
+                     ", because it was not the only active table (active during the run: " +
+                     (names.empty() ? "no table" : names) + "); activate only " + of +
                      ", and measure the axis again");
   }
   return {};
@@ -46,8 +44,8 @@ Result<CompensationTable> applied_table(store::Store& store, TableRequest& reque
   if (request.keep_slope || request.reference)
     return fail(ErrorCode::usage,
                 "table " + std::to_string(applied.id) +
-                    " determines the slope and the reference point of the sum; leave out "
-                    "keep_slope and reference");
+                    " determines the slope and the reference point of the new table (add_to); "
+                    "leave out keep_slope and reference");
   MDOF_CHECK(check_applied(store, applied.id, request.runs));
   request.keep_slope = !applied.slope_removed;
   request.reference = applied.stated.reference;

@@ -75,8 +75,8 @@ Status read_sense_column(MachineFrame& frame, const drivers::CsvTable& csv,
   for (const double s : sense)
     if (s != sense.front())
       return bad_input(name + "column " + std::string(kSenseColumn) +
-                       " contains both \"command\" and \"body\"; give all errors in the same "
-                       "sense, and write the word of this sense in each row");
+                       " contains both \"command\" and \"body\", but all errors must have the same "
+                       "sense; write the same word in each row");
   if (!sense.empty()) {
     const StatedSense stated =
         sense.front() == kCommandSense ? StatedSense::command : StatedSense::body;

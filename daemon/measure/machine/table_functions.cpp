@@ -152,11 +152,12 @@ Status check_angles_zero(const MachineFrame& frame, const std::vector<double>& p
   if (!is_far_outside(position_m, zero_m)) return {};
   const double first_mm = to_mm(position_m.front()), last_mm = to_mm(position_m.back());
   if (frame.angles_zero_m)
-    return bad_input("axis " + frame.id + " of the machine: angles_zero_at_mm = " +
-                     plain_number(to_mm(zero_m), 6) + ", but the errors were measured from " +
-                     plain_number(first_mm, 6) + " to " + plain_number(last_mm, 6) +
-                     " mm; give the position at which this axis stood during the measurement of "
-                     "the other axes. The position must be inside this range");
+    return bad_input("axis " + frame.id +
+                     " of the machine: angles_zero_at_mm = " + plain_number(to_mm(zero_m), 6) +
+                     " is outside the range of the measured errors (" + plain_number(first_mm, 6) +
+                     " to " + plain_number(last_mm, 6) +
+                     " mm); give the position at which this axis stood while the other axes were "
+                     "measured. This position must be inside the range");
   doubtful.push_back(notice(NoticeCode::angles_zero_assumed, frame.id,
                             {{"first_mm", first_mm}, {"last_mm", last_mm}}));
   return {};

@@ -72,9 +72,9 @@ Status check_air(const std::string& source, const std::vector<Channel>& channels
                     [q](const Channel& c) { return has_air_quantity(c, q); }))
       continue;
     return bad_input(source + ": the column " + key +
-                     " is missing, but [corrections] dielectric = true of " + rig.source +
-                     " needs this quantity; add the column to the log, or set " + key +
-                     " in [air] of the rig");
+                     " is missing, but the correction \"dielectric\" ([corrections] of " +
+                     rig.source + ") needs this quantity; add the column to the log, or set " +
+                     key + " in [air] of the rig");
   }
   return {};
 }

@@ -51,8 +51,8 @@ const std::vector<ReplayOption>& replay_options() {
       {"interval_mm", &Request::interval_mm, Range::positive, Of::motion,
        "On the fly: distance between targets [1]"},
       {"bin_mm", &Request::bin_mm, Range::not_negative, Of::motion,
-       "On the fly: width of the range around each target from which readings are used [0: the "
-       "interval, but at most 1]"},
+       "On the fly: mdof calculates a point from the readings in a range of this width around its "
+       "target [0: the interval, but at most 1]"},
       {"from_mm", &Request::from_mm, Range::any, Of::motion,
        "On the fly: the first target [start of the travel]"},
       {"to_mm", &Request::to_mm, Range::any, Of::motion,

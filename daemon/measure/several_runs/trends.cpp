@@ -109,7 +109,7 @@ void choose_kind(Chosen& chosen, bool mixed) {
   }
   leave_out(chosen.left_out, others,
             "the rig, the model or an option of the evaluation (drift removal, on the fly) differs "
-            "from that of " +
+            "from " +
                 newest + " (" + words::remedy(Remedy::mix_runs) + ")");
   std::erase_if(chosen.runs, [&](const RunHeader& run) { return kind_of(run) != kind; });
 }
@@ -270,8 +270,8 @@ Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& re
   if (!others.empty())
     trend.left_out.push_back(std::to_string(others.size()) +
                              (others.size() == 1 ? " squareness fit" : " squareness fits") +
-                             ": the angle of the artefact, or the corner of the artefact that was "
-                             "measured, differs from that of the newest squareness fit (" +
+                             ": the angle or the measured corner of the artefact differs from the "
+                             "newest squareness fit (" +
                              words::remedy(Remedy::mix_runs) + ")");
   const auto started = [&](const Squareness& s) {
     return std::max(allowed[s.run_a]->started_utc, allowed[s.run_b]->started_utc);

@@ -40,8 +40,8 @@ bool is_path_error(int why) {
 tl::unexpected<Error> cannot_open(const std::string& path, int why) {
   return fail(is_path_error(why) ? ErrorCode::bad_input : ErrorCode::io,
               path + ": " + rpc::system_error_text(why) +
-                  "; mdofd opens this file itself: put the file where the user that runs mdofd can "
-                  "read it");
+                  "; mdofd reads this file, so put the file in a folder that the user of mdofd can "
+                  "read");
 }
 
 Status check_file(const FileUser& user, const std::string& path, int place) {

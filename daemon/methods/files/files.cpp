@@ -198,8 +198,8 @@ void add_files_methods(rpc::MethodTable& table, Methods& m) {
                   "replays one file at a time.",
        .params = replay_params(),
        .result =
-           "mdofd replies after it has stored the run, which takes a long time for a long log. The "
-           "points come from run.points",
+           "mdofd replies after it has stored the run, which takes a long time for a long log. To "
+           "read the points, call run.points",
        .members = "replayed_run",
        .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
        .writes = true,

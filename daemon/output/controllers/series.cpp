@@ -85,8 +85,8 @@ Result<Series> without_holes(const Series& s, std::int64_t table, bool cut) {
   if (range.second - range.first == s.position_m.size()) return s;
   if (range.second - range.first < 2)
     return bad_input(hole_text(s, table) +
-                     ", and no two neighbouring positions have both values (forward and reverse), "
-                     "so nothing can be exported");
+                     ". An export needs at least two neighbouring positions with both values "
+                     "(forward and reverse); measure both approaches");
   if (!cut) return bad_input(hole_text(s, table), Remedy::cut_range, range_text(s, range));
   return range_of(s, range);
 }
@@ -202,7 +202,7 @@ std::vector<std::string> head_lines(const CompensationTable& table, const Export
   std::vector<std::string> lines{"mdof compensation table " + std::to_string(table.id) + ", axis " +
                                      letter(table.axis) + ", made " + table.created_utc,
                                  "sha256 of the table " + table.sha256, "sense: " + sense,
-                                 "positions: those of the measurement; they must be the machine "
+                                 "positions are as measured; they must be equal to the machine "
                                  "coordinates after homing"};
   if (!table.has_positioning())
     lines.push_back("valid at the " + reference_point_text(table.stated));

@@ -124,8 +124,8 @@ Result<Export> write_marlin(const SquareAxes& axes, const ExportOptions& options
   return exported(
       axes, options, kGcode, ";",
       {"this command needs SKEW_CORRECTION and SKEW_CORRECTION_GCODE; save the value with M500",
-       "G21, because M852 reads its value as a length: with inches (G20) it would be 25.4 times "
-       "too large"},
+       "G21 selects mm: M852 reads its value as a length, so with inches (G20) the value would be "
+       "25.4 times too large"},
       "G21\nM852 I" + fixed(-k, 10));
 }
 

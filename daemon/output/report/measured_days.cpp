@@ -71,8 +71,8 @@ Status use_stated_date(Report& report, sys_seconds now) {
     } else if (stated < day_at(recorded->first) - days(1) ||
                stated > day_at(recorded->last) + days(1)) {
       return fail(ErrorCode::usage,
-                  "date " + date + " (date of the measurement): run " + std::to_string(header.id) +
-                      " was recorded on " + recorded->first,
+                  "date " + date + " (date of the measurement) does not match run " +
+                      std::to_string(header.id) + ", which was recorded on " + recorded->first,
                   Remedy::state_in_report, "date");
     }
   }

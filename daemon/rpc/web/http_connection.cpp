@@ -25,7 +25,9 @@ HttpConnection::HttpConnection(HttpServerCore& server, int socket)
 
 void HttpConnection::reject_connection() {
   append_refusal(output_.text(),
-                 {503, "all connections of mdofd for browsers are in use; close a page of mdofd"},
+                 {503,
+                  "all connections of mdofd for browsers are in use; close a browser tab that "
+                  "shows mdofd"},
                  "Retry-After: 5\r\n");
   (void)output_.flush(socket_.native_handle());
   close();
@@ -147,7 +149,9 @@ void HttpConnection::continue_rpc() {
 
 void HttpConnection::begin_stream() {
   if (server_.stream_count() >= server_.service.options().max_http_streams)
-    return refuse({503, "all event streams of mdofd are in use; close a page of mdofd"},
+    return refuse({503,
+                   "all event streams of mdofd are in use; close a browser tab that shows "
+                   "mdofd"},
                   "Retry-After: 5\r\n");
   if (!admit(Peer::Http::reads)) return;
   if (const auto error = subscribe_all()) return refuse(*error);

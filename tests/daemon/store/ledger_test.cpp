@@ -198,7 +198,7 @@ TEST_F(LedgerTest, ARecalculatedChainDiffersFromTheAnnouncedHead) {
   for (const Status& noticed :
        {store->check_announced_head(), Status(store->active(Axis::x).map([](auto&&) {}))}) {
     ASSERT_FALSE(noticed);
-    EXPECT_TRUE(contains(noticed.error().message, "which mdofd reported last"))
+    EXPECT_TRUE(contains(noticed.error().message, "mdofd last reported link"))
         << noticed.error().message;
   }
   EXPECT_EQ(store->verify()->size(), 1u) << store->verify()->front();

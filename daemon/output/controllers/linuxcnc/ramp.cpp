@@ -35,13 +35,12 @@ void note_ramp(const Series& s, const ExportOptions::Ramp& ramp, Export& out) {
         (worst == s.position_m.size() || reversal_at(s, i) > reversal_at(s, worst)))
       worst = i;
   if (worst == s.position_m.size()) return;
-  out.notes.push_back(s.error + ": the reversal of " + um_text(reversal_at(s, worst)) + " at " +
-                      plain_number(to_mm(s.position_m[worst]), 9) +
-                      " mm is not applied: with MAX_ACCELERATION " +
-                      mm_s2(ramp.max_acceleration_m_s2) + " and a servo period of " +
-                      plain_number(ramp.period_s * 1e3, 4) +
-                      " ms, LinuxCNC does not start a motion for a reversal above " +
-                      um_text(held.above_m) + " and up to " + um_text(held.up_to_m) + kRampRemedy);
+  out.notes.push_back(
+      s.error + ": LinuxCNC does not apply the reversal of " + um_text(reversal_at(s, worst)) +
+      " at " + plain_number(to_mm(s.position_m[worst]), 9) + " mm. With MAX_ACCELERATION " +
+      mm_s2(ramp.max_acceleration_m_s2) + " and a servo period of " +
+      plain_number(ramp.period_s * 1e3, 4) + " ms, it starts no motion for a reversal above " +
+      um_text(held.above_m) + " and up to " + um_text(held.up_to_m) + kRampRemedy);
 }
 
 // Adds a note on values of MAX_ACCELERATION for which a step is not applied. These values are
@@ -58,13 +57,12 @@ void note_unknown_ramp(const Series& s, Export& out) {
   // The largest step that is not applied if MAX_ACCELERATION is 1 m/s².
   const double up_to_m = unapplied_steps({s.along, 1.0, kLinuxCncPeriod_s}).up_to_m;
   out.notes.push_back(
-      s.error +
-      ": MAX_ACCELERATION of the joint is unknown. At some positions, LinuxCNC does not apply the "
-      "reversal (" +
-      um_text(least) + " to " + um_text(most) + ") if MAX_ACCELERATION is from " +
+      s.error + ": MAX_ACCELERATION of the joint is unknown. The reversals are from " +
+      um_text(least) + " to " + um_text(most) + ". If MAX_ACCELERATION is from " +
       mm_s2(least / up_to_m) + " to " + mm_s2(2 * most / up_to_m) +
-      " (servo period 1 ms), because LinuxCNC does not start a motion for a step of this size; "
-      "give MAX_ACCELERATION (option max-acceleration-mm-s2) or the ini file (option ini)");
+      " (servo period 1 ms), LinuxCNC does not apply the reversal at some positions, because it "
+      "starts no motion for a step of this size; give MAX_ACCELERATION (option "
+      "max-acceleration-mm-s2) or the ini file (option ini)");
 }
 
 }  // namespace

@@ -91,8 +91,8 @@ Status add_errors(const CompensationTable& table, const ExportOptions& options, 
   }
   if (t == before)
     return bad_input("table " + std::to_string(table.id) +
-                     " contains no error that CEC can store; CEC stores positioning errors, and "
-                     "straightness errors whose correction sign is known" +
+                     " contains no error that CEC can store. CEC stores positioning errors, and "
+                     "straightness errors if the sign of the correction is known" +
                      (gap.empty() ? "" : "; " + gap));
   return {};
 }

@@ -56,7 +56,7 @@ Series zeroed_at_home(Series s, const ExportOptions& options, Export& out) {
     if (std::abs(there) > kStepOfLec_m)
       out.notes.push_back(s.error + ": the value at 0 mm is " + plain_number(to_um(there)) +
                           " um, so the axis jumps by " + plain_number(-to_um(there)) +
-                          " um if its reference point is there; " +
+                          " um if its reference point is at 0 mm; " +
                           words::remedy(Remedy::give_home));
     return s;
   }

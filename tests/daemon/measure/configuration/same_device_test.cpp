@@ -124,9 +124,9 @@ TEST_F(SameDevice, NamesEachMistakeWithLineAndRemedy) {
     std::string text, says;
   } cases[] = {
       {kX + axis_y("same_as = \"t8\"\n" + kEncoderY),
-       "mdofd.toml:18: axis[2].device.same_as: no [[axis]] above has a device named \"t8\"; "
-       "devices above: t7"},
-      {axis_y(kSame + kEncoderY) + kX, "a device named \"t7\"; devices above: none"},
+       "mdofd.toml:18: axis[2].device.same_as: no earlier [[axis]] of this file has a device named "
+       "\"t8\"; devices of earlier axes: t7"},
+      {axis_y(kSame + kEncoderY) + kX, "a device named \"t7\"; devices of earlier axes: none"},
       {kX + axis_y(kSame), "no device provides channel \"encoder\""},
       {kX + axis_y(kSame + encoder("DIO0")), "input \"DIO0\" is already used by \"encoder\""},
       {kX + axis_y(kSame + encoder("DIO4")), "mdofd.toml:19: axis[2].device.channel"},

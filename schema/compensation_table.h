@@ -46,9 +46,9 @@ struct CompensationTable {
   std::array<std::vector<double>, 5> forward, reverse;
   // Standard uncertainty from noise and repeatability.
   std::array<std::vector<double>, 5> u_forward, u_reverse;
-  // Standard uncertainty from the declarations of the rigs and from removed drifts: one value for
-  // both approaches, the larger of their two values. Empty: there is neither of them, or the table
-  // is older than this member.
+  // Standard uncertainty from the declarations of the rigs and from the removal of drifts. It has
+  // one value for both approaches: the larger one of their values. Empty: nothing is declared and
+  // no drift was removed, or an mdof version without this member built the table.
   std::array<std::vector<double>, 5> u_declared;
   // Curvature of the error in each interval, for u between targets
   // (algo/compensation/between_targets.h). It is calculated from the values and not stored; empty
@@ -62,7 +62,7 @@ struct CompensationTable {
   // Keys that the rigs of the runs do not declare; u does not include the contributions of these
   // keys. They are read from the rigs and not stored.
   std::vector<std::string> not_declared;
-  bool rigs_declare = false;  // whether a rig declares any uncertainty; as above
+  bool rigs_declare = false;  // whether a rig declares any uncertainty; not stored
   // True: no target was visited twice from the same side, so that u contains no repeatability. It
   // is found from the points of the runs and not stored.
   bool visited_once = false;
@@ -72,7 +72,8 @@ struct CompensationTable {
 
   bool has_declared() const { return !u_declared.front().empty(); }
   bool has_positioning() const { return !positioning.forward.empty(); }
-  // Whether u contains noise only: is_noise_only() of schema/uncertainty/budget.h for all values.
+  // True if is_noise_only() (schema/uncertainty/budget.h) is true for all values: u contains noise
+  // only.
   bool noise_only() const;
   // Combined standard uncertainty of an error at a position, for one approach. `u_random`:
   // u_forward or u_reverse.
@@ -104,7 +105,8 @@ struct CompensationTable {
 //   for each of these series i n, d the n values (n = 0: the table does not have the series):
 //     forward[5], reverse[5], u_forward[5], u_reverse[5], u_declared[5]
 //     of positioning: forward, reverse, u_forward, u_reverse, u_declared
-// The hash in a table of an earlier version is the hash of the JSON that this version wrote.
+// A table that an earlier version of mdof stored has another hash: that of the JSON text that the
+// earlier version wrote.
 std::string table_sha256(const CompensationTable& table);
 
 // The contributions that u of the table includes.

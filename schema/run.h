@@ -29,9 +29,8 @@ struct Provenance {
 };
 
 // partial: the run ended before all requested targets were measured, or most points could not be
-// solved; the notices of the run state what is missing. ended: the measurement has ended, but this
-// is not stored yet; the database still contains the state "open", and only mdofd uses the state
-// "ended".
+// solved; the notices of the run state what is missing. ended: the measurement has ended, but its
+// end is not stored yet. Only mdofd uses this state; the database still contains "open".
 enum class RunState { open, complete, partial, aborted, failed, ended };
 const char* to_string(RunState state);
 
@@ -91,7 +90,7 @@ struct Run {
   std::vector<MeasuredPoint> points;
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
-  // nullopt: the run has no points, or it is older than this member.
+  // nullopt: the run has no points, or an mdof version without this member stored it.
   std::optional<Plausibility> plausibility;
 };
 

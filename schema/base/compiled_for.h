@@ -27,8 +27,8 @@
 
 namespace mdof {
 
-// Whether the processor has the instructions of MDOF_AVX2 (MDOF_AVX512), and `most`, the largest
-// permitted set, includes these instructions.
+// True if a function with MDOF_AVX2 may be called: the processor has its instructions, and the
+// largest permitted set `most` includes them. has_avx512(): the same for MDOF_AVX512.
 inline bool has_avx2([[maybe_unused]] InstructionSet most = best_instruction_set()) {
 #if defined(__x86_64__)
   __builtin_cpu_init();

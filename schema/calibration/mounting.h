@@ -16,7 +16,8 @@ struct MountedProbe {
   Vec3 position_m{}, u_position_m{};  // in the frame M, along the machine axes
   Vec3 direction{};                   // unit vector
   double u_direction_rad = 0;         // the larger u of the two axes of rotation
-  // Displacement that the probe reads at the nominal surface; 0 (the zero of the rig) if not seen.
+  // Displacement that the probe reads at the nominal surface; 0 (the zero of the rig) if the logs
+  // do not determine it.
   double zero_m = 0, u_zero_m = 0;
   // Scale minus 1; both 0 if the rig declares the scale as exact.
   double scale_1 = 0, u_scale_1 = 0;

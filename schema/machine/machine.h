@@ -33,7 +33,7 @@ struct ErrorFunction {
   std::vector<double> u_independent{};
   // Curvature in each interval, 1/m or rad/m². Linear interpolation at x between x_i and x_{i+1}
   // adds a standard uncertainty of ½ (x - x_i) (x_{i+1} - x) curvature. Empty: it adds none. Beyond
-  // the ends, u contains the slope of the end interval, also without curvature.
+  // the ends, u always contains the slope of the end interval.
   std::vector<double> curvature{};
   bool noise_only = false;  // u contains only noise and repeatability
 

@@ -59,8 +59,8 @@ using Notices = std::vector<Notice>;
 Notice notice(NoticeCode code, const std::string& subject = "",
               std::initializer_list<std::pair<std::string_view, NoticeValue>> values = {});
 
-// Returns the notice for another result. `source` is put before the source that the notice already
-// has.
+// Returns the notice for a result that takes it over from `source` ("run 3"). If the notice already
+// has a source, the result has both: "table 2: run 3".
 Notice inherited(const std::string& source, Notice notice);
 
 // Returns the value with this key; nullptr: the notice has no such value.

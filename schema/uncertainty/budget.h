@@ -42,7 +42,7 @@ struct Budget {
   double coverage_factor = 0;  // k for 95 %, Student's t
   double U = 0;                // k u
   bool U_by_trials = false;    // true: U is from the Monte Carlo trials, and k = U / u
-  bool u_by_trials = false;    // true: u too, so `lines`, of first order, do not add up to u
+  bool u_by_trials = false;    // true: u is from the trials, too; `lines` then do not add up to u
   // True: the declarations of the rigs contribute nothing to u, or less than 1 %. Always false if
   // every key is declared.
   bool noise_only = false;
@@ -75,7 +75,8 @@ bool declares(const Budget& budget);
 inline constexpr const char* kNothingDeclared = "no uncertainties are declared";
 // The contributions that u includes.
 Covers covers(const Budget& budget);
-// For several figures of the same rigs: the contributions of the u with the most contributions.
+// For several figures of the same rigs: covers() of the first budget that is not noise only, or of
+// the first budget if all are noise only. Imported readings have statements of their own.
 Covers covers(const std::vector<Budget>& budgets);
 // True if all budgets are noise only; false if there are no budgets.
 bool are_noise_only(const std::vector<Budget>& budgets);

@@ -49,11 +49,11 @@ struct VolumetricTable {
   std::vector<Vec3> correction_m, u_m;
   // The part of u_m that comes from the noise of the tables of the grid's axes. This part is
   // independent between different positions of an axis; nodes with the same command of an axis have
-  // the same contribution from this axis. Empty: the table is older than this member, or nothing is
-  // declared.
+  // the same contribution from this axis. Empty: nothing is declared, or an mdof version without
+  // this member built the table.
   std::vector<Vec3> u_independent_m;
   // The same noise for each axis and each of its commands; empty for an axis with one command.
-  // Empty for all axes: as for u_independent_m.
+  // Empty for all axes: for the same reasons as u_independent_m.
   std::array<std::vector<AxisNoise>, 3> noise;
   // Largest difference between the linear interpolation between the nodes and the correction of the
   // model; m, for each axis. It is calculated at the centres of cells, faces and edges.
@@ -61,8 +61,8 @@ struct VolumetricTable {
   // The errors depend on the approach, but the table has only one value for each node. This is the
   // largest part of a correction that therefore remains at a node; m, for each axis. For the
   // approach "mean" it is half the difference between the approaches, for "forward" or "reverse"
-  // the whole difference. Each machine axis may arrive from either side. 0 in a table that is older
-  // than this member.
+  // the whole difference. Each machine axis may arrive from either side. 0 if an mdof version
+  // without this member built the table.
   Vec3 reversal_m{};
   // Largest errors that remain with the corrected commands: the position error that the linear axes
   // cannot correct (m), and the rotation of the tool, which the linear axes cannot change (rad).
@@ -70,8 +70,8 @@ struct VolumetricTable {
   // Names of errors: errors that were not measured and are therefore not corrected; errors without
   // u; errors whose table ends inside the grid.
   std::vector<std::string> not_measured, u_not_declared, beyond_tables;
-  // Notices of the errors from which the table was built. Empty in a table that is older than this
-  // member.
+  // Notices of the errors from which the table was built. Empty if an mdof version without this
+  // member built the table.
   Notices doubtful;
   std::string created_utc;
   std::string sha256;  // volumetric_sha256()
@@ -83,8 +83,9 @@ struct VolumetricTable {
     return x + command_m[0].size() * (y + command_m[1].size() * z);
   }
   Vec3 command_at(std::size_t node) const;
-  // The two parts of u: u_independent_m, and the part that is common to all nodes (squareness,
-  // declared uncertainties, u of files). NaN: the parts are not known separately.
+  // The two parts of u at a node: the independent part (u_independent_m), and the part that is
+  // common to all nodes (squareness, declared uncertainties, u of files). NaN: the parts are not
+  // known separately.
   Vec3 u_independent_at(std::size_t node) const;
   Vec3 u_common_at(std::size_t node) const;
 };
@@ -93,8 +94,8 @@ struct VolumetricTable {
 // rotary axes. The table is valid only at these positions.
 std::string rotary_text(const VolumetricTable& table);
 
-// Returns the other part of u, if `part_m` is one of its two parts; m. NaN if `u_m` or `part_m` is
-// NaN.
+// Returns √(u_m² - part_m²), m: the second part of u_m if `part_m` is its first part. NaN if `u_m`
+// or `part_m` is NaN.
 Vec3 remaining_u(const Vec3& u_m, const Vec3& part_m);
 
 // noise_numbers() returns all numbers of `noise`: X first; for each node the variances, then the
@@ -105,15 +106,16 @@ bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
 
 // SHA-256 of the contents of the table. These bytes are hashed, in this order (i, d, s:
 // schema/base/canonical.h):
-//   s "mdof volumetric table 1"; 2 and not 1 with u_independent_m, 3 with noise; ", reversal" is
-//     appended if reversal_m is not 0, then ", doubtful" if there are doubtful notices
+//   s "mdof volumetric table N". N is 3 if the table has noise, 2 if it has only u_independent_m,
+//     otherwise 1. ", reversal" is appended if reversal_m is not 0, then ", doubtful" if there are
+//     doubtful notices
 //   s name, s chain, s travels, s description
 //   i number of runs, i each run
 //   i simulated, i noise_only (0: none, 1: some, 2: all), s approach
 //   d tool_m[3], d rotary_rad[3]
 //   for X, Y and Z: i n, d command_m[n]
-//   d correction_m[nodes][3], d u_m[nodes][3], d u_independent_m[nodes][3] (2, 3)
-//   d noise (3; noise_numbers())
+//   d correction_m[nodes][3], d u_m[nodes][3], d u_independent_m[nodes][3] (N = 2, 3)
+//   d noise_numbers() (N = 3)
 //   d interpolation_m[3], d place_left_m, d turn_left_rad
 //   for not_measured, u_not_declared and beyond_tables: i n, s each name
 //   d reversal_m[3], if it is not 0

@@ -33,12 +33,11 @@ bool is_shared(const std::filesystem::path& database);
 
 // Whether this process has the file open for writing, under any name or link: its own database,
 // -wal or -shm, or a recording in progress. Files that are open only for appending do not count,
-// because SQLite has no lock on them. If the process closes any other descriptor of such a file,
-// the kernel removes the locks of SQLite on this file; this applies also to a descriptor from
-// open(2) or from a client. Another program may then delete a -wal file that is in use. Therefore
-// call this function before the file is opened. A descriptor from open(2) with O_PATH removes no
-// locks. The check has no race if `file` comes from such a descriptor and the file is opened
-// through this descriptor.
+// because SQLite has no lock on them. Do not open a file for which the result is true. When this
+// process closes any second descriptor of the file (from open(2) or from a client), the kernel
+// removes the locks of SQLite on the file, and another program may delete a -wal file that is in
+// use. Only a descriptor with O_PATH removes no locks. To check without a race, get `file` from an
+// O_PATH descriptor, and open the file through this descriptor.
 bool is_open_for_writing(const struct stat& file);
 bool is_open_for_writing(const std::filesystem::path& file);
 

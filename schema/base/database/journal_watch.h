@@ -27,14 +27,15 @@ void guard_files();
 // starts its threads.
 void survive_truncated_shm();
 
-// Thread-bound, as is the connection.
+// Thread-bound: use the object only in the thread of its connection.
 class JournalWatch {
  public:
   // The connection must be in WAL mode and must have read from the database before.
   JournalWatch(sqlite3* database, const std::filesystem::path& file);
   // Text of the fault, "FILE-wal was deleted ..."; empty: no change was detected. A fault is
-  // permanent. If the fault is not a truncated -wal file, committed data are moved into the
-  // database immediately, if possible.
+  // permanent. When fault() detects it, it tries to move all committed data into the database,
+  // except if the -wal file was truncated. A -wal file of another program is then renamed to
+  // FILE-wal.foreign.
   const std::string& fault();
   // Whether the next program finds all committed data: there is no fault, or all data were moved
   // into the database.

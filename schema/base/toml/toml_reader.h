@@ -22,7 +22,8 @@ class TomlTable {
   // `source_name` is the name of the document in messages.
   static Result<TomlTable> parse(std::string_view text, const std::string& source_name);
 
-  // has() does not count as reading the key; the key only appears in hints for misspelt keys.
+  // True if the table has the key. has() does not count as reading: finish() reports the key as
+  // unknown unless another function reads it. Hints for misspelt keys may propose the key.
   bool has(std::string_view key);
   bool is_array(std::string_view key);  // [[key]], or key = [...]
   bool is_table(std::string_view key);  // [key], or key = {...}
@@ -51,8 +52,8 @@ class TomlTable {
   std::string where(std::string_view key) const;  // "rig.toml:12: probe.range_um"
 
   // The keys and values of the document in a canonical form, without comments. Two documents with
-  // the same content give the same text. The tables `without` of the document are left out. If
-  // `text` is no TOML document, returns `text`.
+  // the same content give the same text. Tables of the document whose name is in `without` are left
+  // out. If `text` is not a TOML document, returns `text`.
   static std::string content(const std::string& text,
                              const std::vector<std::string_view>& without = {});
 

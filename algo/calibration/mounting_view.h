@@ -10,8 +10,8 @@
 
 namespace mdof::algo {
 
-// Calculated from the singular values of the derivatives, after the unknowns of the clampings are
-// eliminated.
+// The combinations are the singular vectors of the derivatives, after the unknowns of the clampings
+// are eliminated.
 struct MountingView {
   Eigen::MatrixXd seen, unseen;  // orthonormal columns, in units of MountingModel::scale()
   Eigen::VectorXd singular;      // singular values of the columns of `seen`

@@ -6,9 +6,9 @@
 // reading = a + g z is fitted by least squares; g is the sensitivity. A correction is true
 // displacement - reading. The correction is 0 where the line has the reading 0, so that the
 // correction does not change the zero. If the rig has no um_per_V, the corrections also contain the
-// sensitivity. They are then extended to the ends of the probe's range with the slope 1/g - 1.
-// The stops at one position give one correction, from their means: backlash between the approaches
-// does not become a saw-tooth of corrections.
+// sensitivity. They are then extended to the ends of the probe's range with the slope 1/g - 1. All
+// stops at one position have one correction, which is calculated from their mean. Otherwise the
+// backlash between the approaches would cause a saw-tooth of corrections.
 //
 // u(g) is the larger one of two values:
 //   - from the noise of the stops and the declared [encoder] u_um; the error of the encoder is the
@@ -27,8 +27,8 @@ namespace mdof::algo {
 // `rig`: must not contain linearity or polynomial of this probe, because they are determined here.
 // The readings of the stops must be calculated with the same rig. Errors: fewer than three
 // positions; a travel that is too short, or an axis that does not move the target towards the
-// probe; a sensitivity outside 0.5 to 2 (wrong unit or wrong direction), also in a single step (end
-// of the range).
+// probe; a sensitivity outside 0.5 to 2, for the whole traverse (wrong unit or wrong direction) or
+// for one step (the probe is at the end of its range).
 Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe,
                                                const Traverse& traverse);
 

@@ -13,14 +13,14 @@ namespace mdof::algo {
 // ½ (x - x_i) (x_{i+1} - x) curvature.
 //
 // The curvature is R times the root mean square of the second differences of the values. A second
-// difference shows the error of interpolation if its middle target is left out. The mean is over
-// the squares of the four nearest second differences (weight 1 each) and the mean square of all
-// second differences (weight 6). The contribution of noise to the squares is subtracted; `u` is
-// this noise, which is independent from target to target.
+// difference shows the error of interpolation at its middle target if this target is left out. The
+// mean is over the squares of the four nearest second differences (weight 1 each) and the mean
+// square of all second differences (weight 6). The contribution of noise to the squares is
+// subtracted; `u` is this noise, which is independent from target to target.
 //
 // The second differences of targets that are close to each other may contain only noise. Therefore
-// the curvature in an interval is at least that from the second differences over at least half of
-// its length.
+// the curvature in an interval is also calculated from only those second differences whose length
+// is at least half of the interval. The larger of the two curvatures is used.
 //
 // R is the ratio of the curvature at half a step to the curvature at one step. q is the ratio of
 // the curvature from neighbouring targets to the curvature from every second target (root mean

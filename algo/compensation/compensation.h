@@ -46,8 +46,9 @@ struct MeanTable {
   std::vector<TargetMean> grid;  // means of both approaches
 };
 Result<MeanTable> mean_table(const std::vector<Run>& runs, const TableOptions& options);
-// Returns the references of a table with these options, as [named error][position][j]: the weight
-// of the mean at position j in the reference of this value.
+// The reference of a value is the weighted sum of means that is subtracted from the mean at its
+// position. Returns the weights for a table with these options, as [named error][position][j]: the
+// weight of the mean at position j.
 std::array<std::vector<std::vector<double>>, kErrorCount> references_of(
     const CompensationTable& table, const TableOptions& options);
 // Returns the notices of uneven_visits() for the points of all runs together. Error: the runs have

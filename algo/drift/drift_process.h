@@ -1,4 +1,5 @@
-// Estimates the course of drifts from repeated visits of the same places. The model of a reading:
+// Estimates drifts as functions of time, from repeated visits of the same places. The model of a
+// reading:
 //   y = error of the place + a t + g(t) + white noise;   drift: a t + g(t), 0 at the first visit
 //
 // g is a Gaussian process. It is the sum of a smooth part (Matérn, ν = 5/2) and of a random walk.

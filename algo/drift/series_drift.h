@@ -35,7 +35,7 @@ struct SeriesDrift {
 // each test is kDriftLevel / (orders × series). Each test uses the residual variance of the fit of
 // the highest order.
 //
-// The course of a significant drift is estimated without an assumption of its form
+// A significant drift is then estimated as a function of time whose form is not assumed
 // (drift_process.h).
 class DriftFit {
  public:

@@ -49,8 +49,9 @@ class SpiralPath {
   Result<SpiralCounts> each(const std::function<Status(const PathPoint&)>& take) const;
   // The highest harmonic of a turn whose amplitude is at least `share` times the largest amplitude
   // (TurnSpectrum::undulations()), evaluated on circles with two or more points for each pixel of
-  // size `pixel_m`. 0: no motion, or the path has as many points. Points of the path that are too
-  // far apart would show these undulations as longer ones.
+  // size `pixel_m`. 0: the tool does not move along Z, or each turn of the path already has so many
+  // points. If the points of the path are too far apart, the path shows these undulations as longer
+  // ones.
   std::size_t surface_undulations(double pixel_m, double share) const;
 
  private:

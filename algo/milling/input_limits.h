@@ -10,8 +10,9 @@ namespace mdof::algo {
 // angle.
 bool is_cut(const MillingPlan& plan);
 
-// Sets an input to a random value. A cut that is wider than the tool is a slot, and helix and force
-// coefficients are at least 0. The result can be no cut.
+// Sets an input to a random value. A radial depth above the tool diameter becomes the diameter (a
+// slot). A negative helix angle or force coefficient becomes 0. The caller must check the result
+// with is_cut().
 void set_input(MillingPlan& plan, const MillingInput& input, double value);
 
 // Two plans that differ in one input, for the derivative by this input.
@@ -19,8 +20,8 @@ struct InputStep {
   MillingPlan lower, higher;
   double width = 0;  // higher - lower
 };
-// The values input ± u, limited to values of a cut. If a positive input is not larger than its u,
-// `lower` is the input itself.
+// The values input ± u, limited to values of a cut. If the input must be positive and is not larger
+// than its u, `lower` has the input itself, or half of it if `higher` already has the input itself.
 InputStep input_step(const MillingPlan& plan, const MillingInput& input, double u);
 
 }  // namespace mdof::algo

@@ -8,7 +8,7 @@
 namespace mdof::algo {
 
 // Returns the sum of term(&x[i]) over all elements of x. It is calculated as eight parallel sums,
-// because in a single sum each addition waits for the addition before.
+// which is faster: in a single sum each addition waits for the addition before.
 template <class Term>
 double lane_sum(std::span<const double> x, Term term) {
   constexpr std::size_t kSums = 8;

@@ -26,9 +26,10 @@ struct ReadingLag {
 // tau is fitted to the targets that were passed in both directions. A constant and a line over the
 // position are fitted, too; they describe the difference of the axis itself between its directions.
 // u is from the residuals of the fit; u is increased if the residuals of neighbouring targets are
-// correlated. The delay is NaN if the slope of a reading hardly changes along the travel, because
-// the effect of a delay then cannot be distinguished from the difference of the axis itself. At
-// one speed, a backlash of the encoder of 2 * speed * delay_s has the same effect as the delay.
+// correlated. The delay is NaN if fewer than twelve targets were passed in both directions, or if
+// the slope of a reading hardly changes along the travel: the effect of a delay then cannot be
+// distinguished from the difference of the axis itself. At one speed, a backlash of the encoder of
+// 2 * speed * delay_s has the same effect as the delay.
 std::vector<ReadingLag> reading_lags(const std::vector<PassBins>& passes, std::size_t probes);
 
 }  // namespace mdof::algo

@@ -1,5 +1,7 @@
-// The lower end of the interval of p95 and of the largest error: a test of true errors s * value
-// with a factor s >= 0, where `value` is the measured error along the path (README.md).
+// The lower end of the coverage interval of a figure of the error along a path: p95, or the largest
+// error (README.md, "Lower end"). The lower end is the smallest true figure that a test does not
+// reject. The test assumes that the true errors are s * value with a factor s >= 0; `value` is the
+// measured error along the path.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +19,14 @@ struct ScaleRange {
 ScaleRange possible_scales(const std::vector<double>& value, const std::vector<double>& error,
                            std::size_t width, std::size_t within, double most_m);
 
-// Factors s with the distribution function P(s) of README.md: a sorted list with one s for each
-// trial. `ranges`: of the trials. A trial exceeds the measured figure outside its range.
+// Returns one factor s for each trial, in ascending order; their distribution function is P(s) of
+// README.md. `ranges`: possible_scales() of each trial. With an s outside its range, the figure of
+// a trial exceeds the measured figure.
 std::vector<double> drawn_scales(const std::vector<ScaleRange>& ranges);
 
-// The k-th factor s for the lower end. Up to always_m, where the upper end is never below the
-// truth, P(s) = 5 % counts as 2.5 %. `scales`: by drawn_scales(). value_m: figure of the value.
+// Returns the k-th factor s for the lower end. If the true figure is at most always_m, the upper
+// end is never below it, so that the lower end may have all 5 %: P(s) = 5 % then counts as 2.5 %.
+// `scales`: result of drawn_scales(). value_m: figure of `value`.
 double lower_scale(const std::vector<double>& scales, std::size_t k, double value_m,
                    double always_m);
 

@@ -12,7 +12,8 @@ namespace mdof::algo {
 // acceleration and vibration. Therefore the lower quartile of all slots so far is used. It is from
 // a slot at rest if the axis rests for at least a quarter of the time. The minimum of all slots is
 // not used, because the minimum of thousands of short slots is far below the noise. The result has
-// steps of 9 %. It does not depend on how the data are divided into blocks; memory is fixed.
+// steps of 7 % to 12 %. It does not depend on how the data are divided into blocks; memory is
+// fixed.
 class NoiseFloor {
  public:
   // `mean_bend`: mean |x[i] - 2 x[i-1] + x[i-2]| over `rows` values. A NaN (from a missing value)

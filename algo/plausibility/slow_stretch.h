@@ -9,8 +9,9 @@
 
 namespace mdof::algo {
 
-// Takes each window of the dwell detection. take() returns an event at the end of an interval of at
-// least `least_s` in which the axis moved slowly, by at most `most_m`, and no stop was found.
+// Takes each window of the dwell detection. take() returns an event at the end of an interval in
+// which the axis moved slowly and no stop was found. The interval is at least `least_s` long, and
+// the axis moved by at most `most_m` in it.
 class SlowStretch {
  public:
   struct Window {

@@ -36,8 +36,8 @@ struct DwellOptions {
   double leave_s = 0;
   // Shortest averaged time; a shorter stop (a reversal) is no dwell.
   double min_length_s = 0.1;
-  // Travel that determines the direction of approach. A smaller overrun of an end target also does,
-  // from the larger value of 10 µm and five tolerances.
+  // A travel of this length determines the direction of approach. An overrun of an end target
+  // determines it, too, if the overrun exceeds both 10 µm and five tolerances.
   double approach_m = 50e-6;
   // Largest speed of the axis; positions that it cannot reach are left out.
   double max_speed_m_s = 100;

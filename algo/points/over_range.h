@@ -28,7 +28,8 @@ bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, do
 // Returns u of a mean including the bias due to over-range readings near to the mean. p is the
 // share of these readings. For normally distributed readings the bias is sd phi(a)/Phi(a) with
 // Phi(-a) = p; phi is the density and Phi the distribution function of the normal distribution. The
-// bias is less than 4 p sd, or below 0.0004 sd.
+// function uses 4 p sd: the bias is smaller than this for p above 1e-4, and below 0.0004 sd for a
+// smaller p.
 double u_with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,
                          std::size_t readings);
 

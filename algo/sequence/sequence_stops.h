@@ -19,13 +19,16 @@ inline constexpr double kMostOvershoot_m = 0.25e-3;
 // Returns the targets from the stops of the axis, in ascending order. The sorted positions are
 // divided where the distance to the next position is at least ten times the scatter within a target
 // (and above 2 µm). If most motions then are within a target and without an overrun, the positions
-// are divided at each distance above 2 µm. The position of a target is the position of its first
-// stop, so later stops do not change it.
+// are divided at each distance above 2 µm, if this gives at least two stops for each target on
+// average. The position of a target is the position of its first stop, so that later stops do not
+// change it. Exception: if the axis was only parked beside its first target, the position is that
+// of the next stop.
 std::vector<double> stop_targets(const std::vector<Point>& points);
 std::size_t nearest_target(const std::vector<double>& targets_m, double position_m);
 
-// If the axis overshot a stop by at most kMostOvershoot_m and moved back, the direction of the stop
-// is set to the direction of the path from the stop before. Returns the number of such stops.
+// If the axis overshot a stop by more than 40 µm and at most kMostOvershoot_m and moved back, the
+// direction of the stop is set to the direction of the path from the stop before. Returns the
+// number of such stops.
 int correct_overshot(std::vector<Point>& points);
 
 // The same for a single stop. Returns whether the axis overshot it.
@@ -52,8 +55,8 @@ bool merge_into(MeasuredPoint& stop, MeasuredPoint& part);
 
 struct OddStops {
   std::vector<StopLeftOut> left_out;
-  // Target at which the log begins, and which was not approached from both sides as other targets:
-  // the axis may only have been parked there, or turned. 0: none.
+  // The target at which the log begins, if it was not approached from both sides although other
+  // targets were. The axis may only have been parked or reversed there. 0: no such target.
   int assumed_target = 0;
 };
 
@@ -62,9 +65,11 @@ struct OddStops {
 // stops from `points` and returns them. Removes targets without points from `targets_m`; the target
 // numbers of the points are changed accordingly.
 OddStops leave_out_odd_stops(std::vector<MeasuredPoint>& points, std::vector<double>& targets_m);
-// For given targets: the axis stopped several times at one target without a stop at another target.
-// Removes and returns the stops that are farther from the target than another of these stops: by
-// more than 10 µm, and more than ten times the median distance of all stops from their targets.
+// Only for nominal targets. The distance of a stop from its target is |position - target - shift|;
+// the shift is the median of (position - target) over all stops. A stop is beside its target if
+// this distance exceeds both 10 µm and ten times the median distance of all stops. Removes and
+// returns each stop beside its target for which the axis also stopped at the target, without a stop
+// at another target in between.
 std::vector<StopLeftOut> leave_out_beside_targets(std::vector<MeasuredPoint>& points);
 // Removes and returns the first stop of the log if its approach was not observed, and the next stop
 // is at the same target with the same approach after the axis left the target.

@@ -24,9 +24,9 @@ struct WithoutDrift {
 // approach. If a run lacks a visit that another run has, the means of different targets contain
 // different runs, so drifts between the runs would change the slope of the result. Then the mean
 // drift of each run relative to the other runs is subtracted from its errors (run_drifts.h); the
-// sum of the drifts is 0. u_level is s/√n of the n drifts, with their standard deviation s.
-// u_level is the uncertainty of the common level of all targets, for targets with any number of
-// runs. It is 0 if nothing was subtracted.
+// sum of the drifts is 0. u_level is s/√n of the n drifts, with their standard deviation s. It is
+// the uncertainty of the level that all targets have in common, whatever the number of runs at a
+// target is. It is 0 if nothing was subtracted.
 WithoutDrift subtract_run_drifts(const std::vector<MeasuredPoint>& points);
 
 // Returns notices about missing visits and targets with one approach: which of them the means take

@@ -1,10 +1,10 @@
 // Adds the residual errors of a compensated axis to the table that the controller applied.
 //
 // The errors of the axis are E. While the controller applies the table T, a check run measures the
-// residuals R = E - T + m, where m are the errors of this measurement. The new table is T + R =
-// E + m. T is an exactly known number here, whatever the errors of its own measurement are.
-// Therefore u of the new table is u of R. Declared uncertainties, such as that of the flatness, are
-// in T and again in E - T, where they cancel, and once in m.
+// residuals R = E - T + m, where m are the errors of this measurement. The new table is T + R = E +
+// m. T is an exactly known number here, whatever the errors of its own measurement are. Therefore u
+// of the new table is u of R. An error with a declared uncertainty, such as the flatness, is in T
+// and, with the opposite sign, in E - T, so it cancels. It remains once, in m.
 #pragma once
 
 #include "schema/base/result.h"
@@ -20,11 +20,12 @@ namespace mdof::algo {
 // `applied`, or has a target beyond it.
 Status add_applied(const CompensationTable& applied, CompensationTable& table);
 
-// Notices if the residuals in `table` (a result of add_applied()) are similar to `applied`. Then
-// the controller probably did not apply this table, or with the wrong sign, or not for each
-// approach, and the sum is wrong. `earlier`: the table to which `applied` was added, or null. Then
-// the residuals are also compared with the errors that were added: if the controller applies no
-// table, the share of the residuals in the growing sum decreases (1, 1/2, 1/3 …).
+// Notices if the residuals in `table` (a result of add_applied()) are similar to `applied`. The sum
+// is then wrong: the controller probably did not apply this table, applied it with the wrong sign,
+// or did not apply it for each approach. `earlier`: the table to which the errors in `applied` were
+// added; null: no such table. With `earlier`, the residuals are also compared with the added
+// errors. Otherwise a controller that never applies a table would not be detected after several
+// additions: the residuals are then 1, 1/2, 1/3 … of the growing sum.
 Notices residual_notices(const CompensationTable& applied, const CompensationTable* earlier,
                          const CompensationTable& table);
 

@@ -14,14 +14,15 @@ namespace mdof::algo {
 
 class ShapeEvidence {
  public:
-  // `about`: the places of A. All poses are about the middle of these places.
+  // `about`: the selected pixels of A (pose/places.h). All poses rotate about the middle of A.
   ShapeEvidence(const SurfaceMap& a, const Places& about);
 
   // The directions of movement that the shape determines at this pose: orthonormal columns in the
   // coordinates (shift x, shift y, turn times size). They are orthogonal to the directions in which
   // the slopes of the two maps are not correlated (README.md, "Surfaces and registration").
   Eigen::MatrixXd determined(const Surface& b, const MapPose& about_middle) const;
-  // True: the slopes of A, without a tilt, determine at least one direction.
+  // True: the slopes of A determine at least one direction, although piston and tilt are fitted,
+  // too.
   bool has_shape() const;
 
  private:

@@ -18,8 +18,8 @@ struct Places {
 
 Places places_of(const SurfaceMap& a, std::size_t most);
 
-// Rotation of poses about the middle of A: p in A is at R p + shift in B, both relative to that
-// middle.
+// The rotation of a pose about the middle of A. The place p in A is at R p + shift in B; both
+// places are relative to the middle of A.
 struct Turn {
   double cos = 1, sin = 0;
   explicit Turn(double rad);

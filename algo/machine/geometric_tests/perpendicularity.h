@@ -45,8 +45,8 @@ struct Perpendicularity {
 //            + higher harmonics + drift + noise
 // u is calculated from the residuals. The noise is assumed to be independent from reading to
 // reading. Errors: too few readings; a gap of more than 60° on the circle; a radius outside 0 to
-// 100 m; a height above 1 m; times that do not increase; no times, and angles that are not in the
-// order of one rotation forwards and back.
+// 100 m; a height above 1 m; times that do not increase; no times, if an angle step exceeds 90° or
+// the direction of rotation changes more than once.
 Result<Perpendicularity> perpendicularity(const CircleReadings& readings, int highest);
 
 }  // namespace mdof::algo

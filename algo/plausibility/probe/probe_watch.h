@@ -19,8 +19,8 @@ struct FrozenProbe {
   std::size_t probe = 0;
   std::int64_t begin_ns = 0, end_ns = INT64_MAX;  // INT64_MAX: until the end of the log
   double value_m = 0;
-  // The reading is at the limit of the amplifier: it came back from this value, and no reading of
-  // the log is beyond this value.
+  // The constant reading is the limit of the amplifier: the probe later left this value, and no
+  // reading of the log is beyond this value.
   bool at_limit = false;
 };
 

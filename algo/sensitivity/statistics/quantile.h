@@ -24,7 +24,7 @@ struct OutputScale {
 // the central 98 % of the values, with the same middle. If the values are equal except for
 // rounding, the scatter of later values is unknown. The width of the core is then 1/512 of the
 // values, or 1/512 of the unit if the values are below 1. The sums are then valid for later values
-// from pm and prad to more than mm and mrad.
+// from pm (prad) to more than mm (mrad).
 OutputScale scale_for(std::vector<double> values);
 
 // Counts of the values of one output. Core bin i is [low + i width, low + (i+1) width]; a value on

@@ -52,8 +52,8 @@ class RunBudgets {
   // If this variance is more than kRunsScatterMore times the variance by the visits, the difference
   // is added. U is k u; for a range, U is calculated as in range_interval.h. If this U exceeds
   // three times u and 1.5 times k u of first order, the deviations are not larger than their
-  // uncertainty, and u is the root mean square of the trials about the true range R - U, at least
-  // 0. If the figure is NaN, the budget is NaN.
+  // uncertainty, and u is the root mean square of the trials about the true range R - U (0 if R - U
+  // is negative). If the figure is NaN, the budget is NaN.
   Budget of(const Figure& figure) const;
   // Budgets of several figures, from the same trials.
   std::vector<Budget> of(const std::vector<Figure>& figures) const;

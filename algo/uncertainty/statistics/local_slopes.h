@@ -20,9 +20,9 @@ struct LocalSlope {
 // square) if the errors are a wave of three target intervals, 0.96 for four, and 0.99 for six.
 //
 // `unseen` is estimated from the changes of the chord from interval to interval, for the inner
-// targets together: 0 if these changes show a smooth form. At the end targets the slope of the
-// spline is rather too large, and `unseen` is 0. The targets cannot show waves that are shorter
-// than two intervals.
+// targets together: 0 if these changes show a smooth form. At the end targets `unseen` is 0,
+// because the slope of the spline is usually too large there. The targets cannot show waves that
+// are shorter than two intervals.
 //
 // If the targets of this approach are all at one place, the means of both approaches are used. If
 // all targets are at one place, the slope is 0. Targets at a smaller distance than 2 % of the mean

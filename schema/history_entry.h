@@ -17,8 +17,8 @@ struct Actor {
 
 struct HistoryEntry {
   std::string name;  // "run.start", "run.resume", "run.stop", "run.abort", "run.replay",
-                     // "squareness.fit", "compensation.build", ".build_volume", ".activate",
-                     // ".deactivate", "encoder.set"
+                     // "run.import", "squareness.fit", "compensation.build", ".build_volume",
+                     // ".activate", ".deactivate", "encoder.set"
   Actor by;
   std::string utc;
   // Both are set when the entry is stored.

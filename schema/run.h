@@ -17,7 +17,7 @@ namespace mdof {
 
 // All data that are needed to reproduce the result bit by bit.
 struct Provenance {
-  std::string recording_kind;  // "csv", "recording", "live"
+  std::string recording_kind;  // "csv", "recording", "replay" (by mdofd), "imported csv"
   std::string recording_path;  // absolute path
   // SHA-256 of the bytes of the file (csv), or hash of the chain of chunks (recording).
   std::string recording_sha256;

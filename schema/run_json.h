@@ -14,8 +14,8 @@
 namespace mdof {
 
 // Writes {"target", "target_mm", "run", "direction", "position_mm", five errors, "u": {...},
-// "u_random", "U", "k", "nu_eff", "samples", "flags"}. If the errors of the point could not be
-// solved, they are null and there is a "reason".
+// "u_random", "U", "k", "nu_eff", "residual_um", "samples", "flags"}. If the errors of the point
+// could not be solved, they are null and there is a "reason".
 void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& point,
                  const ErrorsUncertainty& uncertainty);
 

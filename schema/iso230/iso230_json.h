@@ -31,8 +31,8 @@ void write_parallelism(JsonWriter& json, const Parallelism& parallelism);
 // keys end in _urad.
 void write_positioning(JsonWriter& json, const Positioning& positioning, bool angle);
 
-// Writes {"coverage", "U_B_um", "U_B_mean_um", "U_R_forward_um" ... "U_M_um", "u_covers",
-// "not_declared", "R_is_of"}
+// Writes {"coverage", "U_B_um", "U_B_mean_um", "U_R_forward_um" ... "U_M_um", "U_A_reason",
+// "u_covers", "not_declared", "R_is_of"}.
 void write_run_positioning_uncertainty(JsonWriter& json, const RunPositioningUncertainty& U,
                                        bool angle);
 

@@ -25,11 +25,11 @@ struct DeviceInfo {
   double rate_hz = 0;             // scans per second; 0: not known
   bool simulated = false;  // true: there is no real machine; every result is marked as simulated
   std::optional<ClockState> clock;  // set if the device counts its samples or sends time stamps
-  // Reason why an incremental encoder has lost its datum (the relation between its count and the
-  // position of the axis) after the driver first opened the device: the power of the encoder
-  // failed, the source of the counts restarted, or counts may have been lost. All later positions
-  // are then suspect until trust_count() is called or marks_passed() increases. "": the datum is
-  // valid, or the encoder is absolute.
+  // Reason why an incremental encoder has lost its datum, that is, the relation between its count
+  // and the position of the axis. Reasons: the power of the encoder failed, the source of the
+  // counts restarted, or counts may have been lost. Only losses after the first open() are known.
+  // All later positions are suspect until trust_count() is called or marks_passed() increases. "":
+  // no loss is known, or the encoder is absolute.
   std::string datum_lost = {};
   // Settings of the device that change its readings. Results must state these settings.
   Notices notices = {};

@@ -3,9 +3,9 @@
 //
 // The manual calls the counter "measuring value counter (of 1st frame)" and does not state its
 // unit. The class derives the unit from the packets: it uses the unit that agrees with most of the
-// steps from packet to packet. It derives the unit again if the set of channels changes or if
-// packets overlap; packets overlap only if the unit is wrong. Packets are kept back until the unit
-// is known.
+// steps from packet to packet. It derives the unit again if the set of channels changes. It also
+// does this if packets overlap, because packets overlap only if the unit is wrong. Packets are kept
+// back until the unit is known.
 #pragma once
 
 #include <array>

@@ -18,10 +18,11 @@
 // connection is slow. The clock is flagged as uncertain until packets arrive in time again. If
 // packets are late for one minute, the class treats this as a step of the device clock.
 //
-// Before the first fit, a distance from the line of more than 100 ms is early or late. After it,
-// the limit is 20 ms plus ten times the typical distance of the quickest packets from the line, at
-// most 100 ms. Single packets between this limit and 100 ms may be late: then eight packets in
-// 0.25 s must be late without any packet in time.
+// A packet is early or late if its distance from the line exceeds a limit. Before the first fit the
+// limit is 100 ms. After it, the limit is 20 ms plus ten times the typical distance of the quickest
+// packets from the line, but at most 100 ms. If the distance is below 100 ms, the clock ignores
+// single late packets: the packets count as late only after at least eight of them, over at least
+// 0.25 s, without a packet in time.
 #pragma once
 
 #include <cstdint>

@@ -14,9 +14,9 @@ namespace mdof::drivers {
 class LineChunk {
  public:
   std::string_view text() const { return text_; }
-  // The bytes that were read from the source for this chunk. They differ from text(): they do not
-  // contain the beginning of the first line, which was read with the previous chunk; they contain
-  // the incomplete last line.
+  // The bytes that were read from the source for this chunk. They differ from text() at both ends.
+  // The beginning of the first line is missing, because it was read with the previous chunk. The
+  // beginning of the next line is included.
   std::string_view read() const { return read_; }
 
  private:

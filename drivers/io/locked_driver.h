@@ -5,9 +5,9 @@
 
 namespace mdof::drivers {
 
-// Changes make() of `spec`: its drivers lock the device at their first open() and unlock it in the
-// destructor, even if the device was disconnected meanwhile. open() fails while another program has
-// the lock.
+// Returns `spec` with another make(). The drivers that it makes lock the device at their first
+// open(). They unlock it in the destructor, not when the device is disconnected. open() fails while
+// another program has the lock.
 DriverSpec locked(DriverSpec spec);
 
 }  // namespace mdof::drivers

@@ -11,8 +11,8 @@
 
 namespace mdof::drivers::labjack {
 
-// Checks that the counting rate stays below its limit. The rate is measured over 10 ms, because the
-// number of counts in one scan is too small. Thread-bound.
+// Checks that the counting rate stays below its limit. The rate is measured over at least 10 ms,
+// because the counts of one scan are too few. Thread-bound.
 class CountGuard {
  public:
   // `most_counts_per_s` 0: the rate is not checked.

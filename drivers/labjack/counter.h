@@ -32,8 +32,8 @@ class Counter {
     return count;
   }
   bool sure() const { return guard_.sure() && !zero_lost_; }
-  // "": the zero of the count is valid. `without_power`: the text that is returned if the count has
-  // started again from 0.
+  // The reason why the zero of the count is not valid; "": it is valid. `without_power`: the reason
+  // to return if the count has started again from 0.
   std::string invalid_reason(const char* without_power) const {
     return zero_lost_ ? without_power : guard_.sure() ? "" : kCountsLost;
   }

@@ -43,8 +43,8 @@ class ScanSplitter {
   // Appends the scans that end in this packet to `scans`. `dropped`: number of missing scans that
   // the packet reports. A scan of 0xFFFF in the packet shows the position of the missing scans;
   // this scan is not returned. Error: the packet has no such scan, so that the times of later scans
-  // are unknown. If it is not yet known whether a scan was taken before or after the missing scans,
-  // take() keeps this scan and returns it later.
+  // are unknown. While it is unknown whether a scan was taken before or after the missing scans,
+  // take() keeps the scan. A later call appends it.
   Status take(std::span<const std::uint16_t> samples, std::optional<std::uint64_t> dropped,
               std::vector<Scan>& scans);
 

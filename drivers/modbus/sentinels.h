@@ -33,7 +33,7 @@ class Sentinels {
   }
   // Returns the shape of the sentinel; it is the same until proved() is called. `regular`: the
   // request for values. The sentinel preferably has fewer registers than this request, because
-  // these registers certainly exist. Count 0: no length is free.
+  // these registers certainly exist. A result with count 0: no length is free.
   Shape pick(Shape regular) {
     for (int i = 1; now_ == Shape{} && i < kMostRegisters; ++i) {
       const Shape shape{regular.function, i < regular.count ? regular.count - i : i + 1};

@@ -8,10 +8,10 @@ namespace mdof::drivers {
 
 // The manual states a tick of 1/512 s, 1/256 s or 1.90 ms on different pages. These values differ
 // too much for DeviceClock, which assumes that the rate of a clock is wrong by at most 0.1 %.
-// Therefore the length is measured between two packets: the packet with the smallest delay at the
-// beginning of the stream, and the packet with the smallest delay shortly before 0.5, 1, 2 ... 64 s
-// of the stream have passed. The measured length replaces the old length if the difference is
-// larger than a delay of 10 ms can cause. Pure.
+// Therefore the length is measured between two packets of the stream. The first is the packet with
+// the smallest delay at the beginning. The second is the packet with the smallest delay shortly
+// before the stream is 0.5, 1, 2 ... 64 s old. The measured length replaces the old length if the
+// difference is larger than a delay of 10 ms can cause. Pure.
 class TickLength {
  public:
   explicit TickLength(double nominal_ns) : ns_(nominal_ns) {}

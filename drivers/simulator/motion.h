@@ -1,5 +1,5 @@
 // Position of the axis as a function of time. The axis moves forward through all targets, beyond
-// the last target, and back. It repeats this without end.
+// the last target, and back. It repeats this cycle.
 //
 // A move over the distance D in the time T is the minimum-jerk polynomial
 // s(τ) = D (10 τ³ - 15 τ⁴ + 6 τ⁵), τ = t/T.

@@ -34,8 +34,8 @@ struct SysfsDevice {
 
 // Thread-bound. The inputs of a scan are read in their order. The time of the scan is the middle of
 // the reading of the last input; the readings before it have a delay (drivers/README.md). A poll
-// that failed or was not made in time is a lost scan. The scan after a failed poll is suspect. Five
-// failed polls in succession are an error.
+// that fails, or is late by a period or more, counts as a lost scan. The scan after a failed poll
+// is suspect. Five failed polls in succession are an error.
 class SysfsPoller final : public Driver {
  public:
   static constexpr int kFailuresAllowed = 4;  // largest permitted number of successive failed polls

@@ -14,7 +14,7 @@ namespace mdof::drivers::usb {
 
 struct Transfer;
 
-// Use it only on the thread of its Handle; the Handle may be destroyed before the stream. The
+// Use it only on the thread of its Handle. The stream may exist longer than the Handle. The
 // destructor ends the transfers.
 class InStream {
  public:

@@ -63,8 +63,8 @@ struct BuiltTable {
   Notices doubtful;  // the notices for which check_gate() rejects the table
 };
 // Calculates and stores a table. Errors: those of algo::build_table(), algo::add_applied() and
-// algo::check_limits(); the rigs of the runs state different machines; a run was not measured while
-// exactly the table `add_to` was active.
+// algo::check_limits(); the rigs of the runs state different machines; during one of the runs, the
+// table `add_to` was not active or another table was active, too.
 Result<BuiltTable> build_table(store::Store& store, const TableRequest& request);
 // The two steps of build_table(). calculate_table() can take long and needs only a read-only store.
 // store_table() stores the result.

@@ -32,7 +32,7 @@ class Pipeline : RunBuilder {
   // The points that are complete now, sorted and solved. The fixture is the reference point of
   // their errors. Their targets may still change until finish().
   const std::vector<MeasuredPoint>& points();
-  // The stops found until now that points() does not contain.
+  // Stops that were found until now and are not in points().
   const std::vector<StopLeftOut>& left_out() const { return sequence_.left_out; }
   // The newest calibrated frame, for the live view. The block is empty before the first frame.
   const FrameBlock& newest() const { return newest_; }

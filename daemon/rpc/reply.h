@@ -22,8 +22,8 @@ class Reply {
 
   void operator()(Result<std::string> result);
 
-  // Identifies the client: the pointers of all calls of one client are equal, and they are expired
-  // after the client has disconnected. Do not call this function after the answer.
+  // Identifies the client. All calls of one client have equal pointers. The pointers expire when
+  // the client disconnects. Do not call this function after the answer.
   std::weak_ptr<const void> client() const;
 
  private:

@@ -1,5 +1,5 @@
-// Checks, before mdofd opens any file or device, whether it can start with a valid configuration.
-// Errors state file, line, key and remedy.
+// Checks whether mdofd can start with a configuration that load_config() has accepted, before mdofd
+// opens any file or device. Errors state file, line, key and remedy.
 #pragma once
 
 #include <string>

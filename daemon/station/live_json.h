@@ -34,7 +34,7 @@ struct LiveState {
 // The value of the topic live.update:
 //   {"axis", "time_ns", "encoder_mm", "encoder_quality", "still", "simulated", "stale", "age_s",
 //    "waiting_for", "probes": [{"id", "um", "low_um", "high_um", "quality", "range_um"}],
-//    "errors": {...} | null, "run": id | null, "trouble": [...]}
+//    "reference", "errors": {...} | null, "run": id | null, "trouble": [...]}
 // "still" is null if the position is unknown. "errors" is null if the readings are stale. low_um
 // and high_um are the smallest and the largest reading of the last second, so that a spike between
 // two messages is visible.

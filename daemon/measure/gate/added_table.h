@@ -12,8 +12,8 @@ namespace mdof::daemon {
 struct TableRequest;
 
 // Reads the table `request.add_to`, and sets the slope and the reference point of the request to
-// those of this table. Errors: not exactly this table was active during each of the runs; the
-// request states a slope or a reference point.
+// those of this table. Errors: during one of the runs, this table was not active or another table
+// was active, too; the request states a slope or a reference point.
 Result<CompensationTable> applied_table(store::Store& store, TableRequest& request);
 
 // For a table that is such a sum: the notices of algo::residual_notices(), and a notice if the rigs

@@ -31,19 +31,19 @@ struct Judged {
 
 // Removes the notices with the severity "information".
 Notices without_information(Notices notices);
-// As without_information(). Before that, the notice of a missing datum gets the severity
-// "doubtful", because a controller would apply the errors at wrong positions.
+// As without_information(). Before that, the notices of a missing datum and of a lost position get
+// the severity "doubtful", because a controller would apply the errors at wrong positions.
 Notices doubtful_notices(Notices notices);
 // As above, for the notices of all these runs. A partial run also gets a notice.
 Notices doubtful_notices(const std::vector<Run>& runs);
-// The tables that a controller may have applied while this run (and the runs that it continues) was
-// recorded: those that were active.
+// The tables that a controller may have applied while this run, and the runs that it continues,
+// were recorded: the tables that were active then. Volumetric tables with one correction for the
+// whole axis are left out. Empty if the run has neither a recording nor a CSV log.
 Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64_t run);
 // The notices of a result from these runs: one for each run that another run supersedes, and one
-// for each table that was active on its axis while it was recorded (also in the runs that it
-// continues). If the controller applied this table, the run contains only the errors that the table
-// left, and a table from this run must not replace the active table. There is no notice for the
-// table `added_to`, whose values are in the result.
+// for each element of applied_tables(). If the controller applied such a table, the run contains
+// only the errors that remained, and a table from this run must not replace the active table. There
+// is no notice for the table `added_to`, because the result contains its values.
 Result<Notices> source_run_notices(store::Store& store, const std::vector<std::int64_t>& runs,
                                    std::optional<std::int64_t> added_to = std::nullopt);
 // Notices about a result from several runs of an axis: visits or rigs differ. `runs`: at least one.

@@ -10,8 +10,8 @@ namespace mdof::daemon {
 
 // The document of `mdof replay --json`. It contains the points.
 std::string replay_document(const Run& run, const StatedRun& stated);
-// The document of the RPC method. It does not contain the points, so that it fits into a reply. If
-// the document is still too long, the note, the notices and the options are shortened.
+// The document of the RPC method. It does not contain the points, because a reply is too short for
+// them. If the document is still too long, the note, the notices and the options are shortened.
 std::string replay_reply(const Run& run, const StatedRun& stated);
 
 }  // namespace mdof::daemon

@@ -21,7 +21,7 @@ const Series* find_series(const std::vector<Series>& series, const std::string& 
 // at most `most` points. Adds the numbers of points to out.written. Errors (bad_input; the message
 // names the table and the error):
 // - a value is missing and options.cut_range is false; the message states the position
-// - no two neighbouring positions have both values
+// - there are no two neighbouring positions with values for both approaches
 // - more than `most` points; the message states the tolerance that is required
 Result<Series> fitted(const Series& series, std::int64_t table, std::size_t most,
                       const ExportOptions& options, Export& out);

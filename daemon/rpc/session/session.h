@@ -22,7 +22,7 @@ namespace mdof::rpc {
 class Transport {
  public:
   virtual ~Transport() = default;
-  // Sends one message. The transport adds the line end, or what else separates messages.
+  // Sends one message. The transport adds the separator of messages, for example a line end.
   virtual void send(std::string_view message) = 0;
   virtual std::size_t unsent() const = 0;  // bytes that were not sent yet
   // Asks for a turn, because there is something to send, or because the reply to a request has

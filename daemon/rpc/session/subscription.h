@@ -35,9 +35,9 @@ class Subscription {
   // - An event is added to a queue. If the queue is full, the oldest event is dropped.
   void offer(Value value, Time now, std::string_view of = "");
   void miss() { ++missed_; }  // counts a value that is too large to be sent
-  // The earliest time at which the next message may be sent; nullopt: no message is pending. If the
-  // pending value would be old at this time, the time is one interval later, because a newer value
-  // can then replace it.
+  // The earliest time at which the next message may be sent; nullopt: no message is pending. A
+  // value that was offered long before this time would be old when it is sent. Its time is
+  // therefore one interval later, so that a newer value can replace it.
   std::optional<Time> due() const;
   // Appends the due message to `out`.
   void take(Time now, std::string& out);

@@ -1,6 +1,6 @@
 // Reads the head of an HTTP/1.1 request with the parser of Boost.Beast, and checks the head by
-// stricter rules: a proxy between browser and mdofd must not understand the same bytes as another
-// request. Private header.
+// stricter rules: otherwise a proxy between browser and mdofd could read a different request from
+// the same bytes. Private header.
 #pragma once
 
 #include <cstddef>

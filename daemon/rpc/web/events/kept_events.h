@@ -33,8 +33,9 @@ class KeptEvents {
   std::uint64_t last_id() const { return next_ - 1; }
   std::size_t size() const { return events_.size(); }
 
-  // The position at which a client continues whose last event has the id `id`. `count`: number of
-  // lost events; nullopt if this number is unknown, because `id` is from an earlier start of mdofd.
+  // The position from which a client continues if its last event has the id `id`. `count`: number
+  // of lost events; nullopt if this number is unknown, because `id` is from an earlier start of
+  // mdofd.
   struct Resumed {
     std::uint64_t after;
     bool lost = false;

@@ -18,7 +18,7 @@ struct RecordOptions {
   int valid_days = 365;
 };
 void add_record_options(CLI::App& command, RecordOptions& options);
-// Adds the same options except --date.
+// As add_record_options(), without --date.
 void add_record_file_options(CLI::App& command, RecordOptions& options);
 
 // The ids of the rig's probes: "A, B, C".

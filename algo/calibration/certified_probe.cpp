@@ -12,9 +12,10 @@ namespace {
 
 // Limits of the ratio of two um_per_V of the same probe.
 constexpr double kLeastRatio = 0.5, kMostRatio = 2;
-constexpr double kNearRows = 0.05;  // distance of two readings that hysteresis can separate,
-                                    // relative to the length of the table
-constexpr double kSameScale = 3;    // limit, times u: scales that differ by less count as equal
+// Largest difference of two readings that can be due to hysteresis, relative to the length of the
+// table.
+constexpr double kNearRows = 0.05;
+constexpr double kSameScale = 3;  // limit, times u: scales that differ by less count as equal
 constexpr const char* kMeasured = "basic_measuredValue";
 constexpr const char* kReference = "basic_referenceValue";
 constexpr const char* kError = "basic_measurementError";

@@ -25,11 +25,12 @@ constexpr double kLeastShare = 1e-3, kRounding = 1e-12;
 // the rounding of chi-square limits the accuracy.
 constexpr double kStepDone = 1e-7, kDescentDone = 1e-4;
 constexpr double kRankTolerance = 1e-9;
-// Limit of the root mean square of residual / u. An underestimated noise does not cause a larger
-// value, but an error that affects all readings does. Birge's factor does not cover such an error.
+// Limit of the root mean square of residual / u. If the declared noise is too small, the value
+// stays below this limit. If an error affects all readings, the value can be above this limit;
+// Birge's factor does not cover such an error.
 constexpr double kMostMisfit = 20;
-constexpr double kFarthest_m = 1e-3;  // largest distance from the position in the rig; clamping by
-                                      // hand is more accurate
+// Largest distance from the position in the rig; clamping by hand is more accurate.
+constexpr double kFarthest_m = 1e-3;
 
 // The column space of the derivatives by the unknowns of the clampings, with its least-squares
 // solution.

@@ -10,14 +10,15 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kEntirelyUnseen = 0.99;  // with at least this share in MountingView::unseen,
-                                          // a combination counts as unseen
-constexpr double kSamePlane = 1e-9;       // 1 - cosine
-constexpr double kIndependent = 0.1;      // a combination with a smaller remainder outside the
-                                          // others is not added
+// A combination is undetermined if at least this share of its square is in MountingView::unseen.
+constexpr double kEntirelyUnseen = 0.99;
+constexpr double kSamePlane = 1e-9;  // 1 - cosine
+// A combination is added only if its part that is orthogonal to the others has at least this
+// length.
+constexpr double kIndependent = 0.1;
 
-using Group = std::vector<std::size_t>;  // indices of the probes that measure the same plane of the
-                                         // target
+// Indices of the probes that measure the same plane of the target.
+using Group = std::vector<std::size_t>;
 
 std::vector<Group> groups_of(const Fixture& fixture) {
   std::vector<Group> groups;

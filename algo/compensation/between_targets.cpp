@@ -17,8 +17,9 @@ constexpr double kFew = 5;  // with fewer values the scatter of the curvature is
 constexpr double kFewValuesRatio = 2;
 // Weight of the mean square of all second differences; a nearby second difference has weight 1.
 constexpr double kOverallWeight = 6;
-// A second difference over a distance much shorter than an interval may show only noise. This is
-// the shortest distance that is not much shorter, as a share of the interval.
+// A second difference over a much shorter span than the interval may show only noise. Therefore the
+// curvature is also calculated from the second differences over at least this share of the
+// interval, and the larger curvature is used.
 constexpr double kLeastSpanShare = 0.5;
 
 struct Finite {

@@ -12,7 +12,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kLeastWeight = 1e-4;  // of a model
+constexpr double kLeastWeight = 1e-4;  // models with a smaller likelihood / maximum are left out
 constexpr Eigen::Index kWaves = 48, kTerms = 1 + kWaves;
 // The cosines have no slope at the ends of their interval. Therefore the interval is longer than
 // the log, by this part of the log at each end.

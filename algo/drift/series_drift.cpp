@@ -11,7 +11,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kNearlyAsLikely = 7;  // difference of -2 log(likelihood)
-constexpr double kLeastShare = 1e-3;   // of the variance that few_parts() leaves out
+constexpr double kLeastShare = 1e-3;   // part of the variance that few_parts() may leave out
 constexpr std::size_t kTimesToChoose = 200;
 
 int highest_significant(const WeighedFit& fit, Eigen::Index series, double least) {
@@ -132,8 +132,8 @@ std::vector<Eigen::MatrixXd> DriftFit::parts(const std::vector<double>& time_s) 
   return parts;
 }
 
-// The process has many parts that are nearly the same. Returns few orthogonal combinations of them
-// that contain all of the variance but kLeastShare: parts × combinations.
+// The process has many parts that are nearly the same. Returns few orthogonal combinations of these
+// parts; they contain at least 1 - kLeastShare of the variance. Shape: parts × combinations.
 Eigen::MatrixXd DriftFit::few_parts(const std::vector<double>& time_s) const {
   const std::size_t step = 1 + time_s.size() / kTimesToChoose;
   const Eigen::VectorXd at_end = process_->terms(design_.end_s());

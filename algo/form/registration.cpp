@@ -31,10 +31,11 @@ constexpr std::size_t kForTurns = 400;
 constexpr int kTurnSteps = 4;  // number of shifts from 0 to the largest shift, in each direction
 constexpr double kTurnStep_deg = 5;
 constexpr std::size_t kTurnsFitted = 6;
-constexpr double kAlike = 5e-3;  // relative to the mean absolute height of A: no search if the
-                                 // residual is smaller
-constexpr double kPlaceResidualLimit =
-    4;  // times the mean absolute height of A: a larger residual of one place enters as this limit
+// Relative to the mean absolute height of A. If the residual is smaller, there is no search.
+constexpr double kAlike = 5e-3;
+// Relative to the mean absolute height of A. A larger residual of one place is replaced by this
+// limit.
+constexpr double kPlaceResidualLimit = 4;
 // The residual at a pose that the search finds must be less than this factor times the residual at
 // the pose found before, and less than this factor times the mean absolute height of A.
 constexpr double kAcceptedResidualRatio = 0.5;

@@ -20,8 +20,8 @@ constexpr double kContactConverged =
     1e-6;  // limit for the last change of the iteration, relative to the tool's radius
 constexpr int kMostSteps = 40;
 constexpr double kNoContact_m = -std::numeric_limits<double>::infinity();
-constexpr double kContactDifference_m = 1e-9;  // a higher place counts only if it is higher by more
-                                               // than this
+// A place is the new contact only if it is higher than the previous contact by more than this.
+constexpr double kContactDifference_m = 1e-9;
 constexpr double kBetweenPixels = 4;  // assumed ratio of the largest curvature between pixels to
                                       // the largest curvature at pixels
 constexpr int kFewestPlaces = 64, kMostPlaces = 2000;

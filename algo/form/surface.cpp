@@ -8,9 +8,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kForSlopes = 6;  // additional rounds of extrapolation, for the pixels that
-                                       // slopes at corners use
-constexpr double kOnPixel = 1e-9;      // in pixels: a place nearer to a pixel uses only this pixel
+// Additional rounds of extrapolation, for the pixels that slopes at corners use.
+constexpr std::size_t kForSlopes = 6;
+constexpr double kOnPixel = 1e-9;  // in pixels: a place nearer to a pixel uses only this pixel
 // In pixels: at a place nearer than this to one pixel, the next pixel may be missing. Without this
 // tolerance, the rounding of a movement would remove the outermost pixels.
 constexpr double kBorderTolerance = 0.01;

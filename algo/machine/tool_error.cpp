@@ -275,8 +275,8 @@ ToolError tool_error(const Machine& machine, const Command& command, MachineAppr
                   {},
                   {}};
   name_missing_errors(machine, all, error);
-  for (std::size_t c = 0; c < 6; ++c)  // u is 0, not NaN, if all contributing errors are declared
-                                       // with u = 0
+  // u is 0, not NaN, if all contributing errors are declared with u = 0.
+  for (std::size_t c = 0; c < 6; ++c)
     if (double& u = error.u[static_cast<Eigen::Index>(c)];
         u == 0 && !(error.no_u[c].empty() && error.not_measured[c].empty()))
       u = kNaN;

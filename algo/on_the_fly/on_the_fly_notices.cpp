@@ -18,7 +18,8 @@ constexpr double kSeenWave = 2.5;
 // Smallest difference of the speeds that is reported, as share of the smaller speed.
 constexpr double kOtherSpeed = 0.1;
 constexpr double kBriefDelay_s = 1e-6;
-constexpr double kLeastShift_m = 40e-6;  // a jump of 50 um whose size has an error
+// Smallest shift that is reported. It is below 50 um, because the size of a jump has an error.
+constexpr double kLeastShift_m = 40e-6;
 
 struct Speeds {
   double min_m_s = INFINITY, max_m_s = 0, sum_m_s = 0, n = 0;

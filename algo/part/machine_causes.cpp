@@ -84,7 +84,7 @@ class PathApproaches {
   const Machine& machine_;
   Command before_{};
   std::size_t next_ = 0;                   // index of the next point
-  std::vector<MachineApproach> approach_;  // [frame]; mean: the axis has not moved
+  std::vector<MachineApproach> approach_;  // [frame]; `mean` until the axis has moved
   std::vector<std::size_t> unknown_;       // [frame] number of points
 };
 

@@ -150,7 +150,7 @@ class MeanSquare {
   }
 
  private:
-  std::vector<std::size_t> xi_;  // of the effects: measured, then unknown
+  std::vector<std::size_t> xi_;  // number Effect::xi of each effect: measured, then unknown
   Eigen::MatrixXd products_;     // mean products of the value and the effects
   MeasuredSquare errors_;
   Eigen::VectorXd rest_;  // the part of the value that no measured effect changes
@@ -189,7 +189,7 @@ double sum_of(const std::vector<double>& values) {
 // below as above (JCGM 101).
 Interval interval_of(std::vector<double>& trials) {
   std::sort(trials.begin(), trials.end());
-  const std::size_t outside = trials.size() / 40;  // on each side
+  const std::size_t outside = trials.size() / 40;  // 2.5 % on each side
   return {trials[std::max<std::size_t>(1, outside) - 1],
           trials[std::min(trials.size() - outside, trials.size() - 1)]};
 }
@@ -337,7 +337,7 @@ void find_figure(const Sums& sums, std::size_t (*within)(std::size_t points),
   const std::vector<double> scales = drawn_scales(ranges);
   for (std::size_t k = 0; k < scales.size(); ++k)
     lows.push_back(figure(value, lower_scale(scales, k, value_m, always_m), unknown_errors[k]));
-  const double rest_m = whole_m - value_m;  // by the points that the trials leave out
+  const double rest_m = whole_m - value_m;  // contribution of the points that the trials leave out
   const double low_m = interval_of(lows).low;
   interval_m = {low_m > 0 ? std::max(0.0, rest_m + low_m) : 0,
                 rest_m + interval_of(propagated).high};

@@ -11,7 +11,9 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kFewestTargets = 5;
-constexpr double kLargestUnseen = 0.5;  // of the slope that the targets show: waves of 3.3 steps
+// Limit of the RMS slope between the targets / the RMS slope that the targets show. Waves with a
+// length of 3.3 steps reach this limit.
+constexpr double kLargestUnseen = 0.5;
 
 // Sums over the inner targets, of one error.
 struct SlopeSums {

@@ -18,9 +18,10 @@ namespace {
 
 constexpr double kLeastStepInScatter = 6, kLogRatioToSmooth = 10;
 constexpr double kLeastStep_m = 1e-9;
-constexpr double kLeastStepWeight = 2;  // sum over the places of (visits before · visits
-                                        // after)/visits; 1/2 for a place with two visits
-// Degrees of freedom of the residuals after the fit of places and a step.
+// Smallest sum of (visits before the step · visits after the step)/visits over the places. A place
+// with one visit before and one visit after the step contributes 1/2.
+constexpr double kLeastStepWeight = 2;
+// Smallest number of degrees of freedom of the residuals after the fit of places and a step.
 constexpr double kFewestFreedom = 4;
 constexpr Eigen::Index kSmooth = 6;  // order of the polynomial of a smooth change
 constexpr std::size_t kFewestCopies = 6;

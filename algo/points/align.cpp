@@ -212,7 +212,7 @@ Aligner::Reading Aligner::value_at(Track& track, std::int64_t time_ns) {
 // before.
 bool Aligner::has_fresh(Track& track, std::int64_t time_ns) {
   const auto& readings = track.readings;
-  if (readings.empty()) return true;  // no sample is repeated
+  if (readings.empty()) return true;  // without samples, no sample can be a repetition
   const std::int64_t newest = readings.front().time_ns >= time_ns || readings.size() < 2
                                   ? readings.front().time_ns
                                   : readings[1].time_ns;

@@ -144,8 +144,9 @@ bool may_be_a_target(const Place& place, const Neighbours& n, const Typical& typ
   return nearest_m <= kTooFar * typical.interval_m;
 }
 
-// Judges the places with the most visits first; among places with equal visits, the nearest to a
-// kept place first, because targets with few visits are in a row that continues from there.
+// Decides for each place that is not kept whether it may be a target. The places with the most
+// visits are first. If places have the same number of visits, the nearest to a kept place is first,
+// because targets with few visits continue the row of kept places.
 void judge(std::vector<Place>& places, const Typical& typical) {
   std::vector<std::size_t> order;
   std::vector<double> distance(places.size());

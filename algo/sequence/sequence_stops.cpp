@@ -71,7 +71,9 @@ bool has_left_stop(const Point& before, const Point& p) {
          (farther_m > kLeastTurn_m && 2 * std::min(up_m, down_m) < farther_m);
 }
 
-// The part that is averaged. If the axis moved to the target in two steps, the stop at the target.
+// Returns whether `part`, not `stop`, is averaged: it is nearer to the target, or is about equally
+// near and has more samples. If the axis moved to the target in two steps, the stop at the target
+// is averaged.
 bool is_better(const MeasuredPoint& part, const MeasuredPoint& stop) {
   const double part_off_m = std::abs(part.point.position_m - part.target_m);
   const double stop_off_m = std::abs(stop.point.position_m - part.target_m);

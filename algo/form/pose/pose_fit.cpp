@@ -102,9 +102,8 @@ PoseFit left_at(const Places& a, const Surface& b, const MapPose& pose,
 }
 
 struct PoseSums {
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3, 3), C = P, M = P;  // products of: plane and plane,
-                                                                  // plane and movements, movements
-                                                                  // and movements
+  // Sums of products: P plane and plane, C plane and movements, M movements and movements.
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3, 3), C = P, M = P;
   Eigen::VectorXd p = Eigen::VectorXd::Zero(3), m = p;
 };
 

@@ -13,8 +13,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostTrials = 2000, kFewestTrials = 200;  // the error of U is then 2 % and 7
-                                                                // %
+// Number of trials. The error of U is 2 % with kMostTrials and 7 % with kFewestTrials.
+constexpr std::size_t kMostTrials = 2000, kFewestTrials = 200;
 constexpr std::size_t kMostDrawn = 4'000'000;  // number of visits times number of trials
 
 // Converts each pair of target and approach to a separate target (2 target, plus 1 for forward),

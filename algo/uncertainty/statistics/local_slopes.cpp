@@ -8,10 +8,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kOnePlaceShare = 0.02;  // relative to the mean step: targets at a smaller distance
-                                         // are one place
-// A fit to waves of 2.2 steps and more: with it, the root mean square of `slope` and `unseen` is
-// 0.97 to 1.11 of the true slope.
+// Relative to the mean step: targets at a smaller distance are one place.
+constexpr double kOnePlaceShare = 0.02;
+// Fitted to waves of 2.2 steps and more: with this factor, the root sum of squares of `slope` and
+// `unseen` is 0.97 to 1.11 times the true slope.
 constexpr double kUnseenShare = 0.6;
 constexpr double kFewPlacesRoughness = 0.75;  // that of errors without any relation between targets
 

@@ -21,7 +21,7 @@ usb::InStream::Options transfers_for(double samples_hz) {
 }
 
 ScanSetup scan_setup(const Settings& settings) {
-  constexpr double kSlow_Hz = 100;  // up to this rate, a packet takes too long to become full
+  constexpr double kSlow_Hz = 100;  // up to this rate, the device must not wait for a full packet
   const auto options = kNoStall | (settings.rate_hz <= kSlow_Hz ? kImmediate : 0);
   return {0, pacer_period(settings.rate_hz), mask_of(settings.inputs),
           static_cast<std::uint8_t>(options)};

@@ -33,9 +33,11 @@ void copy_last_instant(const FrameBlock& frames, FrameBlock& newest) {
   }
 }
 
-// A log in minutes or hours seems to be fast, so its stops seem to be short.
+// If the times of a log are in minutes or hours, its sample rate seems to be high, and its stops
+// seem to be short.
 std::string time_unit_hint(double period_s) {
-  constexpr double kFast_hz = 1'100;  // above the usual 1 kHz; 20 Hz in minutes are 1.2 kHz
+  // Above the usual 1 kHz, and below 1.2 kHz: a log with 20 Hz whose times are in minutes.
+  constexpr double kFast_hz = 1'100;
   if (!(period_s > 0 && 1 / period_s > kFast_hz)) return "";
   return "; the sample rate is " + plain_number(1 / period_s) +
          " Hz: if time_s of the log is in minutes or hours, convert it to s";

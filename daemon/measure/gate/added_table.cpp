@@ -12,7 +12,7 @@
 namespace mdof::daemon {
 namespace {
 
-// Error: not exactly this table was active during each of the runs.
+// Error: during one of the runs, this table was not active or another table was active, too.
 Status check_applied(store::Store& store, std::int64_t table,
                      const std::vector<std::int64_t>& runs) {
   const std::string of = "table " + std::to_string(table);

@@ -27,7 +27,7 @@ Status add_known_trouble(store::Store& store, Run& run) {
       const bool applies = each.code == NoticeCode::device_trouble ||
                            each.code == NoticeCode::blocks_not_recorded ||
                            each.code == NoticeCode::row_damaged;
-      if (!applies || !each.source.empty()) continue;  // a source: of another replay
+      if (!applies || !each.source.empty()) continue;  // with a source: inherited by a replay
       const Notice known = inherited("run " + std::to_string(id), each);
       if (std::find(notices.begin(), notices.end(), known) == notices.end())
         notices.push_back(known);

@@ -15,7 +15,7 @@ constexpr std::string_view kCommands = "XYZ";
 struct Residuals {
   double before = 0, with = 0, wrong_sign = 0;
   std::optional<double> exchanged;  // X and Y exchanged; nullopt: impossible
-  double exchange = 0;              // largest change of the correction by this exchange
+  double exchange = 0;              // largest change of the correction if X and Y are exchanged
 };
 
 // Errors that remain because of the table itself; no file can correct them.

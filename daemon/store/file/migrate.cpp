@@ -34,7 +34,7 @@ Status back_up(Connection& connection, std::int64_t version) {
   fs::remove(partial, ec);
   MDOF_TRY(Statement copy, connection.prepare("VACUUM INTO ?"));
   if (const Status copied = copy.bind(std::string_view(partial)).run(); !copied) {
-    fs::remove(partial, ec);  // on a full disk, it needs the space and is of no use
+    fs::remove(partial, ec);  // it is useless, and the disk may be full
     return in_context("the backup before the schema change failed, so nothing was changed",
                       copied.error());
   }

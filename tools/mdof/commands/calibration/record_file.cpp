@@ -38,8 +38,9 @@ std::string text_of(std::chrono::sys_days day) {
   return text;
 }
 
-// A mounting record as the nominal mounting would leave almost no effect to a new one, because its
-// u is small. New sensitivities do not fit a mounting that was calibrated with the earlier ones.
+// Error: the rig uses a mounting record. The u of such a record is small, so a new mounting
+// calibration would change almost nothing. New sensitivities do not fit a mounting that was
+// calibrated with the earlier sensitivities.
 Status check_no_mounting(const std::string& kind, const Rig& rig) {
   for (const CalibrationRecord& record : rig.records)
     if (record.kind == "mounting")

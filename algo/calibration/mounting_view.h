@@ -33,8 +33,8 @@ struct Unseen {
   // Share of this unknown that the logs do not determine, without common shifts and zeros; 0 to 1.
   double share(Eigen::Index unknown) const { return apart.row(unknown).squaredNorm(); }
 };
-inline constexpr double kUnseenShare = 0.05;  // an unknown with a larger share is reported as not
-                                              // determined
+// An unknown with a larger share is reported as not determined.
+inline constexpr double kUnseenShare = 0.05;
 
 Unseen find_unseen(const MountingModel& model, const MountingView& view);
 

@@ -13,9 +13,9 @@
 namespace mdof::algo {
 
 struct ClampingParts {
-  SurfaceMap clamping, elastic, plastic;  // the whole deformation and its two parts, without piston
-                                          // and tilt
-  double K = 0;                           // plastic = K elastic
+  // The whole deformation and its two parts, without piston and tilt.
+  SurfaceMap clamping, elastic, plastic;
+  double K = 0;  // plastic = K elastic
   // RMS of plastic - K elastic. Set only by clamping_by_release().
   std::optional<double> K_unexplained_rms_m;
 };

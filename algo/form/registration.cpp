@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::size_t kForSearch = 1500, kForCourse = 50'000,
                       kForFit = 250'000;  // numbers of pixels
-constexpr double kLeastOverlap = 0.1;   // least share of the pixels of A that have a counterpart in
-                                        // B
+// Smallest share of the pixels of A that have a counterpart in B.
+constexpr double kLeastOverlap = 0.1;
 constexpr double kSearchOverlap = 0.6;  // the same for a pose that the search finds
 constexpr double kSearchShift = 0.2;  // largest shift, relative to the size of A, in each direction
 constexpr int kSearchSteps = 10;  // number of shifts from 0 to the largest shift, in each direction

@@ -33,8 +33,8 @@ struct FrameValues {
   // axis.
   Eigen::Matrix<double, kBodyErrors, kBodyErrors> noise_parts =
       Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
-  std::array<bool, kBodyErrors> beyond{};  // the command is beyond the table of the error; see
-                                           // TablePlace
+  // The command is beyond the table of the error; see TablePlace.
+  std::array<bool, kBodyErrors> beyond{};
 };
 FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach);
 std::vector<FrameValues> values_at(const Machine& machine, const Command& command,

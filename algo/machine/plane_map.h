@@ -57,9 +57,9 @@ struct PlaneMapRequest {
   double step_m = 0.01;
   Command others{};  // commands of the other axes
   MachineApproach approach = MachineApproach::mean;
-  bool without_angles = false;  // use only position errors, straightness and squareness (Eq. 1 of
-                                // Hwang)
-  bool extremes_only = false;   // does not store the points
+  // Use only position errors, straightness and squareness (Eq. 1 of Hwang).
+  bool without_angles = false;
+  bool extremes_only = false;  // does not store the points
 };
 // Calculates error and u at each point as tool_error() does, but faster (grid_chain.h). The
 // rounding is 1e-16 m for the error, and 1e-9 of the largest u for u. Errors: an axis that the

@@ -27,14 +27,14 @@ struct SimulationOptions {
   double offset_range_um = 50;     // δy, δz are uniform within ± offset_range_um
   double travel_from_mm = 0, travel_to_mm = 60;
   std::size_t travel_bins = 20;
-  double l_mm = 10;            // l: x of probes A and E, ±y of probes B and C
-  double side_plane_mm = 0;    // h: y of the side surface of the target (0 in the equations of the
-                               // paper)
-  double side_height_mm = 20;  // l'': z of probes D and E
-  double radius_um = 0;        // r: mounting tolerance of the probes
-  double theta_y_mrad = 0;     // rotation of the top unit about Z
-  double theta_p_mrad = 0;     // rotation of the side unit about Y
-  double theta_r_mrad = 0;     // rotation of both units about X
+  double l_mm = 10;  // l: x of probes A and E, ±y of probes B and C
+  // h: y of the side surface of the target (0 in the equations of the paper).
+  double side_plane_mm = 0;
+  double side_height_mm = 20;                             // l'': z of probes D and E
+  double radius_um = 0;                                   // r: mounting tolerance of the probes
+  double theta_y_mrad = 0;                                // rotation of the top unit about Z
+  double theta_p_mrad = 0;                                // rotation of the side unit about Y
+  double theta_r_mrad = 0;                                // rotation of both units about X
   double sigma_x_um = 0, sigma_y_um = 0, sigma_z_um = 0;  // offsets of the units
   std::uint64_t seed = 1;
 };

@@ -12,8 +12,8 @@ namespace mdof::algo {
 struct Grid {
   std::vector<double> position_m;  // positions of the encoder, ascending
   std::vector<double> place_m;     // places on the target, ascending
-  double step_m = 0;  // step of positions and places, if a set-up is shifted or turned end for end;
-                      // otherwise 0
+  // Step of positions and places, if a set-up is shifted or turned end for end; otherwise 0.
+  double step_m = 0;
   // Index in position_m and index in place_m of each reading; first all readings of the first
   // set-up, then those of the next set-up, and so on.
   std::vector<std::size_t> at_position, at_place;

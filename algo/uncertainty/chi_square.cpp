@@ -16,10 +16,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLinearity = 1e-4;   // relative to the range of the probe
-constexpr double kLever_m = 0.02;     // converts an angle to a length
-constexpr double kLeastPart = 1e-11;  // relative to the largest variance: a smaller variance is
-                                      // rounding
+constexpr double kLinearity = 1e-4;  // relative to the range of the probe
+constexpr double kLever_m = 0.02;    // converts an angle to a length
+// Relative to the largest variance: a smaller variance is rounding.
+constexpr double kLeastPart = 1e-11;
 
 bool flagged(const MeasuredPoint& p) {
   return has_flag(p.point, Flag::residual);

@@ -48,8 +48,8 @@ class PointUncertainties {
   // Uses the noise of the stop as the random variance.
   void leave_out_repeatability();
   VisitsCovered visits() const { return covered_; }
-  std::vector<ErrorsUncertainty> stated() const;  // one for each point; NaN for a point without
-                                                  // errors
+  // One for each point; NaN for a point without errors.
+  std::vector<ErrorsUncertainty> stated() const;
 
  private:
   // For the named errors of one point: variance of the noise; sum of u_i² and sum of u_i⁴/ν_i over

@@ -17,8 +17,8 @@ constexpr double kNoSlope = 1e-7;  // relative to all slopes: smaller slopes are
 // because slopes of neighbours have common noise and the fit finds the largest correlation.
 constexpr double kEvidenceNeeded = 8, kEvidenceEnough = 0.5;
 
-using Moves = Eigen::Vector3d;  // change of a height by a unit of shift x, shift y and turn times
-                                // size
+// Change of a height by a unit of shift x, shift y and turn times size.
+using Moves = Eigen::Vector3d;
 
 // Sums over places, of products of the terms of the plane and the movements of each map.
 struct Evidence {

@@ -10,9 +10,9 @@
 namespace mdof::algo {
 
 struct Places {
-  double x_mid_m = 0, y_mid_m = 0, size_m = 0;  // Middle of the smallest rectangle that contains
-                                                // all measured pixels, and the larger side of this
-                                                // rectangle.
+  // Middle of the smallest rectangle that contains all measured pixels, and the larger side of this
+  // rectangle.
+  double x_mid_m = 0, y_mid_m = 0, size_m = 0;
   std::vector<double> x_m, y_m, z_m;
 };
 

@@ -20,8 +20,8 @@ constexpr double kHuberLimit = 1.345 * 1.4826;
 constexpr double kLeastLimit_m = 1e-12;
 constexpr std::size_t kForMedian = 20'000;
 constexpr int kPlaneSteps = 30, kPlaneStepsAgain = 4;
-constexpr double kPlaneFitted = 1e-6;  // relative to limit_m: the iteration ends after a smaller
-                                       // change
+// Relative to limit_m: the iteration ends after a smaller change.
+constexpr double kPlaneFitted = 1e-6;
 
 double median_left(const std::vector<double>& left_m) {
   const std::size_t every = std::max<std::size_t>(1, left_m.size() / kForMedian);

@@ -25,9 +25,8 @@ struct Harmonic {
   double cosine_m = 0, sine_m = 0, u_m = 0;  // u_m: larger u of cosine_m and sine_m
 };
 struct Perpendicularity {
-  double EA0C_rad = 0,
-         EB0C_rad = 0;  // rotations about X and Y of the table's axis against the normal of the
-                        // plane
+  // Rotations about X and Y of the table's axis against the normal of the plane.
+  double EA0C_rad = 0, EB0C_rad = 0;
   double u_rad = 0, U_rad = 0, k = 0, freedom = 0;  // for each of EA0C and EB0C
   double size_rad = 0;                              // root sum of squares of EA0C and EB0C
   double mean_m = 0, residual_sd_m = 0;

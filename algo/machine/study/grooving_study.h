@@ -58,8 +58,8 @@ struct GroovingTable {
   double radius_m = 0;
   Perpendicularity raw, without_tilt, without_both;
   double range_m = 0, range_without_tilt_m = 0;  // ranges of the height readings
-  double range_left_m = 0;  // range after subtraction of tilt and perpendicularity: errors of X and
-                            // Y
+  // Range after subtraction of tilt and perpendicularity; the errors of X and Y cause it.
+  double range_left_m = 0;
 };
 
 struct GroovingStudy {

@@ -6,8 +6,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLn2High = 0x1.62e42fefa38p-1;   // 42 bits, so that products with |k| < 2^11 are
-                                                  // exact
+// 42 bits, so that products with |k| < 2^11 are exact.
+constexpr double kLn2High = 0x1.62e42fefa38p-1;
 constexpr double kLn2Low = 0x1.ef35793c7673p-45;  // ln 2 - kLn2High
 constexpr double kHalfLnTwoPi = 0.91893853320467274178;
 constexpr double kLnPi = 1.14472988584940017414;

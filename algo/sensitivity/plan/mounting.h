@@ -70,8 +70,8 @@ class MountedFixture {
   std::vector<Eigen::Vector3d> first_, second_;  // two directions perpendicular to the nominal
                                                  // direction of each probe
   Mounting mounting_;
-  std::vector<double> nominal_zero_m_, zero_m_;  // displacements at d = 0: nominal; with the
-                                                 // mounting
+  // Displacements at d = 0: nominal; with the mounting.
+  std::vector<double> nominal_zero_m_, zero_m_;
 };
 
 Part part_of(const FixtureProbe& probe);

@@ -17,9 +17,9 @@ struct MeanErrors {
 };
 
 struct Figure {
-  std::string name;                             // with the unit: "EYX_straightness_um"
-  std::function<double(const MeanErrors&)> of;  // value in SI; NaN if the targets do not determine
-                                                // it
+  std::string name;  // with the unit: "EYX_straightness_um"
+  // Value in SI; NaN if the targets do not determine it.
+  std::function<double(const MeanErrors&)> of;
   // Only for a range: the deviations whose highest minus lowest value is the figure. They are
   // linear in the means. Null for other figures. Noise makes a range larger; a calculation of first
   // order does not show this.

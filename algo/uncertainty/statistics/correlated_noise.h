@@ -41,8 +41,8 @@ class CorrelatedNoise {
  private:
   struct Model {
     SlowNoise noise;
-    double probability = 1, variance = 0;  // variance of a visit, square of the unit of the
-                                           // residuals
+    // Variance of a visit, square of the unit of the residuals.
+    double probability = 1, variance = 0;
   };
   double fit(Model& model) const;  // sets model.variance; returns the logarithm of the likelihood
   double variance(const Model& model, std::span<const double> by_visit) const;

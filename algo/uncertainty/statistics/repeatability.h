@@ -15,8 +15,9 @@
 namespace mdof::algo {
 
 struct Repeatability {
-  std::vector<Errors5> u;  // u of the mean at each target, named errors; independent from target to
-                           // target
+  // Standard uncertainty of the mean at each target, named errors; independent from target to
+  // target.
+  std::vector<Errors5> u;
   // Degrees of freedom of u of the errors with by_scatter = true. u of the other errors is
   // calculated from the noise of the dwells, which consist of many readings.
   double freedom = std::numeric_limits<double>::infinity();

@@ -34,8 +34,8 @@ struct PassLevels {
   // visits, if there are more than kMostShiftedRuns runs, or if fewer than two runs have both
   // passes.
   std::vector<std::map<TargetAndApproach, double>> parts;
-  Errors5 u_half{};  // standard deviation of the half difference without the noise of the visits;
-                     // named errors
+  // Standard deviation of the half difference without the noise of the visits; named errors.
+  Errors5 u_half{};
   double freedom = std::numeric_limits<double>::infinity();
 };
 // `u_visit`: u of one visit, independent from visit to visit; named errors.

@@ -214,8 +214,8 @@ class Storekeeper {
   std::deque<Points> waiting_points_;  // pending until another program releases the database
   std::size_t waiting_count_ = 0;      // number of points in waiting_points_
   std::deque<Ending> waiting_ends_;    // ends of runs that are pending for the same reason
-  std::chrono::steady_clock::time_point next_try_{};  // time of the next attempt to store pending
-                                                      // data
+  // Time of the next attempt to store pending data.
+  std::chrono::steady_clock::time_point next_try_{};
   // Run -> number of points of the run that were not stored. incomplete_: because the disk rejected
   // a point. overflowed_: because too many points were pending.
   std::map<std::int64_t, std::size_t> incomplete_, overflowed_;

@@ -16,13 +16,15 @@ namespace mdof::daemon {
 struct RadialScan {
   SurfaceMap map;
   double pixel_m = 0;
-  std::size_t points = 0;          // number of heights in the map
-  std::size_t beyond_targets = 0;  // number of heights before the first target or after the last
-                                   // target of the run; not in the map
+  std::size_t points = 0;  // number of heights in the map
+  // Number of heights before the first target or after the last target of the run; they are not in
+  // the map.
+  std::size_t beyond_targets = 0;
   // Number of heights without a value of the encoder or the angle; not in the map.
   std::size_t unplaced_heights = 0;
-  double motion_pv_m = 0;  // peak to valley of the readings that the errors of the axis cause;
-                           // these readings were subtracted
+  // Peak to valley of the readings that the errors of the axis cause; these readings were
+  // subtracted.
+  double motion_pv_m = 0;
   // Standard uncertainties of a height. u_noise_m: from the scatter of neighbouring heights, RMS
   // over the map. u_motion_m: from the uncertainty of the subtracted errors of the axis, RMS over
   // the targets of a run; for several runs, the largest value.

@@ -20,8 +20,8 @@ namespace mdof::daemon {
 struct TrendRequest {
   // Figures of the runs of this axis; nullopt: figures of all axes, and the squareness.
   std::optional<Axis> axis;
-  std::string figure;  // name of the only requested figure: "EYX_straightness_um", "EC0Y_urad";
-                       // empty: all figures
+  // Name of the only requested figure: "EYX_straightness_um", "EC0Y_urad"; empty: all figures.
+  std::string figure;
   // Number of first values that determine the limits of the chart. 0: all values except the last.
   std::size_t baseline = 0;
   bool mixed = false;                 // also use runs with other rigs, models or options

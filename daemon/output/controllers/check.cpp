@@ -137,8 +137,8 @@ class Trial {
   const Series& series_;
   const AppliedCorrection& applied_;
   Machine machine_;
-  double zero_;  // constant that was subtracted from the correction, so that the correction is 0 at
-                 // home
+  // Constant that was subtracted from the correction, so that the correction is 0 at home.
+  double zero_;
 };
 
 Control control_of(const std::string& name, double residual, double bound, double change) {

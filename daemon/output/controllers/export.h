@@ -41,8 +41,9 @@ struct ExportOptions {
   double tolerance_m = 0;
   // Write one value for both approaches, although the reversal error remains.
   bool one_approach = false;
-  bool cut_range = false;  // if values are missing, export the longest range without missing values
-                           // instead of returning an error
+  // If values are missing, export the longest range without missing values instead of returning an
+  // error.
+  bool cut_range = false;
   // The position at which the correction of an axis (mean of both approaches) becomes 0, because a
   // constant is subtracted. `axis` is 0 if the user stated a position without an axis; the position
   // then belongs to the only exported axis. Nothing is subtracted for an axis without an element in
@@ -148,13 +149,13 @@ struct Format {
   const char* of;     // name of the controller
   const char* holds;  // the content of a table that the format can store
   const char* limits;
-  const char* sense;    // what the values in the file are, and their sign
-  const char* source;   // source of this meaning
-  bool sign_confirmed;  // whether the sign in `sense` is confirmed; if not, the user must allow the
-                        // export explicitly
-  double quantum_m;     // resolution of the numbers in the file, m; rad for a squareness
-  bool takes_home;      // subtracts the correction at ExportOptions::home_m
-  AxisFiles axes;       // A format supports axes, volume, square, or axes and volume.
+  const char* sense;   // what the values in the file are, and their sign
+  const char* source;  // source of this meaning
+  // Whether the sign in `sense` is confirmed; if not, the user must allow the export explicitly.
+  bool sign_confirmed;
+  double quantum_m;  // resolution of the numbers in the file, m; rad for a squareness
+  bool takes_home;   // subtracts the correction at ExportOptions::home_m
+  AxisFiles axes;    // A format supports axes, volume, square, or axes and volume.
   VolumeFiles volume;
   SquareFiles square;
   bool takes_joints = false;     // supports ExportOptions::joints, inch and ramps

@@ -29,8 +29,8 @@ struct ReportRun {
   std::vector<Decided> decided;  // decisions on the figures that have a tolerance
   std::string result_sha256;
   std::optional<std::int64_t> superseded_by;
-  std::string undecidable_reason;  // why conformity cannot be decided for this run; empty: it can
-                                   // be decided
+  // Why conformity cannot be decided for this run; empty: it can be decided.
+  std::string undecidable_reason;
 };
 
 // A file inside the report that a reader can save.

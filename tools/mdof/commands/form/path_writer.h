@@ -12,8 +12,8 @@ namespace mdof::tools {
 
 enum class PathForm {
   table,  // CSV: t_s,rho_mm,theta_deg,z_um,on_part
-  gcode  // G code with inverse time feed (G93): X is the radius in mm, C the angle in degrees, Z in
-         // mm
+  // G code with inverse time feed (G93): X is the radius in mm, C the angle in degrees, Z in mm.
+  gcode
 };
 PathForm path_form(const std::string& file);  // The ending of the file name decides the form.
 

@@ -15,7 +15,8 @@ namespace {
 constexpr double kMinStep_m = 2e-6;      // stops at smaller distances are always one target
 constexpr double kMaxScatter_m = 50e-6;  // groups with a larger range are never one target
 constexpr double kStepToScatter = 10;
-constexpr double kLeastOvershoot_m = 40e-6;  // smaller overshoots do not change the approach
+// MotionTrace::by_last_motion() handles smaller overshoots.
+constexpr double kLeastOvershoot_m = 40e-6;
 
 // Returns the largest distance of neighbouring sorted positions that belong to one target.
 double scatter_limit(const std::vector<double>& sorted) {

@@ -166,10 +166,11 @@ void begin_run(const Methods& m, Station& station, RunRequest request, Reply rep
   append_new(request.notices, device_setting_notices(station));
   // The reply contains the notice that the datum is missing. The stored run does not need this
   // notice, because its options contain the kind of its datum. However, the options do not show
-  // that offset_mm of the configuration has replaced a position that a user had set.
+  // that the positions now have another zero (offset_mm of the configuration, the zero of the
+  // device, the reference mark) than the position that a user had set.
   const EncoderState encoder = station.encoder();
   const bool is_replaced = encoder.notice && encoder.notice->code == NoticeCode::position_lost &&
-                           encoder.datum.kind == EncoderDatum::Kind::configured;
+                           encoder.datum.kind != EncoderDatum::Kind::none;
   if (is_replaced) append_new(request.notices, {*encoder.notice});
   RunRequest told = request;
   if (encoder.notice && !is_replaced) told.notices.push_back(*encoder.notice);

@@ -24,6 +24,11 @@ constexpr std::array kCorrelations = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};  // in len
 // the white noise.
 constexpr std::array kSmooth = {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0};
 constexpr std::array kWalks = {0.0, 1.5, 5.0, 15.0, 50.0};
+// Limit of the relative variance of u² between the models. The distribution over all models is
+// symmetric and has one maximum, so its 95 % interval is at most 2.98 u wide on each side
+// (Vysochanskij, Petunin, Theory Probab. Math. Statist. 21 (1980) 25). This is k of
+// 2 / kMostDisagreement = 3.40 degrees of freedom.
+constexpr double kMostDisagreement = 0.5885;
 constexpr double kLeastVariance = 1e-30;
 
 double angular_frequency(Eigen::Index wave) {
@@ -162,7 +167,8 @@ DriftProcess::DriftProcess(const DriftDesign& design, const Eigen::MatrixXd& y,
   for (Eigen::Index k = 0; k < series; ++k)
     if (variance(k) > 0)
       freedom_(k) =
-          1 / (1 / freedom + std::max(square(k) / (variance(k) * variance(k)) - 1, 0.0) / 2);
+          1 / (1 / freedom +
+               std::clamp(square(k) / (variance(k) * variance(k)) - 1, 0.0, kMostDisagreement) / 2);
 }
 
 std::vector<DriftProcess::Products> DriftProcess::products_of(const DriftDesign& design,

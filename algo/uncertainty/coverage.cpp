@@ -9,8 +9,7 @@ namespace mdof::algo {
 namespace {
 
 // Upper tail of Student's t distribution: probability, quantile of the normal distribution, and two
-// limits of the quantile for any number of degrees of freedom. The quantile is largest for one
-// degree of freedom.
+// limits of the quantile for one or more degrees of freedom.
 struct Tail {
   double probability, of_normal, below_all, above_all;
 };
@@ -40,6 +39,7 @@ double quantile(double freedom, const Tail& tail) {
   if (freedom >= kManyFreedom) return by_expansion(tail.of_normal, freedom);
   const auto excess = [&](double k) { return t_upper_tail(k, freedom) - tail.probability; };
   double low = tail.below_all, high = tail.above_all;
+  while (excess(high) > 0) high *= 2;  // fewer than one degree of freedom
   double above = excess(low), below = excess(high);
   double k = low;
   for (int step = 0, side = 0; step < kMostSteps && high - low > kSettled * high; ++step) {

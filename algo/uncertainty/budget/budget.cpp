@@ -209,11 +209,20 @@ std::vector<double> RunBudgets::moved_by(BlockOfDraws& draws, std::size_t trials
                                          const std::vector<UnitQuantity>& quantities) const {
   std::vector<double> moved(trials * means_.targets.size() * kErrorCount);
   PartBatch some;
-  for (std::size_t s = 0; s < shifted_.size(); ++s)
+  for (std::size_t s = 0; s < shifted_.size(); ++s) {
+    // The parts of a contributor share its degrees of freedom.
+    const double freedom = shifted_[s].contributor.declared.freedom;
+    const bool is_common = shifted_[s].parts.size() > 1 && std::isfinite(freedom);
+    std::vector<double> common;
+    if (is_common) common = draws.next(UnitQuantity(kInfinite));
+    for (double& x : common) x = student_factor(x, freedom);
     for (const MeanShifts& part : shifted_[s].parts) {
-      some.add(part, draws.next(quantities[s]));
+      std::vector<double> drawn = draws.next(quantities[s]);
+      for (std::size_t t = 0; t < common.size(); ++t) drawn[t] *= common[t];
+      some.add(part, drawn);
       if (some.full()) some.add_to(moved);
     }
+  }
   some.add_to(moved);
   return moved;
 }

@@ -22,7 +22,8 @@ TEST(Coverage, MatchesTheGuide) {
     EXPECT_NEAR(coverage_factor(freedom), k, freedom == 100 ? 0.0005 : 0.005) << freedom;
   EXPECT_NEAR(coverage_factor(kInfinite), 1.959964, 1e-6);
   EXPECT_NEAR(coverage_factor(1e6), 1.959964, 1e-5);
-  EXPECT_NEAR(coverage_factor(2.5), 3.574655, 1e-6);  // scipy.stats.t.ppf(0.975, 2.5)
+  EXPECT_NEAR(coverage_factor(2.5), 3.574655, 1e-6);    // scipy.stats.t.ppf(0.975, 2.5)
+  EXPECT_NEAR(coverage_factor(0.5), 164.557673, 1e-5);  // series of the incomplete beta function
 }
 
 // The coverage factor is calculated by one method below 200 degrees of freedom and by another from

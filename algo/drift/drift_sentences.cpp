@@ -69,6 +69,21 @@ Notices removal_notices(const RunDrift& drift, const MovingAxis& moving) {
   return found;
 }
 
+Notices reversal_notices(const DriftOfRun& drift, const std::vector<MeasuredPoint>& points,
+                         const MovingAxis& moving, bool is_removed) {
+  const Errors5 left = named_from_local(moving, drift.left_in_reversal(points, is_removed));
+  const auto& names = error_names(moving.axis);
+  std::string changes;
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    const double change = std::abs(to_key_unit(left[k]));
+    if (change == 0) continue;
+    changes += (changes.empty() ? "" : ", ") + std::string(names[k].name) + " " +
+               plain_number(change, 2) + (names[k].angle ? " µrad" : " µm");
+  }
+  if (changes.empty()) return {};
+  return {notice(NoticeCode::drift_in_reversal, "", {{"changes", changes}})};
+}
+
 Notices over_limit(const RunDrift& drift, const Rig& rig) {
   Notices found;
   if (!rig.drift_limit_m_per_s || !(drift.length_s > 0)) return found;

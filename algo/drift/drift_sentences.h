@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "algo/drift/run_drift.h"
 #include "schema/axis.h"
@@ -18,6 +19,11 @@ std::string changes_text(const RunDrift& drift, const MovingAxis& moving, bool s
 // Returns notices of a run for which drift removal was requested. The notices state which drifts
 // were removed.
 Notices removal_notices(const RunDrift& drift, const MovingAxis& moving);
+
+// Returns a notice if significant changes that were not removed (`is_removed`: not subtracted,
+// because they may be steps) have an effect on reversal values. `points`: as measured.
+Notices reversal_notices(const DriftOfRun& drift, const std::vector<MeasuredPoint>& points,
+                         const MovingAxis& moving, bool is_removed);
 
 // Returns notices of probes whose drift during the run (highest minus lowest value) exceeds the
 // limit of the rig.

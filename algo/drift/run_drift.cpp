@@ -17,6 +17,7 @@ namespace {
 constexpr double kLogLikelihoodRatio = 5;       // smallest value for a drift instead of steps
 constexpr std::size_t kLeastPointsPerPass = 3;  // average over the passes
 constexpr double kLeastScatter_m = 1e-12;
+constexpr double kNoticeable = 2;  // standard uncertainties
 
 using Points = std::vector<const MeasuredPoint*>;
 
@@ -218,6 +219,40 @@ std::vector<MeasuredPoint> DriftOfRun::without(std::vector<MeasuredPoint> points
       p.errors.local[k] -= drift(static_cast<Eigen::Index>(k));
   }
   return points;
+}
+
+Errors5 DriftOfRun::left_in_reversal(const std::vector<MeasuredPoint>& points,
+                                     bool is_removed) const {
+  struct Approach {
+    double n = 0;
+    Errors5 course{}, u2{};  // sums over the visits
+  };
+  Errors5 largest{};
+  if (!fit_ || !found_.significant()) return largest;
+  std::map<int, std::array<Approach, 2>> targets;
+  for (const MeasuredPoint* p : usable_for_drift(points)) {
+    Approach& to = targets[p->target][p->point.direction < 0 ? 1 : 0];
+    const Eigen::VectorXd course = fit_->course(middle_time_s(*p));
+    ++to.n;
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      const bool is_left = found_.errors[k].significant() &&
+                           !(is_removed && found_.removable() && !found_.errors[k].steps);
+      to.course[k] += is_left ? course(static_cast<Eigen::Index>(k)) : 0;
+      to.u2[k] += p->errors.covariance[6 * k];
+    }
+  }
+  for (const auto& [target, approaches] : targets) {
+    const auto& [forward, reverse] = approaches;
+    if (forward.n == 0 || reverse.n == 0) continue;
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      const double change = reverse.course[k] / reverse.n - forward.course[k] / forward.n;
+      const double u = std::sqrt(reverse.u2[k] / (reverse.n * reverse.n) +
+                                 forward.u2[k] / (forward.n * forward.n));
+      if (std::abs(change) > kNoticeable * u && std::abs(change) > std::abs(largest[k]))
+        largest[k] = change;
+    }
+  }
+  return largest;
 }
 
 double DriftOfRun::freedom() const {

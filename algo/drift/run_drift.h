@@ -60,6 +60,10 @@ class DriftOfRun {
   // freedom() degrees of freedom.
   std::vector<std::vector<Errors5>> removal_shifts(const std::vector<MeasuredPoint>& points) const;
   double freedom() const;
+  // For each error, the largest effect on the reversal of a target of the significant changes that
+  // without() does not subtract, or of all significant changes. 0: no significant change, or not
+  // more than twice the standard uncertainty of this reversal due to noise. `points`: as measured.
+  Errors5 left_in_reversal(const std::vector<MeasuredPoint>& points, bool is_removed) const;
 
  private:
   RunDrift found_;

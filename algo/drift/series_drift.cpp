@@ -103,12 +103,19 @@ double DriftFit::freedom() const {
   return fewest;
 }
 
-Eigen::VectorXd DriftFit::drift(double time_s) const {
+Eigen::VectorXd DriftFit::course(double time_s) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(series_.size()));
   if (!process_) return out;
   const Eigen::VectorXd drift = process_->drift(process_->terms(time_s));
   for (Eigen::Index k = 0; k < out.size(); ++k)
-    if (removed(static_cast<std::size_t>(k))) out(k) = drift(k);
+    if (series_[static_cast<std::size_t>(k)].significant()) out(k) = drift(k);
+  return out;
+}
+
+Eigen::VectorXd DriftFit::drift(double time_s) const {
+  Eigen::VectorXd out = course(time_s);
+  for (Eigen::Index k = 0; k < out.size(); ++k)
+    if (!removed(static_cast<std::size_t>(k))) out(k) = 0;
   return out;
 }
 

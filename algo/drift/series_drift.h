@@ -47,6 +47,8 @@ class DriftFit {
   // Returns for each series the drift from the first visit to this time, which is subtracted from a
   // reading. 0 if no drift is significant, or if the drift may be steps.
   Eigen::VectorXd drift(double time_s) const;
+  // Like drift(), but also for a drift that may be steps.
+  Eigen::VectorXd course(double time_s) const;
   // Returns for each time the uncertainty of drift(): series × independent parts, whose squares
   // add. 0 for a series whose drift() is 0.
   std::vector<Eigen::MatrixXd> parts(const std::vector<double>& time_s) const;

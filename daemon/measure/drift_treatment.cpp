@@ -8,8 +8,8 @@
 namespace mdof::daemon {
 
 void treat_drift(const Rig& rig, bool remove, Run& run) {
-  if (!remove && !rig.drift_limit_m_per_s) return;
   const algo::DriftOfRun drift(run.points);
+  append(run.header.notices, algo::reversal_notices(drift, run.points, rig.moving(), remove));
   append(run.header.notices, algo::over_limit(drift.found(), rig));
   if (rig.drift_limit_m_per_s && !drift.found().not_seen.empty())
     run.header.notices.push_back(

@@ -8,7 +8,8 @@ namespace mdof::daemon {
 
 // Call this function before the figures are calculated. The reference point of the errors must be
 // the fixture. If `remove` is true, a significant drift is removed from the errors. A notice states
-// the removed drift, or the reason why no drift was removed. If the drift exceeds the limit of the
+// the removed drift, or the reason why no drift was removed. The run is doubtful if significant
+// changes remain in its reversal values. If the drift exceeds the limit of the
 // rig, the run is doubtful, even if the drift is removed: after the removal of a large drift, a
 // large remainder is possible.
 void treat_drift(const Rig& rig, bool remove, Run& run);

@@ -55,6 +55,12 @@ struct RunEnd {
   std::optional<RunUncertainty> uncertainty = std::nullopt;
 };
 
+// The tables of the axis of a run and the volumetric tables that were active during the run.
+struct TablesOfRun {
+  std::vector<std::int64_t> tables;  // at the start and later, in increasing order
+  bool changed = false;              // a table was activated or deactivated during the run
+};
+
 // An active table of an axis.
 struct ActiveTable {
   CompensationTable table;
@@ -166,11 +172,12 @@ class Store {
                                 const std::optional<HistoryEntry>& action = std::nullopt,
                                 std::optional<std::int64_t> expected = std::nullopt);
   Result<ActiveTable> active(Axis axis);  // not_found if no table is active
-  // The tables of its axis and the volumetric tables that were active at any time between the start
-  // of this run and its last stop. If its start is not known: at any time of the day that its rig
-  // states, or at its evaluation.
-  // Does not check the ledger; active() and active_volumetric() do.
-  Result<std::vector<std::int64_t>> active_during(const RunHeader& run);
+  // The tables that were active while this run was measured: from its start to its last scan. If
+  // its start is not known: on the day that its rig states, or at its evaluation. `continued`: the
+  // run that this run continues; its time is not included. Does not check the ledger; active() and
+  // active_volumetric() do.
+  Result<TablesOfRun> active_during(const RunHeader& run,
+                                    std::optional<std::int64_t> continued = std::nullopt);
   Result<std::int64_t> generation();  // the largest generation; 0: no table was ever active
   Status check_generation(std::optional<std::int64_t> expected);  // error as for activate()
 
@@ -249,6 +256,7 @@ class Store {
   std::int64_t changes() const { return connection_.changes(); }
 
  private:
+  Result<double> measured_s(std::int64_t run);
   Store(WriterLock lock, sqlite::Connection connection, Access access)
       : lock_(std::move(lock)), connection_(std::move(connection)), access_(access) {}
 

@@ -244,38 +244,65 @@ Result<ActiveVolumetric> Store::active_volumetric() {
   return active;
 }
 
-// The tables at the start, and the tables that were activated between the start and the last stop.
+// Time between the first and the last scan. A run that an older version stored has no such time;
+// then it is the time between its first and its last point.
+Result<double> Store::measured_s(std::int64_t run) {
+  MDOF_TRY(Statement row,
+           connection_.prepare(
+               "SELECT coalesce((SELECT json_extract(json, '$.duration_s') FROM run_plausibility "
+               "WHERE run = ?1), (SELECT (max(end_ns) - min(begin_ns)) / 1e9 FROM point WHERE id "
+               "BETWEEN (?1 << 32) AND (?1 << 32) + 4294967295), 0.0)"));
+  MDOF_CHECK(row.bind(run).step());
+  return row.real(0);
+}
+
 // If the start is not known, the run has the day that the rig states (and was measured before it
 // was stored), or the time of its evaluation. '9' is later than every time.
-Result<std::vector<std::int64_t>> Store::active_during(const RunHeader& run) {
+Result<TablesOfRun> Store::active_during(const RunHeader& run,
+                                         std::optional<std::int64_t> continued) {
+  MDOF_TRY(double length_s, measured_s(run.id));
+  if (continued) {
+    MDOF_TRY(const double before_s, measured_s(*continued));
+    length_s = std::max(0.0, length_s - before_s);
+  }
+  constexpr std::string_view kMeasured =
+      "WITH measured AS (SELECT axis, started_utc AS start, CASE WHEN ?2 THEN "
+      "strftime('%Y-%m-%dT%H:%M:%fZ', started_utc, ?3 || ' seconds') "
+      "WHEN length(started_utc) = 10 THEN min(date(started_utc, '+1 day'), coalesce((SELECT "
+      "max(utc) FROM deed WHERE name = 'run.replay' AND row = ?1), '9')) "
+      "ELSE started_utc END AS stop FROM run WHERE id = ?1) ";
+  constexpr std::string_view kLater =
+      "SELECT compensation_table FROM activation, measured WHERE activation.axis = measured.axis "
+      "AND activated_utc > start AND activated_utc <= stop "
+      "UNION SELECT volumetric_table FROM volumetric_activation, measured WHERE "
+      "activated_utc > start AND activated_utc <= stop";
+  TablesOfRun found;
   MDOF_TRY(
       Statement row,
       connection_.prepare(
-          "WITH measured AS (SELECT axis, started_utc AS start, CASE WHEN ?2 THEN "
-          "strftime('%Y-%m-%dT%H:%M:%fZ', "
-          "started_utc, ((SELECT max(end_ns) - min(begin_ns) FROM point WHERE id BETWEEN (?1 << "
-          "32) "
-          "AND (?1 << 32) + 4294967295) / 1e9) || ' seconds') "
-          "WHEN length(started_utc) = 10 THEN min(date(started_utc, '+1 day'), coalesce((SELECT "
-          "max(utc) FROM deed WHERE name = 'run.replay' AND row = ?1), '9')) "
-          "ELSE started_utc END AS stop FROM run WHERE id = ?1) "
+          std::string(kMeasured) +
           "SELECT * FROM (SELECT compensation_table FROM activation, measured WHERE "
           "activation.axis = measured.axis AND activated_utc <= start AND generation > (SELECT "
           "coalesce(max(generation), 0) FROM deactivation WHERE deactivation.axis = measured.axis "
           "AND deactivated_utc <= start) ORDER BY generation DESC LIMIT 1) "
           "UNION SELECT * FROM (SELECT volumetric_table FROM volumetric_activation, measured WHERE "
-          "activated_utc <= start ORDER BY generation DESC LIMIT 1) "
-          "UNION SELECT compensation_table FROM activation, measured WHERE activation.axis = "
-          "measured.axis AND activated_utc > start AND activated_utc <= stop "
-          "UNION SELECT volumetric_table FROM volumetric_activation, measured WHERE "
-          "activated_utc > start AND activated_utc <= stop ORDER BY 1"));
-  row.bind(run.id).bind(std::int64_t{run.start_known});
-  std::vector<std::int64_t> tables;
+          "activated_utc <= start ORDER BY generation DESC LIMIT 1) UNION " +
+          std::string(kLater) + " ORDER BY 1"));
+  row.bind(run.id).bind(std::int64_t{run.start_known}).bind(length_s);
   for (;;) {
-    MDOF_TRY(const bool found, row.step());
-    if (!found) return tables;
-    if (!row.is_null(0)) tables.push_back(row.integer(0));  // null: deactivated
+    MDOF_TRY(const bool is_row, row.step());
+    if (!is_row) break;
+    if (!row.is_null(0)) found.tables.push_back(row.integer(0));  // null: deactivated
   }
+  MDOF_TRY(Statement changes,
+           connection_.prepare(
+               std::string(kMeasured) + "SELECT EXISTS (" + std::string(kLater) +
+               " UNION SELECT generation FROM deactivation, measured WHERE deactivation.axis = "
+               "measured.axis AND deactivated_utc > start AND deactivated_utc <= stop)"));
+  changes.bind(run.id).bind(std::int64_t{run.start_known}).bind(length_s);
+  MDOF_CHECK(changes.step());
+  found.changed = changes.integer(0) != 0;
+  return found;
 }
 
 // List of the active tables, "axis X table 3, volume table 7".

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,10 @@ struct Plausibility {
   double rate_hz = 0;
   double encoder_min_m = 0, encoder_max_m = 0;
   std::uint64_t scans = 0, scans_lost = 0, gaps = 0;  // gaps: intervals longer than three periods
-  std::vector<ProbeFigures> probes;                   // in the order of the rig
+  // Time from the first to the last scan. NaN: unknown, because an mdof version without this member
+  // stored the run.
+  double duration_s = std::numeric_limits<double>::quiet_NaN();
+  std::vector<ProbeFigures> probes;  // in the order of the rig
 };
 
 }  // namespace mdof

@@ -86,7 +86,8 @@ void write_plausibility(JsonWriter& json, const Plausibility& p, std::size_t vis
       .field("encoder_max_mm", rounded_mm(p.encoder_max_m))
       .field("scans", p.scans)
       .field("scans_lost", p.scans_lost)
-      .field("gaps", p.gaps);
+      .field("gaps", p.gaps)
+      .field("duration_s", rounded(p.duration_s, 1e6));
   write_probes(json, p.probes);
   json.end_object();
 }

@@ -25,6 +25,11 @@ class Row {
     if (wrong_.empty() && !found.is_null() && found.get(x)) wrong_ = key;
     return x;
   }
+  // A member that older documents do not contain: NaN.
+  double newer_number(const char* key) const {
+    element found;
+    return object_[key].get(found) ? std::numeric_limits<double>::quiet_NaN() : number(key);
+  }
   std::int64_t integer(const char* key) const { return take(key, std::int64_t{0}); }
   std::uint64_t natural(const char* key) const { return take(key, std::uint64_t{0}); }
   int count(const char* key) const { return as_count(integer(key), key); }
@@ -123,6 +128,7 @@ Result<Plausibility> read_plausibility_json(const std::string& json) {
   p.scans = row.natural("scans");
   p.scans_lost = row.natural("scans_lost");
   p.gaps = row.natural("gaps");
+  p.duration_s = row.newer_number("duration_s");
   p.probes = probes_of(row);
   if (!wrong.empty()) return bad_input("the value of \"" + wrong + "\" cannot be read");
   return p;

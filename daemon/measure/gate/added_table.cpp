@@ -25,9 +25,14 @@ Status check_applied(store::Store& store, std::int64_t table,
                        " was active; state the start of the measurement in the log (# started: "
                        "2026-11-20T10:11:12Z), and replay the log");
     MDOF_TRY(const auto active, applied_tables(store, id));
-    if (active == std::vector{table}) continue;
+    if (active.tables == std::vector{table} && active.changed)
+      return bad_input(name + ": " + of +
+                       " was not active during the whole run, because a table was activated or "
+                       "deactivated meanwhile; activate only " +
+                       of + ", and measure the axis again");
+    if (active.tables == std::vector{table}) continue;
     std::string names;
-    for (const std::int64_t other : active)
+    for (const std::int64_t other : active.tables)
       names += (names.empty() ? "table " : " and table ") + std::to_string(other);
     return bad_input(name + ": the errors of this run are not the residual errors of " + of +
                      ", because it was not the only active table (active during the run: " +

@@ -70,23 +70,25 @@ Notices doubtful_notices(const std::vector<Run>& runs) {
   return doubtful_notices(algo::inherited_notices(algo::all_of(runs)));
 }
 
-Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64_t id) {
-  std::vector<std::int64_t> applied;
+Result<store::TablesOfRun> applied_tables(store::Store& store, std::int64_t id) {
+  store::TablesOfRun applied;
   for (std::optional<std::int64_t> part = id; part;) {
     MDOF_TRY(const RunHeader run, store.run_header(*part));
     const std::string& kind = run.provenance.recording_kind;
     if (kind != "recording" && kind != "csv") break;
-    MDOF_TRY(const std::vector<std::int64_t> active, store.active_during(run));
-    for (const std::int64_t table : active) {
+    const std::optional<std::int64_t> continued = continued_run(run);
+    MDOF_TRY(const store::TablesOfRun active, store.active_during(run, continued));
+    applied.changed |= active.changed;
+    for (const std::int64_t table : active.tables) {
       MDOF_TRY(const bool volumetric, store.is_volumetric(table));
       if (volumetric) {
         MDOF_TRY(const VolumetricTable grid, store.volumetric(table));
         const auto axis = static_cast<std::size_t>(run.axis);
         if (grid.command_m[axis].size() < 2) continue;  // the same correction at all targets
       }
-      append_new(applied, {table});
+      append_new(applied.tables, {table});
     }
-    part = continued_run(run);
+    part = continued;
   }
   return applied;
 }
@@ -98,7 +100,8 @@ Result<Notices> source_run_notices(store::Store& store, const std::vector<std::i
     MDOF_TRY(const auto by, store.superseded_by(run));
     if (by)
       found.push_back(notice(NoticeCode::made_from_superseded, "", {{"run", run}, {"by", *by}}));
-    MDOF_TRY(std::vector<std::int64_t> tables, applied_tables(store, run));
+    MDOF_TRY(store::TablesOfRun applied, applied_tables(store, run));
+    std::vector<std::int64_t>& tables = applied.tables;
     if (added_to) std::erase(tables, *added_to);
     if (tables.empty()) continue;
     MDOF_TRY(const RunHeader header, store.run_header(run));

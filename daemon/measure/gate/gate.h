@@ -39,9 +39,9 @@ Notices doubtful_notices(const std::vector<Run>& runs);
 // The tables that a controller may have applied while this run, and the runs that it continues,
 // were recorded: the tables that were active then. Volumetric tables with one correction for the
 // whole axis are left out. Empty if the run has neither a recording nor a CSV log.
-Result<std::vector<std::int64_t>> applied_tables(store::Store& store, std::int64_t run);
+Result<store::TablesOfRun> applied_tables(store::Store& store, std::int64_t run);
 // The notices of a result from these runs: one for each run that another run supersedes, and one
-// for each element of applied_tables(). If the controller applied such a table, the run contains
+// for each table of applied_tables(). If the controller applied such a table, the run contains
 // only the errors that remained, and a table from this run must not replace the active table. There
 // is no notice for the table `added_to`, because the result contains its values.
 Result<Notices> source_run_notices(store::Store& store, const std::vector<std::int64_t>& runs,

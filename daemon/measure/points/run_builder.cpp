@@ -1,5 +1,6 @@
 #include "daemon/measure/points/run_builder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "algo/iso230/straightness.h"
@@ -32,6 +33,10 @@ Status RunBuilder::calibrate(SampleBlock& raw) {
   suspect_.push(raw);
   temperature_.push(raw);
   corrections_.push(raw);
+  if (raw.scans() > 0) {
+    begin_ns_ = begin_ns_ ? std::min(*begin_ns_, raw.time_ns.front()) : raw.time_ns.front();
+    end_ns_ = std::max(end_ns_, raw.time_ns.back());
+  }
   return calibrator_.apply(raw);
 }
 
@@ -54,6 +59,7 @@ void RunBuilder::add_plausibility(const SolvedPoints& points, Run& run) const {
   const algo::RunToJudge whole{rig_,  points.sequence, points.summary,
                                lost_, given,           points.least_dwell_s};
   run.plausibility = algo::plausibility(whole);
+  if (begin_ns_) run.plausibility->duration_s = ns_to_s(end_ns_ - *begin_ns_);
   Notices& notices = run.header.notices;
   append(notices, algo::signal_notices(whole));
   append(notices, algo::visit_notices(whole));

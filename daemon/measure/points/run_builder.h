@@ -62,6 +62,8 @@ class RunBuilder {
   std::uint64_t lost_ = 0;
   SuspectEncoder suspect_;
   RunTemperature temperature_;
+  std::optional<std::int64_t> begin_ns_;  // time of the first scan; nullopt: no scan yet
+  std::int64_t end_ns_ = 0;               // time of the last scan
 
  private:
   RunHeader head(const algo::DwellDetector::Summary& summary) const;

@@ -116,7 +116,8 @@ std::string plausibility_text(const Plausibility& p) {
          number("%.4g Hz", p.rate_hz) + "\n";
   out += "samples    " + std::to_string(p.scans) + " scans, " +
          (p.scans_lost > 0 ? std::to_string(p.scans_lost) + " lost, " : "") +
-         std::to_string(p.gaps) + (p.gaps == 1 ? " gap\n" : " gaps\n");
+         std::to_string(p.gaps) + (p.gaps == 1 ? " gap" : " gaps") +
+         (std::isfinite(p.duration_s) ? ", " + number("%.1f s\n", p.duration_s) : "\n");
   out += targets_text(p) + left_out_text(p);
   if (p.short_stops > 0)
     out += "no point   " + std::to_string(p.short_stops) +

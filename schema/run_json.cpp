@@ -16,13 +16,13 @@ namespace {
 
 constexpr const char* kTableSense =
     "error = actual minus nominal position of the moving body; correction = factor times the "
-    "error. The correction is added to the commanded position of an axis. The member "
-    "\"correction\" states the factor (\"factor\") and this axis (\"command\")";
+    "error. The correction is added to the commanded position of an axis. In the "
+    "member \"correction\", \"factor\" is the factor and \"command\" is the axis";
 
 constexpr const char* kPositioningTableSense =
     "error = actual minus commanded position of the axis in coordinates of the controller; "
     "correction = factor times the error. The correction is added to the commanded position of an "
-    "axis. The member \"correction\" states the factor (\"factor\") and this axis (\"command\")";
+    "axis. In the member \"correction\", \"factor\" is the factor and \"command\" is the axis";
 
 // Writes {"EYX_um": {"factor", "command", "reason"}, ...}. The correction is the factor times the
 // error; it is added to the command of the axis "command". If the factor is null, there is no

@@ -49,10 +49,11 @@ constexpr std::array<FactKind, 11> kKinds = {{
      "travel, reference, point_m, chain, chain_travel, (SELECT group_concat(run) FROM (SELECT run "
      "FROM compensation_source AS s WHERE s.compensation_table = ?1 ORDER BY s.row)) "
      "FROM compensation_table WHERE id = ?1"},
-    {Fact::activation, "activation", "generation", "activation of a table, generation",
+    {Fact::activation, "activation", "generation", "activation of a table with the generation",
      "SELECT axis, compensation_table, actor, activated_utc FROM activation NOT INDEXED "
      "WHERE generation = ?"},
-    {Fact::deactivation, "deactivation", "generation", "deactivation of a table, generation",
+    {Fact::deactivation, "deactivation", "generation",
+     "deactivation of a table with the generation",
      "SELECT axis, actor, deactivated_utc FROM deactivation NOT INDEXED WHERE generation = ?"},
     {Fact::action, "deed", "id", "action",
      "SELECT name, subject, row, uid, gid, pid, user, utc FROM deed NOT INDEXED WHERE id = ?"},
@@ -67,7 +68,7 @@ constexpr std::array<FactKind, 11> kKinds = {{
      "?1 ORDER BY s.row)) FROM volumetric_table AS v JOIN document ON document.id = v.description "
      "WHERE v.id = ?1"},
     {Fact::volumetric_activation, "volumetric_activation", "generation",
-     "activation or deactivation of a volumetric table, generation",
+     "activation or deactivation of a volumetric table with the generation",
      "SELECT volumetric_table, actor, activated_utc FROM volumetric_activation NOT INDEXED WHERE "
      "generation = ?"},
     {Fact::action_reason, "deed_reason", "deed", "reason of action",

@@ -33,9 +33,10 @@ Result<Input> input_of(const ChannelInput& channel) {
   const auto at = std::find(known.begin(), known.end(), channel.input);
   if (at == known.end()) return no_such_input(channel, known);
   if (channel.um_per_count != 0)
-    return bad_input(channel.where + ": " + channel.input +
-                     " gives volts, not counts; remove um_per_count (the scale is um_per_V in the "
-                     "rig, also for the encoder)");
+    return bad_input(
+        channel.where + ": " + channel.input +
+        " gives volts, not counts; remove um_per_count, and state the scale in the rig "
+        "(um_per_V, also for the encoder)");
   return Input{{channel.id, Unit::volt}, static_cast<std::size_t>(at - known.begin())};
 }
 

@@ -80,7 +80,7 @@ const std::vector<Format>& formats() {
        .limits = "1499 rows, each with its own position (key kw.ssfk.interval = 0); all values are "
                  "integers in units of 0.1 um (key kw.ssfk.unit = 1)",
        .sense = "value = actual - set = +E in 0.1 um",
-       .source = "worked example in the manual; not tested on a control",
+       .source = "from a worked example in the manual of the control; not tested on a control",
        .sign_confirmed = true,
        .quantum_m = 1e-7,
        .takes_home = false,

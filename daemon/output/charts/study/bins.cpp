@@ -134,7 +134,7 @@ std::string bins_svg(const StudyResult& result) {
     draw_output(svg, sheet.panel(i, x, false), outputs[i], result.binned_key);
   if (cut)
     svg.text("quiet", {kMarginPx, sheet.bottom() + 8}, Anchor::start,
-             "An extreme outside a panel is drawn at the edge of the panel.");
+             "An extreme value outside the range of a panel is drawn at the edge of that panel.");
   return svg.take();
 }
 

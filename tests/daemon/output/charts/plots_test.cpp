@@ -272,7 +272,8 @@ TEST_F(Plots, ShowTheLargestOfManyCausesAndCountTheOthers) {
 
 TEST_F(Plots, StateThatExtremesAreCutOff) {
   StudyResult r = study();
-  constexpr const char* kNote = "An extreme outside a panel is drawn at the edge of the panel.";
+  constexpr const char* kNote =
+      "An extreme value outside the range of a panel is drawn at the edge of that panel.";
   EXPECT_EQ(write(r).at("error-against-travel.svg").find(kNote), std::string::npos);
   r.bins[0].outputs[0].max = 1e6;
   EXPECT_NE(write(r).at("error-against-travel.svg").find(kNote), std::string::npos);

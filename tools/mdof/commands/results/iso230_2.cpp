@@ -123,10 +123,11 @@ Status iso230_of_readings(const Iso230Command& command, const drivers::Positioni
 Result<drivers::PositioningCsv> readings_of_imported(const Run& run) {
   const std::string name = "run " + std::to_string(run.header.id);
   if (run.header.provenance.model != positioning_name(run.header.axis))
-    return bad_input(name + " was imported as " + run.header.provenance.model +
-                     "; mdof calculates the parameters of ISO 230-2 of an imported run only from "
-                     "positioning errors (" +
-                     positioning_name(run.header.axis) + ")");
+    return bad_input(
+        name + " was imported as " + run.header.provenance.model +
+        "; mdof can calculate the parameters of ISO 230-2 only if a run was imported as "
+        "positioning errors (" +
+        positioning_name(run.header.axis) + ")");
   if (daemon::has_unknown_approach(run))
     return bad_input(name +
                      ": the file does not state the approach of each reading, which ISO 230-2 "

@@ -62,7 +62,7 @@ std::string sentence_of(const daemon::Trend& trend) {
            " too few for control limits (needed: a baseline of " +
            (trend.baseline > 0 ? std::to_string(trend.baseline) + " values)"
                                : "at least " + std::to_string(algo::kLeastBaselineValues) +
-                                     " values, and one value after the baseline)");
+                                     " values, and at least one value after it)");
   const std::string provisional =
       chart->baseline < kFirmBaseline
           ? "; the limits are provisional, because their baseline has only " +

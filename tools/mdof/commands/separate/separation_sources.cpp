@@ -201,9 +201,10 @@ Result<LoadedSources> load_runs(const SourceOptions& options) {
 
 void add_source_options(CLI::App& command, SourceOptions& o) {
   command
-      .add_option("--surface", o.surface,
-                  "Measured surface of the target: \"side\" (height along y of the local frame of "
-                  "the axis) or \"top\" (along z)")
+      .add_option(
+          "--surface", o.surface,
+          "Measured surface of the target: \"side\" (its form is measured in the direction y of "
+          "the local frame of the axis) or \"top\" (in the direction z)")
       ->required()
       ->check(CLI::IsMember({"side", "top"}));
   command

@@ -44,7 +44,7 @@ Action declare_help(CLI::App& command) {
       .add_option(
           "COMMAND", *words,
           "Name of a command, such as \"replay\" or \"compensation export\". For the meaning of "
-          "members and columns of results, give \"fields\" and their names")
+          "members and columns of results, give the word \"fields\" and then their names")
       ->type_name("");
   return [app = command.get_parent(), words] { return help(app, *words); };
 }

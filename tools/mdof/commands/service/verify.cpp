@@ -114,7 +114,7 @@ Status verify(const VerifyCommand& command) {
   if (command.json) return {};
   if (head.link > 0) say("the newest link of the chain of hashes is " + head_text(head));
   return write_line(
-      "no fault found: every checksum and reference is correct" +
+      "no fault found: every checksum is correct, and so is every link between stored records" +
       std::string(head.link > 0 ? "; the uncertainties in the SQL views have no checksum" : ""));
 }
 

@@ -233,7 +233,7 @@ class Holder(CommandLine):
         code, _, err = mdof("replay", LOG["X"], "--rig", RIG["X"], *crossed)
         self.assertEqual(code, 4)
         self.assertIn(f"{self.daemon.database}: mdofd (process {self.daemon.process.pid}) is writing to this database", err)
-        self.assertIn(f"uses {self.other.database}", err)
+        self.assertIn(f"uses the database {self.other.database}", err)
         for client in (self.client, self.client_of_other):
             self.assertEqual(client.call("run.list")["total"], 0)
 

@@ -47,8 +47,22 @@ bool begins_character(char c) {
   return (c & 0xC0) != 0x80;  // only continuation bytes of UTF-8 begin with 10
 }
 
+// Decimals for two significant digits of u after rounding: 0.0996 is 0.10. Negative: tens,
+// hundreds, ...
 int decimals_of(double u) {
-  return std::clamp(1 - decimal_exponent(u), 0, 9);
+  constexpr int kMostDecimals = 9;
+  char buffer[32];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, u, std::chars_format::scientific, 1);
+  double rounded = u;
+  parse_double(buffer, end.ptr, rounded);
+  return std::min(1 - decimal_exponent(rounded), kMostDecimals);
+}
+
+std::string rounded_text(double x, int decimals) {
+  if (decimals >= 0) return fixed_text(x, decimals);
+  const double place = power_of_ten(-decimals);
+  return fixed_text(std::round(x / place) * place, 0);
 }
 
 }  // namespace
@@ -97,11 +111,11 @@ std::string number_text(double x, int digits) {
 
 std::string uncertainty_text(double u) {
   if (u == 0) return "0";
-  return u > 0 && std::isfinite(u) ? fixed_text(u, decimals_of(u)) : "–";
+  return u > 0 && std::isfinite(u) ? rounded_text(u, decimals_of(u)) : "–";
 }
 
 std::string value_text(double value, double u) {
-  return u > 0 && std::isfinite(u) ? fixed_text(value, decimals_of(u)) : number_text(value);
+  return u > 0 && std::isfinite(u) ? rounded_text(value, decimals_of(u)) : number_text(value);
 }
 
 std::string power_text(int exponent) {

@@ -87,7 +87,7 @@ void write_squareness(Html& html, const charts::SquarenessOfPair& pair,
   const bool known = std::isfinite(b.u);
   const double U = to_urad(b.U);
   html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::unit), "u", "U (95 %)", "k"},
-             {{angle, value_text(to_urad(pair.results->squareness.error_rad), U), "µrad",
+             {{angle, value_text(to_urad(pair.results->squareness.error_rad), to_urad(b.u)), "µrad",
                known ? uncertainty_text(to_urad(b.u)) : of(Phrase::unknown),
                known ? uncertainty_text(U) : of(Phrase::unknown),
                known ? charts::fixed_text(b.coverage_factor, 2) : of(Phrase::unknown)}},

@@ -200,7 +200,7 @@ void write_results(Html& html, const ReportRun& run, Language language) {
     const bool known = std::isfinite(b.u);
     const std::string U_text = known ? uncertainty_text(U) : unknown;
     rows.push_back(
-        {charts::split_key(b.figure).name, value_text(to_key_unit(b.value), U), key_unit(b.figure),
+        {charts::split_key(b.figure).name, value_text(to_key_unit(b.value), u), key_unit(b.figure),
          known ? uncertainty_text(u) : unknown,
          known && b.U_by_trials ? phrase(Phrase::by_monte_carlo, language, {U_text}) : U_text,
          known ? fixed_text(b.coverage_factor, 2) : unknown});

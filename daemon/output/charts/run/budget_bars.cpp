@@ -58,7 +58,7 @@ std::vector<Bar> contributor_bars(const Budget& budget, Language language) {
 std::string budget_line(const Budget& b) {
   const Key key = split_key(b.figure);
   const auto shown = [&](double u) { return uncertainty_text(to_key_unit(u)) + " " + key.unit; };
-  return key.name + " = " + value_text(to_key_unit(b.value), to_key_unit(b.U)) + " " + key.unit +
+  return key.name + " = " + value_text(to_key_unit(b.value), to_key_unit(b.u)) + " " + key.unit +
          ", u = " + shown(b.u) + ", U = " + shown(b.U) +
          " (k = " + fixed_text(b.coverage_factor, 2) + ", 95 %" +
          (b.U_by_trials ? ", Monte Carlo" : "") + ")";

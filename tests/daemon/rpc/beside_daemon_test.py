@@ -168,7 +168,7 @@ class BesideDaemon(unittest.TestCase):
             done = subprocess.run([MDOF, *words, "--db", self.free, "--socket", self.daemon.socket],
                                   capture_output=True, text=True, timeout=60)
             self.assertEqual(done.returncode, BAD_INPUT, done.stderr)
-            self.assertIn(f"uses {self.held}", done.stderr)
+            self.assertIn(f"uses the database {self.held}", done.stderr)
             self.assertIn("--db", done.stderr)
 
     def test_no_command_is_left_out(self):

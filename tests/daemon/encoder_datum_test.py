@@ -383,15 +383,12 @@ class Simulated(unittest.TestCase):
             self.assertEqual(told["datum"], "set")
             self.assertRegex(told["note"], "^set to 12.5 mm on ")
             headers = []
-
             def measure(client):
-                started = client.call("run.start", axis="X")
+                headers.append(client.call("run.start", axis="X"))
                 time.sleep(2)
-                headers.extend([started, client.call("run.get", run=client.call("run.stop", run=started["run"])["run"])])
-
+                headers.append(client.call("run.get", run=client.call("run.stop", run=headers[0]["run"])["run"]))
             told = encoder(simulator("X"), measure)
             self.assertEqual(told["datum"], "absolute")
-            # Machine positions are lost, so the stored run says it, too.
             self.assertEqual([(n["code"], n["configured"]) for n in datum_notices(*headers)], 2 * [("position_lost", 0)])
             self.assertRegex(told["note"], "^the axis position 12.5 mm, which was set on .*, was lost when mdofd restarted.*mdofd uses the positions of the device")
             log = os.path.join(folder, "log.csv")

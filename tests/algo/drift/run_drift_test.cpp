@@ -3,73 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "schema/base/random.h"
+#include "tests/algo/drift/drift_log.h"
 
 namespace mdof::algo {
 namespace {
-
-// 13 targets at 0 ... 60 mm, forward and in reverse, with one stop every 2 s. A run takes 52 s.
-struct Log {
-  int runs = 3, targets = 13;
-  double noise_m = 0;
-  std::uint32_t seed = 1;
-  bool both_ways = true, back_to_start = false;
-  std::function<double(double)> drift = [](double) { return 0.0; };  // m, at a time in s
-  std::function<double(int)> reversal = [](int) { return 80e-9; };   // m, at a target
-  std::function<double(int)> of_run = [](int) { return 0.0; };       // shift, m
-
-  double length_s() const { return 2.0 * (targets * (both_ways ? 2 : 1) * runs - 1); }
-
-  std::vector<MeasuredPoint> points() const {
-    std::vector<MeasuredPoint> out;
-    for (int run = 1; run <= runs; ++run)
-      for (int way = 0; way < (both_ways ? 2 : 1); ++way)
-        for (int i = 1; i <= targets; ++i)
-          add(out, run, way == 0 ? i : targets + 1 - i, way == 0 ? 1 : -1);
-    if (back_to_start) add(out, runs + 1, 1, 1);
-    return out;
-  }
-  double form(int target) const { return 1e-6 * std::sin(target) + 0.2e-6 * target; }
-
- private:
-  void add(std::vector<MeasuredPoint>& out, int run, int target, int direction) const {
-    const auto n = static_cast<std::uint32_t>(out.size());
-    const double time_s = 2.0 * n;
-    MeasuredPoint p;
-    p.target = target;
-    p.run = run;
-    p.target_m = p.point.position_m = 5e-3 * (target - 1);
-    p.point.direction = direction;
-    p.point.begin_ns = static_cast<std::int64_t>((time_s - 0.5) * 1e9);
-    p.point.end_ns = static_cast<std::int64_t>((time_s + 0.5) * 1e9);
-    p.errors.valid = true;
-    const double whole = drift(time_s) + of_run(run);
-    const double side = direction > 0 ? 0.5 : -0.5;
-    for (std::uint32_t k = 0; k < 5; ++k)
-      p.errors.local[k] =
-          form(target) + side * reversal(target) + noise(n, k) + (k == 0 ? whole : 0);
-    p.errors.covariance = {};
-    for (std::uint32_t k = 0; k < 5; ++k) {
-      p.point.probe_m.push_back(form(target) + noise(n, 5 + k) + (k == 3 ? whole : 0));
-      p.point.probe_u_m.push_back(0);
-    }
-    out.push_back(p);
-  }
-  double noise(std::uint32_t point, std::uint32_t series) const {
-    // A hash of three numbers (splitmix64), so that the numbers of different seeds are unrelated.
-    std::uint64_t x = (std::uint64_t{seed} << 40) ^ (std::uint64_t{point} << 8) ^ series;
-    x += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    x ^= x >> 31;
-    return noise_m *
-           gaussian(uniform(static_cast<std::uint32_t>(x >> 32), static_cast<std::uint32_t>(x)));
-  }
-};
-
-constexpr double kNoise = 3e-9;
 
 // Largest deviation of δy from the true form and reversal, relative to the mean deviation.
 double worst_deviation_m(const Log& log, const std::vector<MeasuredPoint>& points) {
@@ -338,49 +277,6 @@ TEST(RunDrift, UncertaintyGrowsFromTheStart) {
   EXPECT_LT(drift.freedom(), 78 - 26 - 1);    // the white noise and the trend alone
   EXPECT_GT(drift.freedom(), 1);
   EXPECT_EQ(after.back().errors.covariance, points.back().errors.covariance);
-}
-
-// At the first target, the visits of the two approaches are 50 s apart.
-TEST(RunDrift, ChangesThatAreNotRemovedAreInTheReversal) {
-  Log log;
-  log.noise_m = kNoise;
-  log.drift = [&](double t) { return -200e-9 * t / log.length_s(); };
-  const double of_drift_m = -200e-9 * 50 / log.length_s();
-  const auto points = log.points();
-  const DriftOfRun drift(points);
-  const Errors5 left = drift.left_in_reversal(points, false);
-  EXPECT_NEAR(left[kDy], of_drift_m, 4e-9);
-  for (const std::size_t k : {kDz, kEx, kEy, kEz}) EXPECT_EQ(left[k], 0);
-  EXPECT_EQ(drift.left_in_reversal(points, true)[kDy], 0);
-
-  log.reversal = [](int target) { return 20e-9 * target; };  // then the drift may be steps
-  const auto varying = log.points();
-  const DriftOfRun steps(varying);
-  ASSERT_TRUE(steps.found().errors[kDy].steps);
-  EXPECT_NEAR(steps.left_in_reversal(varying, true)[kDy], of_drift_m, 8e-9);
-
-  log.drift = [](double) { return 0.0; };
-  const auto still = log.points();
-  EXPECT_EQ(DriftOfRun(still).left_in_reversal(still, false), Errors5{});
-}
-
-// A distribution with one maximum has 95 % within 2.98 standard deviations (Vysochanskij, Petunin).
-// Four degrees of freedom of the noise and the 3.4 of this limit give at least 1.8 together.
-TEST(RunDrift, FewVisitsDoNotGiveAlmostNoDegreesOfFreedom) {
-  int removed = 0;
-  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
-    Log log;
-    log.runs = 2 + static_cast<int>(seed % 2);
-    log.targets = 5;
-    log.noise_m = kNoise;
-    log.seed = seed;
-    log.drift = [&](double t) { return 200e-9 * (1 - std::exp(-3 * t / log.length_s())); };
-    const DriftOfRun drift(log.points());
-    if (!drift.found().removable()) continue;
-    ++removed;
-    EXPECT_GE(drift.freedom(), 1 / (1 / 4.0 + 1 / 3.39)) << seed;
-  }
-  EXPECT_GE(removed, 20);
 }
 
 TEST(RunDrift, PointsWithoutErrorsRemainUnchanged) {

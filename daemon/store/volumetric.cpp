@@ -19,7 +19,7 @@ constexpr std::string_view kVolumetric =
     "v.approach, v.tool_m, v.rotary_rad, v.X_m, v.Y_m, v.Z_m, v.correction_m, v.u_m, "
     "v.interpolation_m, v.place_left_m, v.turn_left_rad, v.not_measured, v.u_not_declared, "
     "v.beyond_tables, v.created_utc, v.sha256, v.u_independent_m, v.noise, "
-    "v.reversal_m, v.doubtful, v.noise_only_all "
+    "v.reversal_m, v.doubtful, v.noise_only_all, v.u_between_m "
     "FROM volumetric_table AS v JOIN document ON document.id = v.description ";
 
 std::vector<double> flat(const std::vector<Vec3>& values) {
@@ -47,7 +47,8 @@ std::string json_list(const std::vector<std::string>& names) {
 Status check_shape(const VolumetricTable& t) {
   bool parts = t.u_independent_m.empty() || t.u_independent_m.size() == t.nodes();
   for (std::size_t k = 0; k < 3; ++k)
-    parts = parts && (t.noise[k].empty() || t.noise[k].size() == t.command_m[k].size());
+    parts = parts && (t.noise[k].empty() || t.noise[k].size() == t.command_m[k].size()) &&
+            (!t.has_u_between() || t.u_between_m[k].size() + 1 == t.command_m[k].size());
   if (t.nodes() > 0 && t.correction_m.size() == t.nodes() && t.u_m.size() == t.nodes() && parts)
     return {};
   return fail(ErrorCode::usage,
@@ -62,8 +63,9 @@ struct FlatNodes {
       : correction(flat(t.correction_m)),
         u(flat(t.u_m)),
         u_independent(flat(t.u_independent_m)),
-        noise(noise_numbers(t)) {}
-  std::vector<double> correction, u, u_independent, noise;
+        noise(noise_numbers(t)),
+        u_between(u_between_numbers(t)) {}
+  std::vector<double> correction, u, u_independent, noise, u_between;
 };
 
 void bind_values(Statement& insert, const VolumetricTable& t, const FlatNodes& nodes) {
@@ -100,8 +102,8 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
                "simulated, noise_only, approach, created_utc, sha256, tool_m, rotary_rad, X_m, "
                "Y_m, Z_m, correction_m, u_m, interpolation_m, place_left_m, turn_left_rad, "
                "not_measured, u_not_declared, beyond_tables, u_independent_m, noise, "
-               "reversal_m, doubtful, noise_only_all) VALUES "
-               "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
+               "reversal_m, doubtful, noise_only_all, u_between_m) VALUES "
+               "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
   const std::string travels = chain_travels_text(table.machine);
   insert.bind(id).bind(std::string_view(table.name)).bind(description);
   insert.bind(std::string_view(table.machine.text)).bind(std::string_view(travels));
@@ -117,6 +119,7 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
   else
     insert.bind(std::string_view(doubtful));
   insert.bind(std::int64_t{table.noise_only == NoiseOnly::all});
+  insert.bind_bytes(bytes_of(nodes.u_between));
   MDOF_CHECK(insert.run());
   MDOF_TRY(Statement source, connection_.prepare("INSERT INTO volumetric_source VALUES (?,?,?)"));
   for (std::size_t row = 0; row < table.runs.size(); ++row)
@@ -155,7 +158,8 @@ Result<VolumetricTable> Store::volumetric_of(Statement& row) {
   t.created_utc = row.text(21);
   t.sha256 = row.text(22);
   t.u_independent_m = vectors_from(row.bytes(23));
-  if (!set_noise(t, doubles_from(row.bytes(24))) || !check_shape(t))
+  if (!set_noise(t, doubles_from(row.bytes(24))) ||
+      !set_u_between(t, doubles_from(row.bytes(28))) || !check_shape(t))
     return bad_input(file().string() + ": volumetric table " + std::to_string(t.id) +
                      " is damaged; restore the database from a backup");
   doubles_from(row.bytes(25), t.reversal_m);

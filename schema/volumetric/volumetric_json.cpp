@@ -1,6 +1,9 @@
 #include "schema/volumetric/volumetric_json.h"
 
+#include <cmath>
+
 #include "schema/run_json.h"
+#include "schema/sample.h"
 #include "schema/units.h"
 
 namespace mdof {
@@ -23,6 +26,18 @@ void write_commands(JsonWriter& json, const VolumetricTable& t) {
   }
   json.end_object();
   write_rotary(json, t);
+}
+
+// The largest additional u in the middle between the nodes of all axes; NaN: unknown.
+Vec3 largest_u_between(const VolumetricTable& t) {
+  Vec3 u{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const auto& axis : t.u_between_m) {
+      double largest = axis.empty() ? 0 : kNaN;
+      for (const Vec3& cell : axis) largest = std::fmax(largest, cell[k]);
+      u[k] = std::hypot(u[k], largest);
+    }
+  return t.has_u_between() ? u : Vec3{kNaN, kNaN, kNaN};
 }
 
 }  // namespace
@@ -52,6 +67,7 @@ void write_volumetric_members(JsonWriter& json, const VolumetricTable& t) {
   write_commands(json, t);
   json.field("nodes", static_cast<std::uint64_t>(t.nodes())).field("sense", kSense);
   write_um(json, "interpolation", t.interpolation_m);
+  write_um(json, "u_interpolation", largest_u_between(t));
   write_um(json, "reversal_left", t.reversal_m);
   json.field("place_left_um", to_um(t.place_left_m))
       .field("turn_left_urad", to_urad(t.turn_left_rad));

@@ -1,5 +1,6 @@
 #include "schema/volumetric/volumetric_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -35,6 +36,11 @@ Vec3 VolumetricTable::u_common_at(std::size_t node) const {
   return remaining_u(u_m[node], u_independent_at(node));
 }
 
+bool VolumetricTable::has_u_between() const {
+  return std::any_of(u_between_m.begin(), u_between_m.end(),
+                     [](const auto& axis) { return !axis.empty(); });
+}
+
 namespace {
 
 // Calls `take` for each number in `noise`, in the order of noise_numbers().
@@ -67,6 +73,27 @@ bool set_noise(VolumetricTable& table, const std::vector<double>& numbers) {
   return true;
 }
 
+std::vector<double> u_between_numbers(const VolumetricTable& table) {
+  std::vector<double> numbers;
+  for (const auto& axis : table.u_between_m)
+    for (const Vec3& cell : axis) numbers.insert(numbers.end(), cell.begin(), cell.end());
+  return numbers;
+}
+
+bool set_u_between(VolumetricTable& table, const std::vector<double>& numbers) {
+  table.u_between_m = {};
+  if (numbers.empty()) return true;
+  std::size_t count = 0, next = 0;
+  for (const auto& commands : table.command_m) count += 3 * (commands.size() - 1);
+  if (count != numbers.size()) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    table.u_between_m[k].resize(table.command_m[k].size() - 1);
+    for (Vec3& cell : table.u_between_m[k])
+      for (double& number : cell) number = numbers[next++];
+  }
+  return true;
+}
+
 std::string volumetric_sha256(const VolumetricTable& t) {
   using canonical::put;
   std::string bytes;
@@ -77,7 +104,8 @@ std::string volumetric_sha256(const VolumetricTable& t) {
   put_text(std::string(!noise.empty()              ? "mdof volumetric table 3"
                        : t.u_independent_m.empty() ? "mdof volumetric table 1"
                                                    : "mdof volumetric table 2") +
-           (reversal ? ", reversal" : "") + (t.doubtful.empty() ? "" : ", doubtful"));
+           (reversal ? ", reversal" : "") + (t.doubtful.empty() ? "" : ", doubtful") +
+           (t.has_u_between() ? ", between" : ""));
   put_text(t.name);
   put_text(t.machine.text);
   put_text(chain_travels_text(t.machine));
@@ -102,6 +130,7 @@ std::string volumetric_sha256(const VolumetricTable& t) {
   }
   if (reversal) put_vector(t.reversal_m);
   if (!t.doubtful.empty()) put_text(notices_json(t.doubtful));
+  put(bytes, std::span<const double>(u_between_numbers(t)));
   return sha256_hex(bytes);
 }
 
@@ -121,7 +150,11 @@ std::string covers_text(const VolumetricTable& table) {
     text +=
         "; u_independent is the part of u that comes from noise and differs between the positions "
         "of an axis; u_common is the rest of u";
-  return text + "; between the nodes, u also contains the interpolation error";
+  text += "; between the nodes, u also contains the interpolation error";
+  return text + (table.has_u_between()
+                     ? " and the uncertainty of the errors between their measured positions"
+                     : ", but not the uncertainty of the errors between their measured positions, "
+                       "because an older version of mdof built this table; build the table again");
 }
 
 }  // namespace mdof

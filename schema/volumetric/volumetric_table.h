@@ -58,6 +58,12 @@ struct VolumetricTable {
   // Largest difference between the linear interpolation between the nodes and the correction of the
   // model; m, for each axis. It is calculated at the centres of cells, faces and edges.
   Vec3 interpolation_m{};
+  // The standard uncertainty that u of the correction has between two nodes in addition to
+  // interpolated u, because the errors between their measured positions are not known. For each
+  // axis with several commands, and each of its cells: the largest value inside the cell for all
+  // nodes of the other axes; m, for each component X, Y, Z of the correction. NaN: u is unknown.
+  // Empty for all axes: an mdof version without this member built the table.
+  std::array<std::vector<Vec3>, 3> u_between_m;
   // The errors depend on the approach, but the table has only one value for each node. This is the
   // largest part of a correction that therefore remains at a node; m, for each axis. For the
   // approach "mean" it is half the difference between the approaches, for "forward" or "reverse"
@@ -88,6 +94,7 @@ struct VolumetricTable {
   // known separately.
   Vec3 u_independent_at(std::size_t node) const;
   Vec3 u_common_at(std::size_t node) const;
+  bool has_u_between() const;
 };
 
 // Text with the positions of the rotary axes: "A = 0 deg, C = 30 deg"; "": the machine has no
@@ -103,12 +110,15 @@ Vec3 remaining_u(const Vec3& u_m, const Vec3& part_m);
 // their number is wrong.
 std::vector<double> noise_numbers(const VolumetricTable& table);
 bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
+// The same for the numbers of u_between_m: X first.
+std::vector<double> u_between_numbers(const VolumetricTable& table);
+bool set_u_between(VolumetricTable& table, const std::vector<double>& numbers);
 
 // SHA-256 of the contents of the table. These bytes are hashed, in this order (i, d, s:
 // schema/base/canonical.h):
 //   s "mdof volumetric table N". N is 3 if the table has noise, 2 if it has only u_independent_m,
 //     otherwise 1. ", reversal" is appended if reversal_m is not 0, then ", doubtful" if there are
-//     doubtful notices
+//     doubtful notices, then ", between" if the table has u_between_m
 //   s name, s chain, s travels, s description
 //   i number of runs, i each run
 //   i simulated, i noise_only (0: none, 1: some, 2: all), s approach
@@ -120,6 +130,7 @@ bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
 //   for not_measured, u_not_declared and beyond_tables: i n, s each name
 //   d reversal_m[3], if it is not 0
 //   s notices_json() of the doubtful notices, if there are any
+//   d u_between_numbers()
 std::string volumetric_sha256(const VolumetricTable& table);
 
 // Text for people, one sentence without a full stop: the contributions that u includes.

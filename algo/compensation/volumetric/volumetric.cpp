@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/compensation/volumetric/between_nodes.h"
 #include "algo/compensation/volumetric/volumetric_noise.h"
 #include "algo/machine/compensating.h"
 #include "algo/machine/plane_map.h"
@@ -324,12 +325,26 @@ Result<VolumetricTable> build_volumetric(const Machine& machine, const Volumetri
   MDOF_CHECK(check_measured(table, request));
   MDOF_CHECK(check_limits(table, request.limits));
   MDOF_CHECK(find_interpolation(table, machine, request));
+  set_u_between_nodes(table, machine, request.others, request.approach);
   return table;
 }
 
 double largest_correction_m(const VolumetricTable& table, std::size_t axis) {
   double largest = 0;
   for (const Vec3& c : table.correction_m) largest = std::max(largest, std::abs(c[axis]));
+  return largest;
+}
+
+double largest_u_m(const VolumetricTable& table, std::size_t axis) {
+  double largest = 0;
+  Vec3 command_m{};
+  for (std::size_t node = 0; node < table.nodes(); ++node)
+    for (unsigned half = 0; half < 8; ++half) {
+      if (!move_half_cell(table, node, half, command_m)) continue;
+      const double u = volumetric_at(table, command_m).u_m[axis];
+      if (std::isnan(u)) return u;
+      largest = std::max(largest, u);
+    }
   return largest;
 }
 
@@ -342,10 +357,15 @@ VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_
   std::array<GridCell, 3> cell;
   VolumetricValue value;
   double bend = 0;  // share of interpolation_m: 0 at a node, 1 halfway between two nodes
+  Vec3 u_between{};
   for (std::size_t k = 0; k < 3; ++k) {
     cell[k] = cell_of(table.command_m[k], command_m[k]);
     value.inside = value.inside && cell[k].inside;
-    bend = std::max(bend, 4 * cell[k].part * (1 - cell[k].part));
+    const double along = 4 * cell[k].part * (1 - cell[k].part);
+    bend = std::max(bend, along);
+    if (along == 0 || table.u_between_m[k].empty()) continue;
+    for (std::size_t i = 0; i < 3; ++i)
+      u_between[i] = std::hypot(u_between[i], along * table.u_between_m[k][cell[k].index][i]);
   }
   for (unsigned corner = 0; corner < 8; ++corner) {
     double weight = 1;
@@ -364,7 +384,8 @@ VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_
     }
   }
   for (std::size_t k = 0; k < 3; ++k)
-    value.u_common_m[k] = std::hypot(value.u_common_m[k], bend * table.interpolation_m[k]);
+    value.u_common_m[k] =
+        std::hypot(value.u_common_m[k], bend * table.interpolation_m[k], u_between[k]);
   set_u(table, cell, command_m, value);
   return value;
 }

@@ -41,14 +41,19 @@ Status check_limits(const VolumetricTable& table, const TableLimits& limits);
 // Returns the largest absolute correction of one axis over all nodes; axis 0 is X.
 double largest_correction_m(const VolumetricTable& table, std::size_t axis);
 
+// Returns the largest u of the correction of one axis at the nodes and in the middle of all edges,
+// faces and cells; NaN if u is unknown at one of these places.
+double largest_u_m(const VolumetricTable& table, std::size_t axis);
+
 struct VolumetricValue {
   Vec3 correction_m{}, u_m{};
   Vec3 u_common_m{}, u_independent_m{};  // parts of u_m; NaN: parts unknown
   bool inside = true;                    // false: the values are from the nearest point of the grid
 };
 // Interpolates linearly along each axis between the nodes.
-// - The common part of u combines the u of the surrounding nodes and the interpolation error at
-//   this point. Along the axes, the interpolation error is a parabola: 0 at a node and, in the
+// - The common part of u combines the u of the surrounding nodes, the interpolation error at this
+//   point and, along each axis, u_between_m of the cell, which is a parabola like the interpolation
+//   error. Along the axes, the interpolation error is a parabola: 0 at a node and, in the
 //   middle between two nodes, the largest deviation that was found. The deviation counts as a
 //   standard uncertainty without a divisor, because each measurement at the point of the largest
 //   deviation has this deviation.

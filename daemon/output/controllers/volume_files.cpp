@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "algo/compensation/volumetric/volumetric.h"
 #include "daemon/output/controllers/series.h"
 #include "daemon/output/controllers/text_lines.h"
 #include "schema/base/number/number_text.h"
@@ -65,14 +66,9 @@ std::string isg_list(const VolumetricTable& t, const std::vector<std::string>& h
          kIsgTable + "\nfile_format[0] ISG_CSV\n";
 }
 
-// The largest u of all nodes in µm, or "unknown" if u of a node is unknown.
 std::string largest_u_text(const VolumetricTable& t, std::size_t axis) {
-  double largest = 0;
-  for (const Vec3& node : t.u_m) {
-    if (std::isnan(node[axis])) return "unknown";
-    largest = std::max(largest, node[axis]);
-  }
-  return plain_number(to_um(largest));
+  const double u_m = algo::largest_u_m(t, axis);
+  return std::isnan(u_m) ? "unknown" : plain_number(to_um(u_m));
 }
 
 }  // namespace

@@ -160,6 +160,7 @@ inline VolumetricTable make_volume(const std::vector<std::int64_t>& runs = {}) {
   for (auto& axis : t.noise)
     for (auto& node : axis) node.covariance_with_next[2] = {1e-18 / 3, 0, -2e-18, 0, 0, 3e-18};
   t.interpolation_m = {1e-9, 2e-9, 3e-9};
+  t.u_between_m = {{{{1e-9, 2e-9, 7e-9}}, {{3e-9, 0, 4e-9}, {5e-9, 6e-9, 1e-9 / 3}}, {}}};
   t.reversal_m = {5e-9, 0, 6e-9};
   t.place_left_m = 4e-9;
   t.turn_left_rad = 5e-6;

@@ -33,6 +33,7 @@ TEST_F(StoreTest, ReturnsAVolumetricTableBitForBit) {
   EXPECT_EQ(back->u_independent_m, table.u_independent_m);
   EXPECT_EQ(back->noise, table.noise);
   EXPECT_EQ(back->interpolation_m, table.interpolation_m);
+  EXPECT_EQ(back->u_between_m, table.u_between_m);
   EXPECT_EQ(back->reversal_m, (Vec3{5e-9, 0, 6e-9}));
   EXPECT_EQ(back->place_left_m, 4e-9);
   EXPECT_EQ(back->turn_left_rad, 5e-6);
@@ -50,21 +51,27 @@ TEST_F(StoreTest, ReturnsAVolumetricTableBitForBit) {
   VolumetricTable other_axes = make_volume();
   other_axes.noise[0].pop_back();
   EXPECT_EQ(store->add_volumetric(other_axes).error().code, ErrorCode::usage);
+  VolumetricTable no_cell = make_volume();
+  no_cell.u_between_m[1].pop_back();
+  EXPECT_EQ(store->add_volumetric(no_cell).error().code, ErrorCode::usage);
   VolumetricTable without_parts = make_volume();
+  without_parts.u_between_m = {};
   without_parts.noise = {};
   without_parts.u_independent_m.clear();
   without_parts.doubtful.clear();
   without_parts.sha256 = volumetric_sha256(without_parts);
-  EXPECT_TRUE(
-      store->volumetric(store->add_volumetric(without_parts).value())->u_independent_m.empty());
+  const auto older = store->volumetric(store->add_volumetric(without_parts).value());
+  ASSERT_TRUE(older) << older.error().message;
+  EXPECT_TRUE(older->u_independent_m.empty());
+  EXPECT_FALSE(older->has_u_between());
   EXPECT_EQ(store->add_volumetric(make_volume({9})).error().code, ErrorCode::not_found);
 }
 
 // These columns were added in a later version. Only the hash of the table covers them.
 TEST_F(StoreTest, RejectsAVolumetricTableWithChangedColumns) {
-  for (const char* change :
-       {"noise = zeroblob(length(noise))", "reversal_m = NULL",
-        "u_independent_m = zeroblob(length(u_independent_m))", "doubtful = NULL"}) {
+  for (const char* change : {"noise = zeroblob(length(noise))", "reversal_m = NULL",
+                             "u_independent_m = zeroblob(length(u_independent_m))",
+                             "doubtful = NULL", "u_between_m = NULL"}) {
     const std::int64_t id = writer()->add_volumetric(make_volume()).value();
     ASSERT_TRUE(reader()->volumetric(id));
     EXPECT_TRUE(reader()->verify().value().empty());

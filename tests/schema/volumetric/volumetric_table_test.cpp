@@ -74,6 +74,10 @@ TEST(VolumetricTable, HashCoversAllMembersButIdAndDate) {
       [](auto& t) { t.beyond_tables = {"EXX"}; },
       [](auto& t) { t.doubtful = {notice(NoticeCode::run_partial)}; },
       [](auto& t) { t.doubtful = {notice(NoticeCode::probes_dead)}; },
+      [](auto& t) { EXPECT_TRUE(set_u_between(t, std::vector<double>(9, 0.0))); },
+      [](auto& t) {
+        EXPECT_TRUE(set_u_between(t, {0, 0, 0, 0, 0, 1e-9, 0, 0, 0}));
+      },
   };
   std::set<std::string> hashes{volumetric_sha256(small_table())};
   for (const auto& change : changes) {
@@ -86,6 +90,26 @@ TEST(VolumetricTable, HashCoversAllMembersButIdAndDate) {
   // The store adds these two; the hash does not cover them.
   stored.id = 7, stored.created_utc = "now";
   EXPECT_TRUE(hashes.contains(volumetric_sha256(stored)));
+}
+
+// SHA-256 of the bytes in volumetric_table.h, calculated by Python. Stored tables stay valid.
+TEST(VolumetricTable, HashOfAnOlderTableIsUnchanged) {
+  EXPECT_EQ(volumetric_sha256(small_table()),
+            "924a5ef872493caba82f4e0954517356118355d1b94dc297aac6e9c0895dfaaa");
+}
+
+TEST(VolumetricTable, UBetweenNodesHasOneNumberForEachCellAndComponent) {
+  VolumetricTable t = small_table();
+  const std::vector<double> numbers{1, 2, 3, 4, 5, 6, 7, 8, 9};
+  EXPECT_FALSE(set_u_between(t, {1, 2, 3}));
+  EXPECT_NE(covers_text(t).find("an older version of mdof built this table"), std::string::npos);
+  ASSERT_TRUE(set_u_between(t, numbers));
+  EXPECT_EQ(t.u_between_m[0], (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(t.u_between_m[1], (std::vector<Vec3>{{7, 8, 9}}));
+  EXPECT_TRUE(t.u_between_m[2].empty());
+  EXPECT_EQ(u_between_numbers(t), numbers);
+  EXPECT_EQ(covers_text(t).find("older version"), std::string::npos);
+  EXPECT_NE(covers_text(t).find("between their measured positions"), std::string::npos);
 }
 
 TEST(VolumetricTable, NodeHasCommandsCorrectionsAndU) {

@@ -1,16 +1,20 @@
 #include "algo/separation/square_reversal.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
 #include "algo/uncertainty/coverage.h"
+#include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
 
 // Relative to u²: a smaller declared part is rounding.
 constexpr double kLeastPart = 1e-12;
+// A difference of more than this number of standard uncertainties is a contradiction.
+constexpr double kSameSquare = 3;
 
 double declared(const Budget& b) {
   const double square = b.u * b.u - b.u_random * b.u_random;
@@ -50,6 +54,29 @@ Result<SquareReversal> square_reversal(const SquareSetUp& first, const SquareSet
   out.U_rad = out.coverage_factor * out.u_rad;
   out.noise_only = a.noise_only && b.noise_only;
   return out;
+}
+
+Notices square_notices(const SquareReversal& found, const std::vector<const Rig*>& rigs) {
+  Notices all;
+  std::vector<double> declared_rad;
+  for (const Rig* rig : rigs) {
+    const auto angle_rad = rig->artefact_angle_error_rad;
+    if (!angle_rad ||
+        std::find(declared_rad.begin(), declared_rad.end(), *angle_rad) != declared_rad.end())
+      continue;
+    const double u_rad = std::hypot(found.u_rad, rig->u_artefact_angle_rad.value_or(0));
+    if (std::abs(found.square_rad - *angle_rad) > kSameSquare * u_rad)
+      all.push_back(notice(NoticeCode::square_contradicts_rig, "",
+                           {{"found_urad", to_urad(found.square_rad)},
+                            {"declared_urad", to_urad(*angle_rad)},
+                            {"u_urad", to_urad(u_rad)}}));
+    if (!declared_rad.empty())
+      all.push_back(notice(
+          NoticeCode::rigs_declare_different_squares, "",
+          {{"one_urad", to_urad(declared_rad.front())}, {"other_urad", to_urad(*angle_rad)}}));
+    declared_rad.push_back(*angle_rad);
+  }
+  return all;
 }
 
 }  // namespace mdof::algo

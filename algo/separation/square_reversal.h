@@ -6,7 +6,11 @@
 //   EC0Y = (m1 + m2)/2,   α = c1 (m2 - m1)/2
 #pragma once
 
+#include <vector>
+
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
+#include "schema/rig/rig.h"
 #include "schema/separation/square_reversal.h"
 #include "schema/uncertainty/budget.h"
 
@@ -23,5 +27,10 @@ struct SquareSetUp {
 // reduction. For the angle, this is their largest possible effect. Noise and repeatability of the
 // set-ups are independent. Errors: a corner is unknown; both set-ups have the same corner.
 Result<SquareReversal> square_reversal(const SquareSetUp& first, const SquareSetUp& second);
+
+// Compares the angle of the square with the angles that the rigs declare. Notices: two rigs declare
+// different angles; a declared angle differs from the found angle by more than three times the
+// combined standard uncertainty. A u that the rig does not declare counts as 0.
+Notices square_notices(const SquareReversal& found, const std::vector<const Rig*>& rigs);
 
 }  // namespace mdof::algo

@@ -184,6 +184,8 @@ Result<FoundSquareReversal> square_reversal(store::Store& store, const Squarenes
   FoundSquareReversal out{found, std::move(a.set_up.budget.not_declared),
                           algo::inherited_notices(runs), a.of.fitted.simulated};
   append_new(out.not_declared, std::move(b.set_up.budget.not_declared));
+  append(out.notices,
+         algo::square_notices(found, {&a.of.rig_a, &a.of.rig_b, &b.of.rig_a, &b.of.rig_b}));
   return out;
 }
 

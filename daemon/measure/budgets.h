@@ -67,13 +67,13 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
                                         const algo::TrialsRequest& trials);
 
 // Squareness from two set-ups of the same square. The square is turned over between the two
-// set-ups. The angle of the square that the rigs state is not used. Nothing is stored. Errors:
-// those of algo::square_reversal() and of squareness_runs() for each set-up; runs with readings in
-// common.
+// set-ups. The result does not use the angle of the square that the rigs declare, but a notice
+// states a contradiction to this angle. Nothing is stored. Errors: those of algo::square_reversal()
+// and of squareness_runs() for each set-up; runs with readings in common.
 struct FoundSquareReversal {
   SquareReversal found;
   std::vector<std::string> not_declared;  // keys of the uncertainties that the rigs do not declare
-  Notices notices;                        // notices of the runs
+  Notices notices;                        // of the runs, and algo::square_notices()
   bool simulated = false;
 };
 Result<FoundSquareReversal> square_reversal(store::Store& store, const SquarenessRequest& first,

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace mdof::algo {
 namespace {
@@ -73,6 +76,37 @@ TEST(SquareReversalByHand, ReportsTheAnglesOfBothSetUpsAndTheMeanOfTheirDeclared
   EXPECT_NEAR(found.first_rad, 12e-6, 1e-18);
   EXPECT_NEAR(found.second_rad, 4e-6, 1e-18);
   EXPECT_NEAR(found.u_declared_rad, 1.5e-6, 1e-12);
+}
+
+// Found: α = -25 µrad with u = 4 µrad. With a declared u of 3 µrad, u of the difference is 5 µrad,
+// so the limit of the difference is 15 µrad.
+TEST(SquareReversalByHand, ReportsAnglesThatContradictTheRigs) {
+  const auto found = square_reversal(set_up(1, 90, 0, 4, 10), set_up(-1, 40, 0, 4, 10)).value();
+  ASSERT_NEAR(found.square_rad, -25e-6, 1e-15);
+  ASSERT_NEAR(found.u_rad, 4e-6, 1e-12);
+  const auto codes = [&found](const std::vector<std::optional<double>>& declared_urad) {
+    std::vector<Rig> rigs(declared_urad.size());
+    std::vector<const Rig*> all;
+    for (std::size_t i = 0; i < rigs.size(); ++i) {
+      if (declared_urad[i]) rigs[i].artefact_angle_error_rad = 1e-6 * *declared_urad[i];
+      rigs[i].u_artefact_angle_rad = 3e-6;
+      all.push_back(&rigs[i]);
+    }
+    std::string text;
+    for (const Notice& each : square_notices(found, all))
+      text += each.code == NoticeCode::square_contradicts_rig ? "contradicts " : "different ";
+    return text;
+  };
+  EXPECT_EQ(codes({std::nullopt, std::nullopt, std::nullopt, std::nullopt}), "");
+  EXPECT_EQ(codes({-39.9, std::nullopt, -39.9, -39.9}), "");
+  EXPECT_EQ(codes({-40.1, -40.1, -40.1, -40.1}), "contradicts ");
+  EXPECT_EQ(codes({-9.9, -9.9, std::nullopt, std::nullopt}), "contradicts ");
+  EXPECT_EQ(codes({-25.0, -25.0, -24.0, -24.0}), "different ");
+  EXPECT_EQ(codes({-25.0, -25.0, 40.0, 40.0}), "contradicts different ");
+  EXPECT_EQ(codes({25.0, std::nullopt, std::nullopt, std::nullopt}), "contradicts ");
+  Rig without_u;
+  without_u.artefact_angle_error_rad = -38e-6;
+  EXPECT_EQ(square_notices(found, {&without_u}).size(), 1U);
 }
 
 TEST(SquareReversalByHand, IsNoiseOnlyIfBothSetUpsAre) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "algo/calibration/mounting_model.h"
 #include "algo/calibration/mounting_view.h"
@@ -279,6 +280,13 @@ MountingFit Fit::result(const Rig& rig, const std::vector<Clamping>& clampings) 
              s.unaryExpr([](double x) { return x > 0 ? 1 / x : 0; }).asDiagonal();
   const Unseen unseen = find_unseen(model_, view_);
   fit.found.not_seen = unseen.sentences;
+  std::set<Axis> axes;
+  for (const Clamping& clamping : clampings)
+    for (const Traverse& traverse : clamping.traverses) axes.insert(traverse.axis);
+  if (axes.size() > 1)
+    fit.found.not_seen.emplace_back(
+        "the squareness of the axes of the traverses. The calibration assumes that these axes are "
+        "square. u does not contain an error of this squareness");
   fit.found.u_together_m = unseen.u_together_m;
   fit.found.clampings = clampings.size();
   fit.found.probes.resize(rig.probes.size());

@@ -143,8 +143,8 @@ Action declare_machine_perpendicularity(CLI::App& command) {
                   "CSV with the columns angle_deg (angle of the spot about the table axis, from +X "
                   "to +Y) and height_um (height of the table, positive towards +Z). Optional "
                   "columns: EAC_urad, EBC_urad (tilt error motion of the table), axes_um (height "
-                  "error of X and Y), time_s. The rows must be in the order of time; with two or "
-                  "more turns, mdof subtracts a linear drift")
+                  "error of X and Y), time_s. The rows must be in the order of time; with more "
+                  "than 7/6 of a turn, mdof subtracts a linear drift")
       ->required()
       ->type_name("");
   command.add_option("--radius-mm", o->radius_mm, "Radius of the circle")

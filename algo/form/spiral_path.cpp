@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "algo/form/turn_spectrum.h"
 #include "schema/base/number/number_text.h"
 #include "schema/base/random.h"
 #include "schema/units.h"
@@ -82,7 +81,9 @@ double highest(const Height& height, double r, int places) {
 
 SpiralPath::SpiralPath(const SurfaceMap& map, const SpiralRequest& request)
     : request_(request),
-      surface_(std::make_shared<const Surface>(map, request.extend_pixels, Extension::line)) {
+      surface_(std::make_shared<const Surface>(map, request.extend_pixels, Extension::line)),
+      error_(std::make_shared<const InterpolationError>(map, request.x_centre_m, request.y_centre_m,
+                                                        request.outer_radius_m)) {
   const double r = request.tool_radius_m;
   has_sharp_valleys_ = r > 0 && kBetweenPixels * r * sharpest_valley_per_m(map) > 1;
   const double to_a_pixel = 4 * r / std::min(map.dx_m, map.dy_m);
@@ -289,6 +290,16 @@ std::vector<double> SpiralPath::circle(double radius_m, std::size_t points) cons
   return z_m;
 }
 
+// An error e of the heights changes an amplitude by at most 2 mean(|e|).
+TurnSpectrum SpiralPath::spectrum(double band_harmonic) const {
+  const auto error = [error = error_, outer_m = request_.outer_radius_m,
+                      feed_m = request_.feed_m](std::size_t turn) {
+    const double most_m = outer_m - feed_m * static_cast<double>(turn);
+    return 2 * error->largest_m(most_m - feed_m, most_m);
+  };
+  return {request_.points_per_turn, band_harmonic, error};
+}
+
 std::size_t SpiralPath::surface_undulations(double pixel_m, double share) const {
   const double radius_m = request_.outer_radius_m;
   const double wanted = 2 * 2 * std::numbers::pi * radius_m / pixel_m;
@@ -296,7 +307,11 @@ std::size_t SpiralPath::surface_undulations(double pixel_m, double share) const 
   while (points < kMostCirclePoints && static_cast<double>(points) < wanted) points *= 2;
   if (static_cast<double>(request_.points_per_turn) >= wanted || request_.points_per_turn >= points)
     return 0;
-  TurnSpectrum spectrum(points, -1);
+  const auto error = [this, radius_m](std::size_t turn) {
+    const double rho_m = radius_m * static_cast<double>(turn + 1) / kCircles;
+    return 2 * error_->largest_m(rho_m, rho_m);
+  };
+  TurnSpectrum spectrum(points, -1, error);
   for (int k = 1; k <= kCircles; ++k) {
     for (const double z_m : circle(radius_m * k / kCircles, points)) spectrum.add(z_m);
     spectrum.finish();  // the next circle does not continue this circle

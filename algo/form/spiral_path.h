@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "algo/form/surface.h"
+#include "algo/form/turn_spectrum.h"
 #include "schema/base/result.h"
 #include "schema/form/height_map.h"
 
@@ -47,6 +48,8 @@ class SpiralPath {
   // Calls `take` for each point, from the outermost point inwards. Stops if `take` returns an
   // error, and returns this error.
   Result<SpiralCounts> each(const std::function<Status(const PathPoint&)>& take) const;
+  // Receives the heights of this path. `band_harmonic`: as in TurnSpectrum.
+  TurnSpectrum spectrum(double band_harmonic) const;
   // The highest harmonic of a turn whose amplitude is at least `share` times the largest amplitude
   // (TurnSpectrum::undulations()), evaluated on circles with two or more points for each pixel of
   // size `pixel_m`. 0: the tool does not move along Z, or each turn of the path already has so many
@@ -76,7 +79,9 @@ class SpiralPath {
   void find_touch_before(std::size_t first, Gap& gap) const;
 
   SpiralRequest request_;
-  std::shared_ptr<const Surface> surface_;  // copies of this path share the surface
+  // Copies of this path share the surface and its error.
+  std::shared_ptr<const Surface> surface_;
+  std::shared_ptr<const InterpolationError> error_;
   bool has_sharp_valleys_ = false;  // the surface may be curved more than the tool somewhere
   int places_ = 0;  // number of places over the tool's width where a contact is searched
   std::size_t points_ = 0;

@@ -220,4 +220,51 @@ double overshoot_m(const SurfaceMap& map, double x_centre_m, double y_centre_m, 
   return largest;
 }
 
+InterpolationError::InterpolationError(const SurfaceMap& map, double x_centre_m, double y_centre_m,
+                                       double radius_m)
+    : pixel_m_(std::min(map.dx_m, map.dy_m)) {
+  const double farthest_m = std::hypot(
+      std::max(std::abs(map.x_m(0) - x_centre_m), std::abs(map.x_m(map.nx - 1) - x_centre_m)),
+      std::max(std::abs(map.y_m(0) - y_centre_m), std::abs(map.y_m(map.ny - 1) - y_centre_m)));
+  const double limit_m = std::min(radius_m + 2 * pixel_m_, farthest_m);
+  const auto rings = static_cast<std::size_t>(limit_m / pixel_m_) + 1;
+  mean_m_.assign(rings, 0);
+  const auto add = [&](bool along_x) {
+    std::vector<double> sum(rings), count(rings);
+    const std::size_t nx = map.nx - (along_x ? std::min<std::size_t>(map.nx, 5) : 0),
+                      ny = map.ny - (along_x ? 0 : std::min<std::size_t>(map.ny, 5)),
+                      step = along_x ? 1 : map.nx;
+    for (std::size_t j = 0; j < ny; ++j)
+      for (std::size_t i = 0; i < nx; ++i) {
+        const double* const z = map.z_m.data() + j * map.nx + i;
+        const double difference =
+            z[0] - 3 * z[step] + 2 * z[2 * step] + 2 * z[3 * step] - 3 * z[4 * step] + z[5 * step];
+        if (std::isnan(difference)) continue;
+        const double x = map.x_m(i) + (along_x ? 2.5 * map.dx_m : 0) - x_centre_m,
+                     y = map.y_m(j) + (along_x ? 0 : 2.5 * map.dy_m) - y_centre_m;
+        const auto ring = static_cast<std::size_t>(std::sqrt(x * x + y * y) / pixel_m_);
+        if (ring >= rings) continue;
+        sum[ring] += std::abs(difference) / 96;
+        count[ring] += 1;
+      }
+    for (std::size_t k = 0; k < rings; ++k)
+      if (count[k] > 0) mean_m_[k] += sum[k] / count[k];
+  };
+  add(true);
+  add(false);
+}
+
+// A height between pixels uses pixels to 3 rows and 3 columns away, so 3 sqrt(2) pixels.
+constexpr double kReach_pixels = 4;
+
+double InterpolationError::largest_m(double least_radius_m, double most_radius_m) const {
+  const double first = std::max(0.0, least_radius_m / pixel_m_ - kReach_pixels),
+               last = std::min(most_radius_m / pixel_m_ + kReach_pixels,
+                               static_cast<double>(mean_m_.size() - 1));
+  double largest = 0;
+  for (double ring = std::floor(first); ring <= last; ++ring)
+    largest = std::max(largest, mean_m_[static_cast<std::size_t>(ring)]);
+  return largest;
+}
+
 }  // namespace mdof::algo

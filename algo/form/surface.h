@@ -50,4 +50,20 @@ class Surface {
 // heights causes 9.3 % of the step, before and after it. Only pixels within `radius_m` count.
 double overshoot_m(const SurfaceMap& map, double x_centre_m, double y_centre_m, double radius_m);
 
+// By how much heights between pixels depend on the interpolation: the difference between the cubics
+// over six and over four pixels, in the middle between two pixels of a row or column. It is larger
+// than the error of the cubic over six pixels. The class contains its mean absolute values over
+// rings about a centre, each one pixel wide.
+class InterpolationError {
+ public:
+  InterpolationError(const SurfaceMap& map, double x_centre_m, double y_centre_m, double radius_m);
+  // The largest mean of a ring between these radii, or less than 4 pixels outside them. Rows and
+  // columns are added.
+  double largest_m(double least_radius_m, double most_radius_m) const;
+
+ private:
+  double pixel_m_;
+  std::vector<double> mean_m_;  // of each ring, from the centre outwards
+};
+
 }  // namespace mdof::algo

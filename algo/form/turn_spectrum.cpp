@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "schema/base/random.h"
 
@@ -10,11 +11,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Amplitudes that are smaller than this factor times the largest height are taken as 0.
+// Relative to the largest height: limit of the amplitudes that rounding causes.
 constexpr double kRounding = 1e-13;
-constexpr double kBendRemainder =
-    1.0 / 16;  // relative to the change of slope between two turns: amplitude that remains after
-               // subtraction of the line (1 / (2 pi^2), rounded up)
 
 // Faster than operator* of the standard library, which also handles infinities.
 Complex times(const Complex& a, const Complex& b) {
@@ -70,12 +68,21 @@ void Dft::transform(std::vector<Complex>& x, bool inverse) const {
   x.swap(out_);
 }
 
-TurnSpectrum::TurnSpectrum(std::size_t points_per_turn, double band_harmonic)
+TurnSpectrum::TurnSpectrum(std::size_t points_per_turn, double band_harmonic,
+                           std::function<double(std::size_t turn)> error)
     : dft_(points_per_turn),
       band_harmonic_(band_harmonic),
+      error_(std::move(error)),
       largest_(points_per_turn / 2 + 1),
+      last_(points_per_turn / 2 + 1),
+      bend_(points_per_turn / 2 + 1),
       work_(points_per_turn) {
   turn_.reserve(points_per_turn);
+  const auto n = static_cast<double>(points_per_turn);
+  for (std::size_t h = 1; h < bend_.size(); ++h) {
+    const double sine = n * sine_of_turns(static_cast<double>(h) / (2 * n));
+    bend_[h] = 1 / (sine * sine);
+  }
 }
 
 void TurnSpectrum::add(double z) {
@@ -85,13 +92,17 @@ void TurnSpectrum::add(double z) {
 }
 
 void TurnSpectrum::finish() {
-  if (turn_.size() == work_.size()) finish_turn(turn_.front() + change_);
+  if (turn_.size() == work_.size()) finish_turn(turn_.front() + change_ + step_);
 }
 
 void TurnSpectrum::finish_turn(double next) {
   const std::size_t n = turn_.size();
   const double change = next - turn_.front();
-  if (turns_ > 0) largest_change_step_ = std::max(largest_change_step_, std::abs(change - change_));
+  if (turns_ > 0) {
+    const double step = change - change_;
+    count_last(turns_ > 1 ? step_ : step, step, largest_);
+    step_ = step;
+  }
   change_ = change;
   for (std::size_t k = 0; k < n; ++k)
     work_[k] = turn_[k] - change_ * (static_cast<double>(k) / static_cast<double>(n));
@@ -99,11 +110,10 @@ void TurnSpectrum::finish_turn(double next) {
   ++turns_;
   dft_.transform(work_, false);
   const double scale = 1 / static_cast<double>(n);
-  for (std::size_t h = 1; h < largest_.size(); ++h) {
+  for (std::size_t h = 1; h < last_.size(); ++h) {
     const double both = 2 * h == n ? 1 : 2;
     const Complex x = work_[h];
-    const double amplitude = both * scale * std::sqrt(x.real() * x.real() + x.imag() * x.imag());
-    largest_[h] = std::max(largest_[h], amplitude);
+    last_[h] = both * scale * std::sqrt(x.real() * x.real() + x.imag() * x.imag());
   }
   if (band_harmonic_ < 0) return;
   for (std::size_t k = 0; k < n; ++k)
@@ -117,14 +127,29 @@ void TurnSpectrum::finish_turn(double next) {
   }
 }
 
+// A surface whose height depends on the radius alone also has harmonics, because the line of a turn
+// does not follow the bend of this surface. A kink that changes the slope by K per turn, at the
+// share s of the turn, leaves the amplitude K |sin(pi h s)| / (n sin(pi h / n))^2 of the harmonic
+// h: the second difference of the heights minus the line is K / n at the kink and -K / n at the
+// start of the turn. K = K (1 - s) + K s is the sum of the steps of `change_` before and after this
+// turn. A bend is a sum of kinks. If all kinks of the three turns have the same sign, K of the bend
+// in the turn is at most the sum of both steps.
+void TurnSpectrum::count_last(double step_before, double step_after,
+                              std::vector<double>& largest) const {
+  const double bend = std::abs(step_before) + std::abs(step_after),
+               error = (error_ ? error_(turns_ - 1) : 0) + kRounding * height_;
+  for (std::size_t h = 1; h < largest.size(); ++h)
+    if (last_[h] > bend * bend_[h] + error) largest[h] = std::max(largest[h], last_[h]);
+}
+
 std::size_t TurnSpectrum::undulations(double share) const {
+  std::vector<double> largest = largest_;
+  if (turns_ > 0) count_last(step_, step_, largest);
   double most = 0;
-  for (std::size_t h = 1; h < largest_.size(); ++h) most = std::max(most, largest_[h]);
+  for (const double amplitude : largest) most = std::max(most, amplitude);
   std::size_t found = 0;
-  for (std::size_t h = 1; h < largest_.size(); ++h)
-    if (largest_[h] > std::max(kRounding * height_, kBendRemainder * largest_change_step_) &&
-        largest_[h] >= share * most)
-      found = h;
+  for (std::size_t h = 1; h < largest.size(); ++h)
+    if (largest[h] > 0 && largest[h] >= share * most) found = h;
   return found;
 }
 

@@ -1,6 +1,7 @@
 // Tests the path of a fast tool servo: spiral, tool radius, edges, bridges, undulations.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -290,6 +291,87 @@ TEST(TurnSpectrum, FeedIsNoUndulation) {
     EXPECT_EQ(spectrum.undulations(0.01), wave_m > 0 ? 2u : 0u);
     EXPECT_LT(spectrum.left_out().pv, 1e-10);
   }
+}
+
+// A step of 5 um over 0.5 mm (2.5 turns), and waves of 0.1 um.
+double ring_m(double rho_m, double angle, double wave_m, double step_m = 5e-6) {
+  const double s = std::clamp((rho_m - 5.75e-3) / 0.5e-3, 0.0, 1.0);
+  return step_m * s * s * (3 - 2 * s) + wave_m * std::cos(12 * angle);
+}
+
+// The bend of a surface of revolution causes no undulations and does not hide the undulations of
+// other turns.
+TEST(TurnSpectrum, RingIsNoUndulationAndHidesNone) {
+  constexpr std::size_t n = 720;
+  for (const double wave_m : {0.0, 0.1e-6}) {
+    TurnSpectrum spectrum(n, -1);
+    for (std::size_t k = 0; k <= 45 * n; ++k) {
+      const double turns = static_cast<double>(k) / n;
+      spectrum.add(ring_m(9e-3 - 0.2e-3 * turns, 2 * std::numbers::pi * turns, wave_m));
+    }
+    EXPECT_EQ(spectrum.undulations(0.01), wave_m > 0 ? 12u : 0u);
+  }
+}
+
+// A kink anywhere in a turn. Without the factor |sin|, the wave of 4 nm is larger than the limit
+// only for harmonics above 5: 1 um / (5 pi)^2 = 4.05 nm.
+TEST(TurnSpectrum, KinkLeavesAmplitudesBelowTheInverseSquareOfTheHarmonic) {
+  for (const std::size_t n : {7u, 12u, 72u, 720u})
+    for (const double place : {0.0, 0.01, 0.25, 1. / 3, 0.5, 0.9, 0.999}) {
+      TurnSpectrum spectrum(n, -1);
+      for (std::size_t k = 0; k <= 5 * n; ++k)
+        spectrum.add(1e-6 *
+                     std::max(0.0, static_cast<double>(k) / static_cast<double>(n) - 2 - place));
+      EXPECT_EQ(spectrum.undulations(1e-9), 0u) << n << ' ' << place;
+    }
+  for (const double wave_h : {1.0, 2.0, 6.0, 20.0}) {
+    TurnSpectrum spectrum(72, -1);
+    for (std::size_t k = 0; k <= 3 * 72; ++k) {
+      const double turns = static_cast<double>(k) / 72, wave = 2 * std::numbers::pi * wave_h;
+      spectrum.add(4e-9 * std::cos(wave * turns) - 1e-6 * turns * turns / 2);
+    }
+    EXPECT_EQ(spectrum.undulations(0.5), wave_h > 7 ? 20u : 0u) << wave_h;
+  }
+}
+
+// The last turn is complete, but the height of its end is unknown.
+TEST(TurnSpectrum, BendOfTheLastTurnIsNoUndulation) {
+  TurnSpectrum spectrum(72, -1);
+  for (std::size_t k = 0; k < 4 * 72; ++k) spectrum.add(-1e-6 * std::pow(k / 72.0, 2));
+  spectrum.finish();
+  EXPECT_EQ(spectrum.turns(), 4u);
+  EXPECT_EQ(spectrum.undulations(1e-9), 0u);
+}
+
+// Interpolation between pixels gives a step along a ring small angular waves (to 5 nm).
+TEST(SpiralPath, InterpolationOfARingIsNoUndulation) {
+  for (const double feed_m : {0.2e-3, 0.02e-3})
+    for (const double wave_m : {0.0, 0.1e-6}) {
+      const SurfaceMap map = map_of(
+          [&](double x, double y) { return ring_m(std::hypot(x, y), std::atan2(y, x), wave_m); },
+          0.1e-3);
+      const auto path = SpiralPath::over(map, {0, 0, 9e-3, feed_m, 720, 0, 3});
+      ASSERT_TRUE(path);
+      TurnSpectrum spectrum = path->spectrum(-1);
+      ASSERT_TRUE(path->each([&](const PathPoint& p) {
+        if (p.rho_m > 3e-3) spectrum.add(p.z_m);
+        return Status();
+      }));
+      EXPECT_EQ(spectrum.undulations(0.01), wave_m > 0 ? 12u : 0u) << feed_m;
+    }
+}
+
+// Differences between the cubics over six and four pixels: 1/96 of 1 -3 2 2 -3 1.
+TEST(InterpolationErrorByHand, IsTheMeanOfARing) {
+  SurfaceMap map = map_of([](double, double) { return 0.0; }, 1e-3, 21);
+  map.z_m[10 * 21 + 10] = 96;  // a spike in the centre
+  const InterpolationError error(map, 0, 0, 10e-3);
+  // Ring 0: in each direction the two middles beside the spike have the difference 2.
+  EXPECT_NEAR(error.largest_m(0, 0), 4, 1e-12);
+  EXPECT_EQ(error.largest_m(8e-3, 9e-3), 0);
+  EXPECT_EQ(error.largest_m(1, 2), 0);
+  const InterpolationError small(map_of([](double x, double) { return x; }, 1e-3, 3), 0, 0, 1);
+  EXPECT_EQ(small.largest_m(0, 1e-3), 0);
 }
 
 TEST(FeedRoughness, MatchesThePaper) {

@@ -11,7 +11,6 @@
 #include "algo/form/map_figures.h"
 #include "algo/form/spiral_path.h"
 #include "algo/form/surface.h"
-#include "algo/form/turn_spectrum.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
@@ -140,8 +139,7 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   MDOF_CHECK(set_request(o, map, found));
   MDOF_TRY(const algo::SpiralPath path, algo::SpiralPath::over(map, found.request));
   const double per_s = o.speed_rpm / 60;
-  algo::TurnSpectrum spectrum(found.request.points_per_turn,
-                              o.bandwidth_hz ? *o.bandwidth_hz / per_s : -1);
+  algo::TurnSpectrum spectrum = path.spectrum(o.bandwidth_hz ? *o.bandwidth_hz / per_s : -1);
   Motion motion, on_part;
   const PathRates rates{o.speed_rpm, found.request.points_per_turn};
   PathWriter writer(o.out, rates);

@@ -2,7 +2,6 @@
 // the deformation stays elastic.
 #include <CLI/CLI.hpp>
 #include <optional>
-#include <vector>
 
 #include "algo/form/clamping.h"
 #include "algo/form/map_figures.h"
@@ -37,18 +36,6 @@ struct Clamped {
   std::optional<bool> is_elastic;
   Notices notices;
 };
-
-// A notice for each map that matches `before` better if it is mirrored.
-Notices mirrored_notices(const SurfaceMap& before, const std::vector<const SurfaceMap*>& maps) {
-  Notices notices;
-  for (const SurfaceMap* map : maps)
-    if (const auto match = algo::mirrored_match(before, *map))
-      notices.push_back(notice(NoticeCode::map_matches_mirrored, map->name,
-                               {{"mirrored", match->mirrored},
-                                {"rms_um", to_um(match->rms_m)},
-                                {"mirrored_rms_um", to_um(match->mirrored_rms_m)}}));
-  return notices;
-}
 
 // Error: the user stated only some of the data. The stress needs all data of the plate; the verdict
 // also needs the yield limit.

@@ -1,18 +1,24 @@
 // mdof form cut WANTED CUT... --out NEXT: calculates the path of the next pass from the measured
 // surfaces of the passes so far.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "algo/form/cutting.h"
+#include "algo/form/map_figures.h"
+#include "algo/form/registration.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
+#include "schema/notice/notice_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/form/map_file.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -38,7 +44,49 @@ void write_optional(JsonWriter& json, const char* key, const std::optional<doubl
     json.null();
 }
 
-std::string cut_json(const algo::CuttingResult& found, const FormCutCommand& o) {
+struct FoundCut {
+  algo::CuttingResult result;
+  std::size_t without_next = 0;  // measured pixels of WANTED without a height in the next path
+  Notices notices;
+};
+
+constexpr double kNoForm_m = 1e-12;  // a smaller RMS is rounding
+
+// A notice for each pass whose map is not closer to the wanted map than a plane is. A pass that
+// follows its path is closer, unless its error is larger than the wanted form.
+Result<Notices> unlike_notices(const algo::CuttingPasses& passes) {
+  Notices notices;
+  for (const SurfaceMap& cut : passes.cuts) {
+    MDOF_TRY(SurfaceMap error, algo::difference(passes.wanted, cut));
+    SurfaceMap wanted = passes.wanted;
+    for (std::size_t k = 0; k < wanted.z_m.size(); ++k)
+      if (std::isnan(error.z_m[k])) wanted.z_m[k] = SurfaceMap::kMissing;
+    algo::remove_plane(error);
+    algo::remove_plane(wanted);
+    const double error_m = algo::figures_of(error).rms_m, wanted_m = algo::figures_of(wanted).rms_m;
+    if (wanted_m > kNoForm_m && error_m >= wanted_m)
+      notices.push_back(notice(NoticeCode::cut_unlike_wanted, cut.name,
+                               {{"rms_um", to_um(error_m)}, {"wanted_rms_um", to_um(wanted_m)}}));
+  }
+  return notices;
+}
+
+Result<FoundCut> found_cut(const algo::CuttingPasses& passes) {
+  FoundCut found;
+  MDOF_TRY(found.result, algo::next_cut(passes));
+  for (std::size_t k = 0; k < passes.wanted.z_m.size(); ++k)
+    if (!std::isnan(passes.wanted.z_m[k]) && std::isnan(found.result.next.z_m[k]))
+      ++found.without_next;
+  std::vector<const SurfaceMap*> cuts;
+  for (const SurfaceMap& cut : passes.cuts) cuts.push_back(&cut);
+  found.notices = mirrored_notices(passes.wanted, cuts);
+  MDOF_TRY(const Notices unlike, unlike_notices(passes));
+  found.notices.insert(found.notices.end(), unlike.begin(), unlike.end());
+  return found;
+}
+
+std::string cut_json(const FoundCut& cut, const FormCutCommand& o) {
+  const algo::CuttingResult& found = cut.result;
   JsonWriter json;
   json.begin_object().key("error").begin_array();
   for (const algo::MapFigures& error : found.error)
@@ -67,12 +115,17 @@ std::string cut_json(const algo::CuttingResult& found, const FormCutCommand& o) 
       .field("smooth_mm", o.smooth_mm)
       .field("repeated", o.repeated)
       .field("pixels", static_cast<std::uint64_t>(found.pixels))
-      .field("next", o.out)
-      .end_object();
+      .field("pixels_without_next", static_cast<std::uint64_t>(cut.without_next))
+      .field("next", o.out);
+  write_notices(json, "notices", cut.notices, words::text);
+  json.end_object();
   return json.take();
 }
 
-std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) {
+std::string cut_text(const FoundCut& cut, const FormCutCommand& o) {
+  const algo::CuttingResult& found = cut.result;
+  const std::string next = "next path: " + o.out + ", " + std::to_string(cut.without_next) +
+                           " of the measured pixels of WANTED have no height in it\n";
   TextTable table({"pass", "PV/µm", "RMS/µm", "mean/µm"});
   for (std::size_t k = 0; k < found.error.size(); ++k)
     table.add({std::to_string(k + 1), in_um(found.error[k].pv_m), in_um(found.error[k].rms_m),
@@ -91,7 +144,7 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
     text += "error that the next path does not correct because of the smoothing (squares of " +
             plain_number(o.smooth_mm) + " mm): RMS " + in_um(*found.left_by_smoothing_rms_m) +
             " µm\n";
-  if (!found.converges) return text + kOnePass + "\nnext path: " + o.out + "\n";
+  if (!found.converges) return text + kOnePass + "\n" + next;
   text +=
       "repeatable error: RMS " + in_um(*found.repeatable_rms_m) + " µm; random error: RMS " +
       in_um(*found.random_rms_m) +
@@ -100,8 +153,8 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
       in_um(*found.floor_gain_one_m) + " µm (--gain 1), " + in_um(*found.floor_mean_m) +
       " µm (--gain mean)" +
       (found.floor_optimal_m ? ", " + in_um(*found.floor_optimal_m) + " µm (--gain optimal)" : "") +
-      "\n" + (*found.converges ? "the passes converge" : "THE PASSES DO NOT CONVERGE") +
-      "\nnext path: " + o.out + "\n";
+      "\n" + (*found.converges ? "the passes converge" : "THE PASSES DO NOT CONVERGE") + "\n" +
+      next;
   return text;
 }
 
@@ -131,12 +184,13 @@ Status form_cut(const FormCutCommand& o) {
                                       : algo::CuttingGain::one;
   if (o.random_um) passes.random_rms_m = from_um(*o.random_um);
   passes.smooth_m = from_mm(o.smooth_mm);
-  MDOF_TRY(const algo::CuttingResult found, algo::next_cut(passes));
-  warn_few_common_pixels(passes.wanted, found.pixels,
+  MDOF_TRY(const FoundCut found, found_cut(passes));
+  show_notices(found.notices, true);
+  warn_few_common_pixels(passes.wanted, found.result.pixels,
                          "the next path has no height at the remaining pixels (\"mdof form path\" "
                          "bridges these gaps)");
-  MDOF_CHECK(
-      save_maps(found.next, o.out, {{"next-path", "Path of the next pass", found.next}}, o.plots));
+  MDOF_CHECK(save_maps(found.result.next, o.out,
+                       {{"next-path", "Path of the next pass", found.result.next}}, o.plots));
   return o.json ? write_line(cut_json(found, o)) : write_out(cut_text(found, o));
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "algo/form/clamping.h"
 #include "daemon/output/charts/form/height_map_chart.h"
 #include "daemon/output/charts/plot_files.h"
 #include "schema/base/files.h"
@@ -117,6 +118,17 @@ void warn_few_common_pixels(const SurfaceMap& map, std::size_t common, const std
   if (!has_few_common_pixels(common, measured)) return;
   warn(map.name + ": the map has " + std::to_string(measured) + " measured pixels, but only " +
        std::to_string(common) + " of these pixels are measured in all maps; " + rest);
+}
+
+Notices mirrored_notices(const SurfaceMap& before, const std::vector<const SurfaceMap*>& maps) {
+  Notices notices;
+  for (const SurfaceMap* map : maps)
+    if (const auto match = algo::mirrored_match(before, *map))
+      notices.push_back(notice(NoticeCode::map_matches_mirrored, map->name,
+                               {{"mirrored", match->mirrored},
+                                {"rms_um", to_um(match->rms_m)},
+                                {"mirrored_rms_um", to_um(match->mirrored_rms_m)}}));
+  return notices;
 }
 
 void add_map_options(CLI::App& command, MapOptions& options) {

@@ -38,6 +38,9 @@ bool has_few_common_pixels(std::size_t common, std::size_t measured);
 // text for the warning that states what happens to the other pixels.
 void warn_few_common_pixels(const SurfaceMap& map, std::size_t common, const std::string& rest);
 
+// A notice for each map that matches `before` better if it is mirrored.
+Notices mirrored_notices(const SurfaceMap& before, const std::vector<const SurfaceMap*>& maps);
+
 void add_map_options(CLI::App& command, MapOptions& options);
 
 // Loads the map of a run ("run:12", or "12" if there is no file "12") or of a file. The content of

@@ -22,7 +22,6 @@ constexpr std::size_t kForSearch = 1500, kForCourse = 50'000,
                       kForFit = 250'000;  // numbers of pixels
 // Smallest share of the pixels of A that have a counterpart in B.
 constexpr double kLeastOverlap = 0.1;
-constexpr double kSearchOverlap = 0.6;  // the same for a pose that the search finds
 constexpr double kSearchShift = 0.2;  // largest shift, relative to the size of A, in each direction
 constexpr int kSearchSteps = 10;  // number of shifts from 0 to the largest shift, in each direction
 constexpr double kSearchTurn_deg = 2;  // step of the turn; five steps in each direction
@@ -40,16 +39,17 @@ constexpr double kPlaceResidualLimit = 4;
 // the pose found before, and less than this factor times the mean absolute height of A.
 constexpr double kAcceptedResidualRatio = 0.5;
 
-// The pose with the smallest residual in a grid of shifts and turns.
-MapPose searched(const Places& a, const Surface& b) {
+// The pose with the smallest residual in a grid of shifts, relative to `centre`, and turns.
+MapPose searched(const Places& a, const Surface& b, const MapPose& centre) {
   MapPose best;
   double least = -1;
   const double step_m = kSearchShift * a.size_m / kSearchSteps;
   for (int turn = -5; turn <= 5; ++turn)
     for (int j = -kSearchSteps; j <= kSearchSteps; ++j)
       for (int i = -kSearchSteps; i <= kSearchSteps; ++i) {
-        const MapPose pose{i * step_m, j * step_m, turn * kSearchTurn_deg * std::numbers::pi / 180};
-        const double mean_square = mean_square_at(a, b, pose, kSearchOverlap);
+        const MapPose pose{centre.shift_x_m + i * step_m, centre.shift_y_m + j * step_m,
+                           turn * kSearchTurn_deg * std::numbers::pi / 180};
+        const double mean_square = mean_square_at(a, b, pose, kRegistrationOverlap);
         if (mean_square < 0 || (least >= 0 && mean_square >= least)) continue;
         least = mean_square;
         best = pose;
@@ -59,15 +59,16 @@ MapPose searched(const Places& a, const Surface& b) {
 
 // The best shifts of the best turns outside the grid of searched(), the best turn first. These
 // turns occur if the part was measured in another orientation.
-std::vector<MapPose> turned_starts(const Places& a, const Surface& b) {
+std::vector<MapPose> turned_starts(const Places& a, const Surface& b, const MapPose& centre) {
   std::vector<std::pair<double, MapPose>> starts;
   const double step_m = kSearchShift * a.size_m / kTurnSteps;
   for (double turn_deg = 15; turn_deg < 350; turn_deg += kTurnStep_deg) {
     std::pair<double, MapPose> best{-1, {}};
     for (int j = -kTurnSteps; j <= kTurnSteps; ++j)
       for (int i = -kTurnSteps; i <= kTurnSteps; ++i) {
-        const MapPose pose{i * step_m, j * step_m, turn_deg * std::numbers::pi / 180};
-        const double mean_square = mean_square_at(a, b, pose, kSearchOverlap);
+        const MapPose pose{centre.shift_x_m + i * step_m, centre.shift_y_m + j * step_m,
+                           turn_deg * std::numbers::pi / 180};
+        const double mean_square = mean_square_at(a, b, pose, kRegistrationOverlap);
         if (mean_square < 0) continue;
         if (best.first < 0 || mean_square < best.first) best = {mean_square, pose};
       }
@@ -85,7 +86,8 @@ std::vector<MapPose> turned_starts(const Places& a, const Surface& b) {
 class Registration {
  public:
   Registration(const SurfaceMap& a, const SurfaceMap& b, const Surface& surface)
-      : b_(surface),
+      : b_map_(b),
+        b_(surface),
         pixel_m_(std::min(std::min(a.dx_m, a.dy_m), std::min(b.dx_m, b.dy_m))),
         flat_(without_plane(a)),
         search_places_(places_of(flat_, kForSearch)),
@@ -205,17 +207,18 @@ class Registration {
   // The forms of A and B may differ. Therefore the residual must be much smaller, also over the
   // places that are common to both poses.
   bool is_much_better(const PoseFit& other, const PoseFit& fit) const {
-    if (overlap(other) < kSearchOverlap) return false;
+    if (overlap(other) < kRegistrationOverlap) return false;
     const std::vector<bool> counts = measured(other);
     if (!(left(other, counts).size_m < kAcceptedResidualRatio * left(own_, counts).size_m))
       return false;
     const MeanLeft there = left(other, common(other, fit)), here = left(fit, common(fit, other));
-    if (std::min(there.share, here.share) < kLeastOverlap) return overlap(fit) < kSearchOverlap;
+    if (std::min(there.share, here.share) < kLeastOverlap)
+      return overlap(fit) < kRegistrationOverlap;
     return there.size_m < kAcceptedResidualRatio * here.size_m;
   }
   bool is_found(const PoseFit& fit) const {
     const std::vector<bool> counts = measured(fit);
-    return overlap(fit) >= kSearchOverlap &&
+    return overlap(fit) >= kRegistrationOverlap &&
            left(fit, counts).size_m <= kAlike * left(own_, counts).size_m;
   }
 
@@ -230,13 +233,26 @@ class Registration {
       fit = std::move(other);
       has_better_pose = true;
     };
-    take({});
-    if (!is_found(fit)) take(searched(search_places_, b_));
-    if (!is_found(fit))
-      for (const MapPose& start : turned_starts(places_of(flat_, kForTurns), b_)) take(start);
+    std::vector<MapPose> centres(1);
+    if (overlap(fit) < kRegistrationOverlap) centres.push_back(with_common_middle());
+    for (const MapPose& centre : centres)
+      if (!is_found(fit)) take(centre);
+    for (const MapPose& centre : centres)
+      if (!is_found(fit)) take(searched(search_places_, b_, centre));
+    for (const MapPose& centre : centres)
+      if (!is_found(fit))
+        for (const MapPose& start : turned_starts(places_of(flat_, kForTurns), b_, centre))
+          take(start);
     return has_better_pose;
   }
+  // The pose in which the middles of both maps coincide. The origins of maps may be at the middle
+  // or at a corner of the part.
+  MapPose with_common_middle() const {
+    const Places b = places_of(b_map_, 1);
+    return {b.x_mid_m - search_places_.x_mid_m, b.y_mid_m - search_places_.y_mid_m, 0};
+  }
 
+  const SurfaceMap& b_map_;
   const Surface& b_;
   double pixel_m_;
   SurfaceMap flat_;

@@ -19,6 +19,9 @@ struct MapPose {
   double shift_x_m = 0, shift_y_m = 0, turn_rad = 0;
 };
 
+// A movement that a search finds must have a counterpart in B for this share of the pixels of A.
+inline constexpr double kRegistrationOverlap = 0.6;
+
 struct Comparison {
   SurfaceMap difference;  // B - A, over the pixels of A
   MapPose pose;

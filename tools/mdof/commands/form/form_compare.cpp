@@ -71,9 +71,14 @@ Notices notices_of(const Compared& compared, const FormCompareCommand& o) {
                              {{"mirrored", compared.mirrored->mirrored},
                               {"rms_um", to_um(found.rms_m)},
                               {"mirrored_rms_um", to_um(compared.mirrored->mirrored_rms_m)}}));
-  if (found.undetermined > 0)
-    notices.push_back(
-        notice(NoticeCode::map_movements_undetermined, o.a, {{"directions", found.undetermined}}));
+  if (found.undetermined > 0) {
+    // With fewer common pixels, mdof does not accept a movement.
+    const bool has_overlap = static_cast<double>(found.pixels) >=
+                             algo::kRegistrationOverlap * static_cast<double>(compared.measured);
+    notices.push_back(notice(
+        has_overlap ? NoticeCode::map_movements_undetermined : NoticeCode::map_overlap_too_small,
+        o.a, {{"directions", found.undetermined}}));
+  }
   if (found.moved_m > kPixelsMoved * compared.pixel_m && found.residual_ratio > kMuchLeft)
     notices.push_back(
         notice(NoticeCode::map_movement_gains_little, o.b,
@@ -84,10 +89,15 @@ Notices notices_of(const Compared& compared, const FormCompareCommand& o) {
 
 // The search takes several seconds for the largest maps.
 constexpr std::size_t kMostForMirrored = 4'000'000;
+// The first search of the registration turns B by up to 10 degrees. A mirrored map may match better
+// in a larger turn that is false.
+constexpr double kFarTurn_rad = 10 * std::numbers::pi / 180;
 
 std::optional<algo::MirroredMatch> mirrored_match(const SurfaceMap& a, const SurfaceMap& b,
                                                   const algo::Comparison& found) {
-  if (b.z_m.size() > kMostForMirrored || found.residual_ratio <= kMuchLeft) return {};
+  const bool is_far_turned = std::abs(found.pose.turn_rad) > kFarTurn_rad;
+  if (b.z_m.size() > kMostForMirrored || (found.residual_ratio <= kMuchLeft && !is_far_turned))
+    return {};
   const auto match = algo::mirrored_match(a, b);
   return match && match->mirrored_rms_m < kMuchLeft * found.rms_m ? match : std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace mdof::algo {
 namespace {
@@ -30,15 +31,16 @@ void add_derivative(double at_0, double at_1, std::array<double, 6>& w) {
     w[k + 1] += at_1 * kFive[k];
   }
 }
-Weights six(double t) {
+// at_0, at_1: factors of the terms with height and derivative at the pixels 0 and 1.
+Weights six(double t, double at_0 = 1, double at_1 = 1) {
   const double u = 1 - t;
   Weights w;
-  w.value[2] = (1 + 2 * t) * u * u;
-  w.value[3] = (3 - 2 * t) * t * t;
-  add_derivative(t * u * u, -t * t * u, w.value);
-  w.slope[2] = -6 * t * u;
-  w.slope[3] = 6 * t * u;
-  add_derivative(u * (u - 2 * t), t * (t - 2 * u), w.slope);
+  w.value[2] = at_0 * ((1 + 2 * t) * u * u);
+  w.value[3] = at_1 * ((3 - 2 * t) * t * t);
+  add_derivative(at_0 * (t * u * u), at_1 * (-t * t * u), w.value);
+  w.slope[2] = at_0 * (-6 * t * u);
+  w.slope[3] = at_1 * (6 * t * u);
+  add_derivative(at_0 * (u * (u - 2 * t)), at_1 * (t * (t - 2 * u)), w.slope);
   return w;
 }
 Weights four(double t) {
@@ -81,6 +83,13 @@ Surface::Surface(const SurfaceMap& map, std::size_t extension, Extension how)
         z_m_[(j + pad) * nx_ + i + pad] = z;
         ring_[(j + pad) * nx_ + i + pad] = 0;
       }
+  if (how == Extension::line) {
+    const std::vector<double> z_m = z_m_;
+    const std::vector<std::uint8_t> ring = ring_;
+    extend(kForSlopes, Extension::parabola);
+    near_m_ = std::exchange(z_m_, z_m);
+    ring_ = ring;
+  }
   extend(rings, how);
 }
 
@@ -154,7 +163,9 @@ bool Surface::at(double x_m, double y_m, std::size_t rings, SurfacePoint& point)
   if (left && above) farthest = std::max(farthest, ring[nx_]);
   if (right && above) farthest = std::max(farthest, ring[nx_ + 1]);
   if (farthest > rings || farthest == kNone) return false;
-  const double* const z = z_m_.data() + (j - 2) * nx_ + i - 2;
+  const std::size_t corner = (j - 2) * nx_ + i - 2;
+  const bool has_near = !near_m_.empty(), is_measured = farthest == 0;
+  const double* z = (has_near && is_measured ? near_m_ : z_m_).data() + corner;
   const auto sum = [&](const Weights& wx, const Weights& wy, std::size_t first, std::size_t last) {
     double value = 0, slope_x = 0, slope_y = 0;
     for (std::size_t b = first; b <= last; ++b) {
@@ -171,6 +182,24 @@ bool Surface::at(double x_m, double y_m, std::size_t rings, SurfacePoint& point)
     point = {value, slope_x / dx_m_, slope_y / dy_m_};
     return !std::isnan(value) && !std::isnan(slope_x) && !std::isnan(slope_y);
   };
+  // Between measured and extrapolated pixels, each corner has the slopes of its own kind, so that
+  // the surface and its slopes stay continuous.
+  const auto sum_of_corners = [&] {
+    SurfacePoint all;
+    for (const std::size_t b : {0, 1})
+      for (const std::size_t a : {0, 1}) {
+        z = (ring[b * nx_ + a] == 0 ? near_m_ : z_m_).data() + corner;
+        const bool is_known = sum(six(tx, a == 0, a == 1), six(ty, b == 0, b == 1), 0, 5);
+        z = z_m_.data() + corner;
+        if (!is_known) return false;
+        all = {all.z_m + point.z_m, all.slope_x + point.slope_x, all.slope_y + point.slope_y};
+      }
+    point = all;
+    return true;
+  };
+  const bool is_mixed =
+      has_near && !is_measured && std::min({ring[0], ring[1], ring[nx_], ring[nx_ + 1]}) == 0;
+  if (is_mixed && sum_of_corners()) return true;
   if (sum(six(tx), six(ty), 0, 5) || sum(four(tx), four(ty), 1, 4)) return true;
   // Linear interpolation. A pixel with a negligible contribution may be missing.
   const auto pixel = [&](std::size_t a, std::size_t b, double otherwise) {

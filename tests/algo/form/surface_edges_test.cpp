@@ -218,5 +218,50 @@ TEST(SurfaceAtItsEnd, UsesThreePixelsThenStraightLines) {
   EXPECT_FALSE(surface_at(surface, -kOutermost - 0.1, 4, 300, p));
 }
 
+// A disc of a paraboloid: the line extends the heights beyond the edge, but it changes no height
+// between measured pixels.
+TEST(SurfaceEdges, MeasuredHeightsDoNotDependOnTheExtension) {
+  const auto z = [](double i, double j) { return 0.3 * i * i - 0.2 * j * j + 0.1 * i * j + i; };
+  const auto map = map_in_pixels(25, 25, [&](double i, double j) {
+    return std::pow(i - 12, 2) + std::pow(j - 12, 2) > 121 ? SurfaceMap::kMissing : z(i, j);
+  });
+  const Surface surface(map, 3, Extension::line);
+  std::size_t measured = 0;
+  for (double i = 0; i <= 24; i += 0.1)
+    for (double j = 0; j <= 24; j += 0.1) {
+      SurfacePoint p;
+      if (!surface_at(surface, i, j, 0, p)) continue;
+      ++measured;
+      ASSERT_NEAR(p.z_m, z(i, j), 1e-10) << i << ' ' << j;
+      ASSERT_NEAR(p.slope_x * kColumn_m, 0.6 * i + 0.1 * j + 1, 1e-9) << i << ' ' << j;
+      ASSERT_NEAR(p.slope_y * kRow_m, -0.4 * j + 0.1 * i, 1e-9) << i << ' ' << j;
+    }
+  EXPECT_GT(measured, 30'000u);
+}
+
+// Height and slopes do not jump where the path leaves the measured pixels.
+TEST(SurfaceEdges, AreContinuous) {
+  const auto map = map_in_pixels(25, 25, [](double i, double j) {
+    return std::pow(i - 12, 2) + std::pow(j - 12, 2) > 121
+               ? SurfaceMap::kMissing
+               : std::sin(i / 3) * std::cos(j / 4) - 0.02 * i * i;
+  });
+  const Surface surface(map, 3, Extension::line);
+  constexpr double kStep = 1e-7;
+  for (double i = 1; i <= 23; i += 1)
+    for (double j = 1.03; j <= 23; j += 0.1)
+      for (const bool along_x : {true, false}) {
+        SurfacePoint before, after;
+        const double di = along_x ? kStep : 0, dj = along_x ? 0 : kStep;
+        const double x = along_x ? i : j, y = along_x ? j : i;
+        if (!surface_at(surface, x - di, y - dj, 3, before) ||
+            !surface_at(surface, x + di, y + dj, 3, after))
+          continue;
+        ASSERT_NEAR(before.z_m, after.z_m, 1e-5) << x << ' ' << y;
+        ASSERT_NEAR(before.slope_x * kColumn_m, after.slope_x * kColumn_m, 1e-5) << x << ' ' << y;
+        ASSERT_NEAR(before.slope_y * kRow_m, after.slope_y * kRow_m, 1e-5) << x << ' ' << y;
+      }
+}
+
 }  // namespace
 }  // namespace mdof::algo

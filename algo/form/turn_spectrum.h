@@ -63,7 +63,7 @@ class TurnSpectrum {
   double band_harmonic_;
   std::function<double(std::size_t turn)> error_;
   std::vector<double> turn_;
-  // Of harmonic h: largest amplitude that counts in any turn except the last; amplitude in the last
+  // For harmonic h: largest amplitude that counts in any turn except the last; amplitude in the last
   // turn; amplitude that a kink of slope 1 per turn leaves.
   std::vector<double> largest_, last_, bend_;
   std::vector<std::complex<double>> work_;

@@ -63,8 +63,8 @@ class TurnSpectrum {
   double band_harmonic_;
   std::function<double(std::size_t turn)> error_;
   std::vector<double> turn_;
-  // For harmonic h: largest amplitude that counts in any turn except the last; amplitude in the last
-  // turn; amplitude that a kink of slope 1 per turn leaves.
+  // For harmonic h: largest amplitude that counts in any turn except the last; amplitude in the
+  // last turn; amplitude that a kink of slope 1 per turn leaves.
   std::vector<double> largest_, last_, bend_;
   std::vector<std::complex<double>> work_;
   std::size_t turns_ = 0;

@@ -115,7 +115,10 @@ class Registration {
     const PoseFit moved = plane_fit_at_pose(search_places_, b_, pose),
                   at_rest = plane_fit_at_pose(search_places_, b_, {});
     const double before_m = left(at_rest, common(at_rest, moved)).size_m;
-    if (before_m > 0) residual_ratio_ = left(moved, common(moved, at_rest)).size_m / before_m;
+    if (overlap(at_rest) < kRegistrationOverlap)
+      residual_ratio_ = 0;
+    else if (before_m > 0)
+      residual_ratio_ = left(moved, common(moved, at_rest)).size_m / before_m;
     moved_m_ =
         std::hypot(pose.shift_x_m, pose.shift_y_m) +
         std::abs(std::remainder(pose.turn_rad, 2 * std::numbers::pi)) * search_places_.size_m / 2;

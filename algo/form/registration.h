@@ -31,7 +31,8 @@ struct Comparison {
   // correlated.
   std::size_t undetermined = 0;
   // Mean absolute residual with the movement of B, divided by the mean absolute residual without
-  // this movement. Piston and tilt are removed in both cases. 1 if B is not moved.
+  // this movement. Piston and tilt are removed in both cases. 1 if B is not moved. 0 if the maps
+  // have too few common pixels without the movement (kRegistrationOverlap).
   double residual_ratio = 1;
   double moved_m = 0;          // upper bound of the displacement of any place of A by the movement
   double pv_m = 0, rms_m = 0;  // of `difference`; rms_m about the mean

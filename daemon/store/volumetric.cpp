@@ -260,7 +260,8 @@ Result<double> Store::measured_s(std::int64_t run) {
   return row.real(0);
 }
 
-// If the start is not known, the run has the day that the rig states (and was measured before it
+// Times are compared as texts, so the start has milliseconds like the times of activations. If the
+// start is not known, the run has the day that the rig states (and was measured before it
 // was stored), or the time of its evaluation. '9' is later than every time.
 Result<TablesOfRun> Store::active_during(const RunHeader& run,
                                          std::optional<std::int64_t> continued) {
@@ -270,7 +271,8 @@ Result<TablesOfRun> Store::active_during(const RunHeader& run,
     length_s = std::max(0.0, length_s - before_s);
   }
   constexpr std::string_view kMeasured =
-      "WITH measured AS (SELECT axis, started_utc AS start, CASE WHEN ?2 THEN "
+      "WITH measured AS (SELECT axis, CASE WHEN ?2 THEN strftime('%Y-%m-%dT%H:%M:%fZ', "
+      "started_utc) ELSE started_utc END AS start, CASE WHEN ?2 THEN "
       "strftime('%Y-%m-%dT%H:%M:%fZ', started_utc, ?3 || ' seconds') "
       "WHEN length(started_utc) = 10 THEN min(date(started_utc, '+1 day'), coalesce((SELECT "
       "max(utc) FROM deed WHERE name = 'run.replay' AND row = ?1), '9')) "

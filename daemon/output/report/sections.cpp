@@ -257,9 +257,8 @@ void write_decided(Html& html, const std::vector<Decided>& decided,
   std::vector<std::vector<std::string>> rows;
   for (const auto& [figure, decision] : decided) {
     const Budget* budget = find_budget(budgets, figure);
-    const double U = budget ? to_key_unit(budget->U) : std::nan("");
     rows.push_back({charts::split_key(figure).name,
-                    budget ? value_text(to_key_unit(budget->value), U) : "–",
+                    budget ? value_text(to_key_unit(budget->value), to_key_unit(budget->u)) : "–",
                     charts::number_text(to_key_unit(decision.limit), 6), key_unit(figure),
                     conformity_text(decision.conformity, language),
                     decision.rule +

@@ -140,7 +140,7 @@ std::string squareness_svg(const SquarenessResults& results, Language language) 
                                    {std::to_string(s.run_a), std::to_string(s.run_b), a, b_axis});
   const double U = to_urad(b.U);
   const std::string angle =
-      name + " = " + value_text(to_urad(s.error_rad), U) + " µrad, " +
+      name + " = " + value_text(to_urad(s.error_rad), to_urad(b.u)) + " µrad, " +
       (U > 0 ? phrase(Phrase::U_and_k, language,
                       {uncertainty_text(U) + " µrad", fixed_text(b.coverage_factor, 2)})
              : std::string(phrase(Phrase::U_is_unknown, language)));
@@ -173,7 +173,8 @@ std::string squareness_svg(const SquarenessResults& results, Language language) 
       svg, y, [&](double along, double c) { return picture.on_y(along, c); }, -1, b_axis.c_str());
   const double right = picture.panel.corner.x + kPicturePx + 24;
   svg.text("text title", {right, top + 60}, Anchor::start, name);
-  svg.text("text", {right, top + 86}, Anchor::start, value_text(to_urad(s.error_rad), U) + " µrad");
+  svg.text("text", {right, top + 86}, Anchor::start,
+           value_text(to_urad(s.error_rad), to_urad(b.u)) + " µrad");
   svg.text("text", {right, top + 108}, Anchor::start,
            U > 0 ? "U = " + uncertainty_text(U) + " µrad" : phrase(Phrase::U_is_unknown, language));
   svg.end_group();

@@ -178,16 +178,17 @@ std::string figure_line(const StatedResults& results, const StraightnessOfError&
   if (!both) return "";
   const std::string figure = std::string(error.name->name) + "_straightness_um";
   const Budget* budget = find_budget(results.figures.budgets, figure);
-  const double U_um = budget ? to_um(budget->U) : std::nan("");
+  const double U_um = budget ? to_um(budget->U) : std::nan(""),
+               u_um = budget ? to_um(budget->u) : std::nan("");
   const std::string U =
       budget ? phrase(Phrase::U_and_k, language,
                       {uncertainty_text(U_um) + " µm", fixed_text(budget->coverage_factor, 2)})
              : phrase(Phrase::U_is_unknown, language);
   return std::string(error.name->name) + ": " +
          phrase(Phrase::straightness_value, language,
-                {value_text(to_um(both->lines->least_squares.zone_m), U_um), U,
-                 value_text(to_um(both->lines->end_point.zone_m), U_um),
-                 value_text(to_um(both->lines->minimum_zone.zone_m), U_um)});
+                {value_text(to_um(both->lines->least_squares.zone_m), u_um), U,
+                 value_text(to_um(both->lines->end_point.zone_m), u_um),
+                 value_text(to_um(both->lines->minimum_zone.zone_m), u_um)});
 }
 
 }  // namespace

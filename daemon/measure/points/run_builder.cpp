@@ -11,6 +11,7 @@
 #include "daemon/measure/completeness.h"
 #include "daemon/measure/drift_treatment.h"
 #include "daemon/measure/points/point_solver.h"
+#include "schema/units.h"
 
 namespace mdof::daemon {
 

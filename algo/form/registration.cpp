@@ -237,7 +237,8 @@ class Registration {
       has_better_pose = true;
     };
     std::vector<MapPose> centres(1);
-    if (overlap(fit) < kRegistrationOverlap) centres.push_back(with_common_middle());
+    if (overlap(fit) > 0 && overlap(fit) < kRegistrationOverlap)
+      centres.push_back(with_common_middle());
     for (const MapPose& centre : centres)
       if (!is_found(fit)) take(centre);
     for (const MapPose& centre : centres)

@@ -376,7 +376,7 @@ TEST(CertifiedProbe, SelectsAResultByNameOrType) {
                       ErrorCode::usage));
   c.results.clear();
   EXPECT_TRUE(refused(of_b(rig, c, "left"), {"c.xml: ", "none"}, ErrorCode::usage));
-  EXPECT_TRUE(refused(of_b(rig, c), {"c.xml: ", "no sensitivity"}));
+  EXPECT_TRUE(refused(of_b(rig, c), {"c.xml: ", "neither a sensitivity"}));
 }
 
 // Quantities with another unit, without a second column, or without a list are ignored.
@@ -391,7 +391,7 @@ TEST(CertifiedProbe, IgnoresUnrelatedQuantities) {
   const Rig rig = rig_of(40, 0);
   others.push_back(e);
   EXPECT_TRUE(
-      refused(of_b(rig, certificate({r, e}, {{r}, others})), {"c.xml: ", "no sensitivity"}));
+      refused(of_b(rig, certificate({r, e}, {{r}, others})), {"c.xml: ", "neither a sensitivity"}));
   others.push_back(r);
   EXPECT_TRUE(of_b(rig, certificate({}, {others})));
 }

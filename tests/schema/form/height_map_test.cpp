@@ -97,7 +97,7 @@ TEST(HeightMapCsv, ErrorsNameTheLine) {
       {head + "0,0,1\n1,0,one\n", "map.csv:3: column 3 is \"one\""},
       {head + "0,0,1\n1,0,inf\n", "not a finite number"},
       {head + "0,0,1\n,0,1\n", "map.csv:3: the line has no position"},
-      {head + "0,0,1\n1,0,2\n# again\n0,0,3\n", "map.csv:5: a second height"},
+      {head + "0,0,1\n1,0,2\n# again\n0,0,3\n", "map.csv:5: the file contains a second height"},
       {head + "0,0,1\n0,0,1\n", "same position"},
       {head + "0,0,nan\n1,0,\n", "no pixel has a height"},
       {head + "0,0,1\n1,0,1e308\n", "map.csv:3: 1e+302 m is too large"},

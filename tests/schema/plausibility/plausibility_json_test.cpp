@@ -34,7 +34,8 @@ TEST(PlausibilityJson, IsReadAsItWasWritten) {
 }
 
 // Renames one member after another. A missing member must be an error and must not be read as 0.
-// Members that only people read are an exception (target, targets, left_out_total).
+// Members that only people read are an exception (target, targets, left_out_total), and duration_s,
+// which older documents do not contain.
 TEST(PlausibilityJson, ReportsAMissingMember) {
   const std::string json = plausibility_json(example());
   const std::regex key(R"re("([A-Za-z_]+)":)re");
@@ -42,7 +43,8 @@ TEST(PlausibilityJson, ReportsAMissingMember) {
   for (auto at = std::sregex_iterator(json.begin(), json.end(), key); at != std::sregex_iterator();
        ++at, ++members) {
     const std::string name = (*at)[1];
-    const bool for_people = name == "target" || name == "targets" || name == "left_out_total";
+    const bool for_people =
+        name == "target" || name == "targets" || name == "left_out_total" || name == "duration_s";
     std::string damaged = json;
     damaged[static_cast<std::size_t>(at->position(1))] ^= 1;
     const auto back = read_plausibility_json(damaged);

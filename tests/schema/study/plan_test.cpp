@@ -219,8 +219,8 @@ TEST_F(SampleFile, IsOneColumnWithCommentsAndOptionalHeading) {
 }
 
 TEST_F(SampleFile, ErrorsStateTheFault) {
-  EXPECT_NE(load("").error().message.find("0 values"), std::string::npos);
-  EXPECT_NE(load("5\n").error().message.find("1 values"), std::string::npos);
+  EXPECT_NE(load("").error().message.find("0 value(s)"), std::string::npos);
+  EXPECT_NE(load("5\n").error().message.find("1 value(s)"), std::string::npos);
   EXPECT_NE(load("K\n5\n6,7\n").error().message.find(":3: \"6,7\""), std::string::npos);
   EXPECT_NE(load("5\nnan\n6\n").error().message.find(":2:"), std::string::npos);
 }

@@ -94,8 +94,8 @@ std::string refused(const std::vector<PositioningReading>& readings) {
 }
 
 TEST(Positioning, RefusesInvalidReadings) {
-  EXPECT_NE(refused({}).find("0 targets"), std::string::npos);
-  EXPECT_NE(refused({{0, 1, 1, 1}, {0, 1, 2, 2}}).find("1 targets"), std::string::npos);
+  EXPECT_NE(refused({}).find("0 target(s)"), std::string::npos);
+  EXPECT_NE(refused({{0, 1, 1, 1}, {0, 1, 2, 2}}).find("1 target(s)"), std::string::npos);
   auto readings = two_targets();
   readings[1].direction = 0;
   EXPECT_NE(refused(readings).find("target 0 mm, run 1: the direction is 0"), std::string::npos);

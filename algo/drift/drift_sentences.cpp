@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "schema/base/number/number_text.h"
+#include "schema/base/number/uncertainty_digits.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -13,25 +14,14 @@ namespace {
 
 constexpr double kSecondsPerMinute = 60, kSecondsPerHour = 3600;
 
-// Returns the number of decimals for two significant digits of u (GUM 7.2.6) after rounding: 0.0996
-// is 0.10. Negative: u is rounded to tens, hundreds, ...
-int decimals_of(double u, int otherwise) {
-  constexpr int kMostDecimals = 9;
-  if (!(u > 0) || !std::isfinite(u)) return otherwise;
-  const auto exponent = static_cast<int>(std::floor(std::log10(u)));
-  const double two_digits = std::round(u * std::pow(10.0, 1 - exponent));  // between 10 and 100
-  return std::min(1 - exponent - (two_digits >= 100 ? 1 : 0), kMostDecimals);
-}
-
 std::string change_text(const ErrorName& name, const SeriesDrift& drift, double sign) {
   const double u = to_key_unit(drift.u_change);
-  const int decimals = decimals_of(u, name.angle ? 2 : 4);
-  const double place = std::pow(10.0, -decimals);
-  const auto rounded = [&](double x) { return decimals < 0 ? std::round(x / place) * place : x; };
+  const bool known = u > 0 && std::isfinite(u);
+  const int decimals = known ? uncertainty_decimals(u) : name.angle ? 2 : 4;
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(), "%s %+.*f ± %.*f %s", name.name, std::max(0, decimals),
-                rounded(to_key_unit(sign * drift.change)), std::max(0, decimals), rounded(u),
-                name.angle ? "µrad" : "µm");
+                rounded_to_tens(to_key_unit(sign * drift.change), decimals), std::max(0, decimals),
+                rounded_to_tens(u, decimals), name.angle ? "µrad" : "µm");
   return text.data();
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "schema/base/number/number.h"
+#include "schema/base/number/uncertainty_digits.h"
 
 namespace mdof::charts {
 namespace {
@@ -47,22 +48,10 @@ bool begins_character(char c) {
   return (c & 0xC0) != 0x80;  // only continuation bytes of UTF-8 begin with 10
 }
 
-// Decimals for two significant digits of u after rounding: 0.0996 is 0.10. Negative: tens,
-// hundreds, ...
-int decimals_of(double u) {
-  constexpr int kMostDecimals = 9;
-  char buffer[32];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, u, std::chars_format::scientific, 1);
-  double rounded = u;
-  parse_double(buffer, end.ptr, rounded);
-  return std::min(1 - decimal_exponent(rounded), kMostDecimals);
-}
-
-std::string rounded_text(double x, int decimals) {
-  if (decimals >= 0) return fixed_text(x, decimals);
-  const double place = power_of_ten(-decimals);
-  return fixed_text(std::round(x / place) * place, 0);
+// x, rounded to the second significant digit of u.
+std::string rounded_text(double x, double u) {
+  const int decimals = uncertainty_decimals(u);
+  return fixed_text(rounded_to_tens(x, decimals), std::max(0, decimals));
 }
 
 }  // namespace
@@ -111,11 +100,11 @@ std::string number_text(double x, int digits) {
 
 std::string uncertainty_text(double u) {
   if (u == 0) return "0";
-  return u > 0 && std::isfinite(u) ? rounded_text(u, decimals_of(u)) : "–";
+  return u > 0 && std::isfinite(u) ? rounded_text(u, u) : "–";
 }
 
 std::string value_text(double value, double u) {
-  return u > 0 && std::isfinite(u) ? rounded_text(value, decimals_of(u)) : number_text(value);
+  return u > 0 && std::isfinite(u) ? rounded_text(value, u) : number_text(value);
 }
 
 std::string power_text(int exponent) {

@@ -4,9 +4,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 
+#include "schema/base/number/uncertainty_digits.h"
 #include "schema/units.h"
 #include "tools/mdof/terminal.h"
 
@@ -205,14 +204,9 @@ std::string in_urad(double x_rad) {
 }
 
 std::string to_place(double x, double u, int otherwise) {
-  constexpr int kMostDecimals = 9;
   if (!(u > 0) || !std::isfinite(u) || !std::isfinite(x)) return fixed(x, otherwise);
-  char digits[32];  // u after rounding: 0.0996 is 0.10
-  std::snprintf(digits, sizeof digits, "%.1e", u);
-  const int decimals = 1 - std::atoi(std::strchr(digits, 'e') + 1);
-  if (decimals >= 0) return fixed(x, std::min(decimals, kMostDecimals));
-  const double place = std::pow(10.0, -decimals);
-  return fixed(std::round(x / place) * place, 0);
+  const int decimals = uncertainty_decimals(u);
+  return fixed(rounded_to_tens(x, decimals), std::max(0, decimals));
 }
 
 std::string um_to_place(double x_m, double u_m) {

@@ -34,7 +34,7 @@ class DriftProcess {
   // Degrees of freedom of the white noise.
   static double freedom_of_noise(const DriftDesign& design);
   // Degrees of freedom of u(). The models have different u, which reduces the degrees of freedom
-  // (GUM G.4.2, Eq. G.3).
+  // (GUM G.4.2, Eq. G.3), but not below 1.8 (kMostDisagreement).
   double freedom(Eigen::Index series) const { return freedom_(series); }
   // Returns the value of each term of the drift at a time; 0 at the first visit.
   Eigen::VectorXd terms(double time_s) const;

@@ -69,8 +69,8 @@ class TurnSpectrum {
   std::vector<std::complex<double>> work_;
   std::size_t turns_ = 0;
   double squares_ = 0, least_ = 0, most_ = 0, height_ = 0;
-  double change_ =
-      0;             // height of the start of the next turn minus height of the start of this turn
+  // Height of the start of the next turn minus height of the start of this turn.
+  double change_ = 0;
   double step_ = 0;  // `change_` minus the `change_` of the turn before
 };
 

@@ -58,7 +58,8 @@ Result<Chain> parse_chain(std::string_view text) {
     } else if (link.size() == 1 && is_axis(link[0]) && !chain.find(link[0])) {
       chain.axes.push_back({link[0], !bed, false});
     } else {
-      return no_chain(text, "\"" + link + "\" is given twice, or is none of b, X, Y, Z, A, B, C");
+      return no_chain(text,
+                      "\"" + link + "\" is given twice, or is not one of b, X, Y, Z, A, B, C");
     }
   }
   if (!bed) return no_chain(text, "the bed b is missing");

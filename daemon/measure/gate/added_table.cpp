@@ -72,6 +72,17 @@ Result<Notices> added_notices(store::Store& store, const CompensationTable& tabl
   return found;
 }
 
+Result<Notices> check_run_notices(store::Store& store, std::int64_t run) {
+  MDOF_TRY(const auto active, applied_tables(store, run));
+  if (active.tables.size() != 1 || active.changed) return Notices();
+  TableRequest request;
+  request.runs = {run};
+  request.partial = true;
+  request.add_to = active.tables.front();
+  const auto sum = calculate_table(store, request);
+  return sum ? added_notices(store, sum->table) : Notices();
+}
+
 Notice statement_of_sum(const CompensationTable& table) {
   const CorrectionSigns signs =
       correction_signs(table.machine, table.axis, table.sides, table.stated.reference);

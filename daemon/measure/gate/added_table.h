@@ -20,6 +20,11 @@ Result<CompensationTable> applied_table(store::Store& store, TableRequest& reque
 // of both tables differ. Empty for other tables.
 Result<Notices> added_notices(store::Store& store, const CompensationTable& table);
 
+// For a check run: the notices of algo::residual_notices() about the table that was active during
+// the run. Empty if this table cannot be compared with the run: another table or none was active,
+// the tables changed during the run, the table is volumetric, or the targets differ.
+Result<Notices> check_run_notices(store::Store& store, std::int64_t run);
+
 // The information which errors of a sum contain the values of the applied table, and which do not.
 Notice statement_of_sum(const CompensationTable& table);
 

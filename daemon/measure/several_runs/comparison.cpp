@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "algo/sequence/usable_runs.h"
+#include "daemon/measure/gate/added_table.h"
 #include "daemon/measure/imported/imported_run.h"
 #include "daemon/measure/imported/positioning_figures.h"
 #include "daemon/measure/several_runs/change_at_targets.h"
@@ -248,7 +249,9 @@ Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& re
   MDOF_CHECK(add_figures(found, first.budgets, second.budgets));
   add_points(store, before, after, request.reference, found);
   add_change_at_targets(found);
-  for (Notice& notice : second.notices) found.notices.push_back(std::move(notice));
+  append(found.notices, std::move(second.notices));
+  MDOF_TRY(Notices of_table, check_run_notices(store, request.after));
+  append(found.notices, std::move(of_table));
   return found;
 }
 

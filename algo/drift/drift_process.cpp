@@ -22,8 +22,8 @@ constexpr std::array kStarts = {0.0, 0.1, 0.02};
 constexpr std::array kCorrelations = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};  // in lengths of the log
 // Standard deviations of the smooth part, and of the random walk at the end of the log, relative to
 // the white noise.
-constexpr std::array kSmooth = {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0};
-constexpr std::array kWalks = {0.0, 1.5, 5.0, 15.0, 50.0};
+constexpr std::array kSmooth = {1.0, 6.0, 36.0, 216.0};
+constexpr std::array kWalks = {0.0, 1.0, 2.0, 4.0, 7.0, 12.0, 25.0, 50.0};
 // Limit of the relative variance of u² between the models. The distribution over all models is
 // symmetric and has one maximum, so its 95 % interval is at most 2.98 u wide on each side
 // (Vysochanskij, Petunin, Theory Probab. Math. Statist. 21 (1980) 25). This is k of
@@ -61,11 +61,15 @@ Eigen::Index first_wave(std::size_t clock) {
 
 }  // namespace
 
-// The trend a t, the first term, has no known variance.
+// The trend a t, the first term, has no known variance. Before the log is known, one half of the
+// drifts have no smooth part, and all sizes, correlation times and kinds of time of a smooth part
+// are equally likely, as are all sizes of the walk.
 std::vector<DriftProcess::Model> DriftProcess::models() {
+  const double no_smooth_part =
+      natural_log(static_cast<double>(kStarts.size() * kCorrelations.size() * kSmooth.size()));
   std::vector<Model> all;
   const auto add = [&](std::size_t clock, double smooth, double correlation, double walk) {
-    Model model{clock, Eigen::VectorXd::Zero(kTerms), 0};
+    Model model{clock, Eigen::VectorXd::Zero(kTerms), 0, smooth == 0 ? no_smooth_part : 0};
     for (Eigen::Index wave = 1; wave <= kWaves; ++wave) {
       const double variance =
           std::max(variance_of(wave, smooth, correlation, walk), kLeastVariance);
@@ -104,7 +108,8 @@ DriftProcess::Fits DriftProcess::fits_of(const std::vector<Model>& models,
     for (Eigen::Index k = 0; k < series; ++k) {
       const double left = squares(k) - of.by_series.col(k).dot(fits.terms.back().col(k));
       fits.noise2(m, k) = std::max(left / freedom, kLeastNoise2);
-      fits.weights(m, k) = -(log_determinants + freedom * natural_log(fits.noise2(m, k))) / 2;
+      fits.weights(m, k) =
+          model.log_prior - (log_determinants + freedom * natural_log(fits.noise2(m, k))) / 2;
     }
   }
   for (Eigen::Index k = 0; k < series; ++k) normalize_weights(fits.weights.col(k));

@@ -55,6 +55,7 @@ class DriftProcess {
     std::size_t clock;          // kind of time
     Eigen::VectorXd precision;  // 1 / variance of each term, relative to the white noise
     double log_variances;       // sum of the logarithms of the variances
+    double log_prior;           // logarithm of the weight before the log is known
   };
   struct Products {  // sums over the visits, minus the means of the places, for one kind of time
     Eigen::MatrixXd terms, by_series;

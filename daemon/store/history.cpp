@@ -20,11 +20,14 @@ constexpr Changed kChangedRows[] = {
     {"activation",
      "SELECT 'table ' || compensation_table || ' of ' || axis FROM activation WHERE generation = ?",
      Fact::activation},
-    {"deactivation", "SELECT 'table of ' || axis FROM deactivation WHERE generation = ?",
+    {"deactivation",  // the table that was active until then
+     "SELECT 'table ' || (SELECT compensation_table FROM activation WHERE axis = d.axis AND "
+     "generation < d.generation ORDER BY generation DESC LIMIT 1) || ' of ' || axis FROM "
+     "deactivation AS d WHERE generation = ?",
      Fact::deactivation},
     {"volumetric_activation",
-     "SELECT coalesce('table ' || volumetric_table, 'table') || ' of the volume' FROM "
-     "volumetric_activation WHERE generation = ?",
+     "SELECT 'table ' || volumetric_table || ' of the volume' FROM volumetric_activation WHERE "
+     "generation <= ? AND volumetric_table IS NOT NULL ORDER BY generation DESC LIMIT 1",
      Fact::volumetric_activation},
 };
 

@@ -135,7 +135,7 @@ TEST_F(CompensationMethods, HistoryContainsReasonsOfActivationAndDeactivation) {
   call("compensation.activate", R"({"table":1,"despite_warnings":true,"reason":"new guide"})");
   call("compensation.deactivate", R"({"axis":"X","reason":"scraped"})");
   const Answer history = call("history.list", R"({"count":3})");
-  EXPECT_EQ(history.at("/result/history/0/detail"), "\"table of X: scraped\"") << history.text();
+  EXPECT_EQ(history.at("/result/history/0/detail"), "\"table 1 of X: scraped\"") << history.text();
   EXPECT_EQ(history.at("/result/history/1/detail"), "\"table 1 of X: new guide\"");
   EXPECT_EQ(history.at("/result/history/2/detail"), "");
 }

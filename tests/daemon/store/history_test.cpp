@@ -70,7 +70,7 @@ TEST_F(RecordedActions, EachChangeHasItsAction) {
                 "; compensation.activate activation " + std::to_string(on.generation) +
                 "; compensation.build compensation_table 1; ");
   const auto changes = store->list_actions(0, 2).value();
-  EXPECT_EQ(changes[0].detail, "table of X");
+  EXPECT_EQ(changes[0].detail, "table 1 of X");
   EXPECT_EQ(changes[1].detail, "table 1 of X");
   EXPECT_EQ(store->count_actions().value(), 5);
   EXPECT_TRUE(store->verify()->empty());

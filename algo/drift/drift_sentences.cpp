@@ -71,7 +71,9 @@ Notices reversal_notices(const DriftOfRun& drift, const std::vector<MeasuredPoin
                plain_number(change, 2) + (names[k].angle ? " µrad" : " µm");
   }
   if (changes.empty()) return {};
-  return {notice(NoticeCode::drift_in_reversal, "", {{"changes", changes}})};
+  const bool can_be_removed = !is_removed && drift.found().removable();
+  return {notice(can_be_removed ? NoticeCode::drift_in_reversal : NoticeCode::change_in_reversal,
+                 "", {{"changes", changes}})};
 }
 
 Notices over_limit(const RunDrift& drift, const Rig& rig) {

@@ -20,7 +20,6 @@ struct RunToJudge {
   const DwellDetector::Summary& dwells;
   std::uint64_t scans_lost = 0;
   bool targets_given = false;
-  double least_dwell_s = 0;  // shortest stop that is averaged
 };
 
 Plausibility plausibility(const RunToJudge& run);

@@ -177,7 +177,7 @@ void note_lost_stops(const RunToJudge& run, Notices& out) {
                         {"too_short", brief},
                         {"creeping", lost.size() - brief},
                         {"longest_s", longest_s},
-                        {"needed_s", run.least_dwell_s},
+                        {"needed_s", run.dwells.needed_s},
                         {"first_mm", to_mm(lost.front().position_m)}}));
 }
 
@@ -194,7 +194,7 @@ void note_single_place(const RunToJudge& run, Notices& out) {
                        {{"position_mm", to_mm(run.sequence.points.front().target_m)},
                         {"travel_mm", to_mm(travel_m)},
                         {"others", others},
-                        {"needed_s", run.least_dwell_s},
+                        {"needed_s", run.dwells.needed_s},
                         {"tolerance_um", to_um(run.dwells.tolerance_m)}}));
 }
 

@@ -60,6 +60,7 @@ DwellDetector::DwellDetector(DwellOptions options, std::vector<std::string> prob
       buffer_(empty_frames(probe_ids_.size())),
       watch_(probe_ids_.size()) {
   assert(probe_ids_.size() == probe_range_m_.size());
+  summary_.needed_s = options_.shortest_s();
 }
 
 void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
@@ -146,6 +147,9 @@ void DwellDetector::learn_period(const FrameBlock& frames) {
   hole_ns_ = std::max(window_ns(), kHolePeriods * period_ns_);
   origin_ns_ = last_ns_ = frames.time_ns.front();
   summary_.period_s = ns_to_s(period_ns_);
+  // A stop fills one slot less than it is long, because it begins and ends within a slot.
+  summary_.needed_s =
+      std::max(options_.shortest_s(), ns_to_s(slot_ns_) * static_cast<double>(kSlotsPerWindow + 1));
 }
 
 void DwellDetector::begin_travelled_range(double position_m) {
@@ -273,6 +277,8 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
   }
   if (last_stop_is_point_ || !long_enough) take_rest(still_s);
   if (last_stop_is_point_) {
+    // The last slot at rest is not in still_s.
+    summary_.brief_points += still_s + ns_to_s(slot_ns_) < summary_.needed_s ? 1 : 0;
     travel_observed_ = true;
     travelled_range_ = {left_m_, left_m_};
   } else if (summary_.passed_over.size() < kMaxPassedOver) {

@@ -86,6 +86,10 @@ class DwellDetector {
     std::uint64_t unplaced = 0;  // frames without a valid position, not in `scans`
     double longest_still_s = 0;  // longest time within the tolerance
     double tolerance_m = 0;      // current value
+    // mdof finds each stop of at least this length. In a slow log, the steps of the detection are
+    // longer, so this can be more than DwellOptions::shortest_s().
+    double needed_s = 0;
+    std::size_t brief_points = 0;  // points of shorter stops
     // Stops that became no point because they are too short or creep; only the first
     // kMaxPassedOver.
     struct PassedOver {
@@ -138,6 +142,7 @@ class DwellDetector {
   std::int64_t shortest_slot_ns() const {
     return window_ns() / static_cast<std::int64_t>(kSlotsPerWindow);
   }
+  bool is_slow() const { return slot_ns_ > shortest_slot_ns(); }
   void pass_hole();
   void examine_window(bool still);
   void find_encoder_jump();

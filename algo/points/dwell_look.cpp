@@ -19,6 +19,9 @@ constexpr std::size_t kReach = 6;  // rows that find_jump() needs before and aft
 constexpr std::int64_t kGlitch_ns = 1'000'000'000;
 constexpr double kSlowTravel_m = 200e-6;  // a longer travel is a motion, not a creeping stop
 constexpr std::size_t kMostEvents = 10'000;
+// In a slow log, also stops that are just long enough fill too few slots at times. Fewer than one
+// stop in kBriefPart is not reported.
+constexpr std::size_t kBriefPart = 4;
 
 }  // namespace
 
@@ -42,8 +45,7 @@ bool DwellDetector::continues_stop(double position_m) const {
   if (left_ns_ == 0 || std::abs(position_m - left_m_) >= options_.approach_m) return false;
   const double up_m = range_since_stop_.max_m - left_m_, down_m = left_m_ - range_since_stop_.min_m;
   const double farther_m = std::max(up_m, down_m);
-  const bool is_slow = slot_ns_ > shortest_slot_ns();
-  if (is_slow && farther_m > options_.approach_m) return false;
+  if (is_slow() && farther_m > options_.approach_m) return false;
   const bool both_sides = 2 * std::min(up_m, down_m) >= farther_m;
   if (slots_.front().begin_ns - left_ns_ > 2 * slot_ns_)
     return both_sides && farther_m <= options_.approach_m && farther_m > turn_m();
@@ -122,8 +124,16 @@ std::string DwellDetector::why_no_stop() const {
     return "the axis moved slowly for " + longest + ": by at most " + tolerance + " within each " +
            plain_number(options_.window_s) +
            " s, but in total too far for one stop, so mdof cannot separate the stops";
-  return "the axis stayed within " + tolerance + " for at most " + longest +
-         ", but a stop must last " + plain_number(options_.shortest_s()) + " s";
+  const std::string needed =
+      ", but a stop must last " + plain_number(summary_.needed_s, 3) + " s" +
+      (is_slow() ? ", because the log has only " + plain_number(1 / summary_.period_s, 3) +
+                       " scans per second"
+                 : "");
+  if (summary_.longest_still_s == 0)
+    return "the axis never stayed within " + tolerance + " for " +
+           plain_number(ns_to_s(slot_ns_) * static_cast<double>(kSlotsPerWindow), 3) + " s" +
+           needed;
+  return "the axis stayed within " + tolerance + " for at most " + longest + needed;
 }
 
 void DwellDetector::mark(std::vector<Point>& points) const {
@@ -136,7 +146,13 @@ void DwellDetector::mark(std::vector<Point>& points) const {
 }
 
 Notices DwellDetector::notices(const std::vector<Point>& points) const {
-  Notices all = event_notices(events_, points, origin_ns_, options_.shortest_s());
+  Notices all = event_notices(events_, points, origin_ns_, summary_.needed_s);
+  if (kBriefPart * summary_.brief_points >= points.size() && summary_.brief_points > 0)
+    all.push_back(notice(NoticeCode::stops_may_be_missed, "",
+                         {{"stops", summary_.brief_points},
+                          {"points", points.size()},
+                          {"needed_s", summary_.needed_s},
+                          {"rate_hz", 1 / summary_.period_s}}));
   append(all, places_.notices(origin_ns_));
   append(all, probe_notices(watch_, probe_ids_, origin_ns_));
   return all;

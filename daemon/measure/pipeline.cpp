@@ -288,7 +288,6 @@ Result<Run> Pipeline::finish() {
   return build({.sequence = sequence_,
                 .as_read = found_,
                 .summary = dwell_.summary(),
-                .least_dwell_s = options_.dwell.shortest_s(),
                 .residuals = residuals,
                 .targets_m = options_.sequence.targets_m,
                 .first = std::move(first),

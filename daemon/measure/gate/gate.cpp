@@ -62,7 +62,7 @@ Notices without_information(Notices notices) {
 Notices doubtful_notices(Notices notices) {
   for (Notice& each : notices)
     if (each.code == NoticeCode::datum_missing || each.code == NoticeCode::position_lost ||
-        each.code == NoticeCode::drift_in_reversal)
+        each.code == NoticeCode::drift_in_reversal || each.code == NoticeCode::change_in_reversal)
       each.severity = Severity::doubtful;
   return without_information(std::move(notices));
 }

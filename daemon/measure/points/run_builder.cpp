@@ -57,8 +57,7 @@ RunHeader RunBuilder::head(const algo::DwellDetector::Summary& summary) const {
 // Calculates the plausibility of the whole run, and adds the notices about the plausibility.
 void RunBuilder::add_plausibility(const SolvedPoints& points, Run& run) const {
   const bool given = !options_.sequence.targets_m.empty();
-  const algo::RunToJudge whole{rig_,  points.sequence, points.summary,
-                               lost_, given,           points.least_dwell_s};
+  const algo::RunToJudge whole{rig_, points.sequence, points.summary, lost_, given};
   run.plausibility = algo::plausibility(whole);
   if (begin_ns_) run.plausibility->duration_s = ns_to_s(end_ns_ - *begin_ns_);
   Notices& notices = run.header.notices;

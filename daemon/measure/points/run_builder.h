@@ -29,7 +29,6 @@ struct SolvedPoints {
   algo::Sequence sequence;
   const std::vector<Point>& as_read;  // averaged points without corrections
   const algo::DwellDetector::Summary& summary;
-  double least_dwell_s = 0;
   const algo::Residuals& residuals;
   std::vector<double> targets_m;  // requested targets; empty: targets were recognised
   // Notices for four places in the list of notices of the run: `first` at the beginning,

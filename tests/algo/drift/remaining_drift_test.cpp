@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "algo/drift/drift_sentences.h"
 #include "algo/drift/run_drift.h"
 #include "tests/algo/drift/drift_log.h"
 
@@ -21,12 +22,17 @@ TEST(RunDrift, ChangesThatAreNotRemovedAreInTheReversal) {
   EXPECT_NEAR(left[kDy], of_drift_m, 4e-9);
   for (const std::size_t k : {kDz, kEx, kEy, kEz}) EXPECT_EQ(left[k], 0);
   EXPECT_EQ(drift.left_in_reversal(points, true)[kDy], 0);
+  EXPECT_EQ(reversal_notices(drift, points, {}, false).at(0).code, NoticeCode::drift_in_reversal);
+  EXPECT_TRUE(reversal_notices(drift, points, {}, true).empty());
 
   log.reversal = [](int target) { return 20e-9 * target; };  // then the drift may be steps
   const auto varying = log.points();
   const DriftOfRun steps(varying);
   ASSERT_TRUE(steps.found().errors[kDy].steps);
   EXPECT_NEAR(steps.left_in_reversal(varying, true)[kDy], of_drift_m, 8e-9);
+  for (const bool is_removed : {false, true})  // --remove-drift has no effect, so it is no remedy
+    EXPECT_EQ(reversal_notices(steps, varying, {}, is_removed).at(0).code,
+              NoticeCode::change_in_reversal);
 
   log.drift = [](double) { return 0.0; };
   const auto still = log.points();

@@ -53,7 +53,7 @@ Judged judge(const Machine& machine, const std::vector<double>& targets_m, Solve
     errors.valid = solved(i);
     errors.reason = errors.valid ? "" : "probe A is lost";
   }
-  const RunToJudge run{rig, sequence, detector.summary(), 0, !targets_m.empty(), 0.2};
+  const RunToJudge run{rig, sequence, detector.summary(), 0, !targets_m.empty()};
   Judged judged{plausibility(run), sequence.notices};
   append(judged.notices, visit_notices(run));
   return judged;
@@ -325,7 +325,6 @@ TEST(Plausibility, ReportsShiftedTargetsWithTimeAndShift) {
   const RunToJudge run{rig, sequence, dwells};
   EXPECT_EQ(run.scans_lost, 0u);
   EXPECT_FALSE(run.targets_given);
-  EXPECT_EQ(run.least_dwell_s, 0);
   std::size_t reported = 0;
   for (const Notice& notice : visit_notices(run)) {
     if (notice.code != NoticeCode::targets_shifted) continue;

@@ -192,6 +192,19 @@ void write_correction(JsonWriter& json, const CompensationTable& table, const Er
   why.empty() ? json.null() : json.value(why);
 }
 
+// What a table for the mean of both approaches leaves in each approach: half of the reversal value.
+// 0 if the correction is for one approach; NaN if an approach was not measured here.
+Errors5 reversal_left(const CompensationTable& table, double position_m, algo::TableSide side) {
+  Errors5 left{};
+  if (side != algo::TableSide::mean) return left;
+  const auto forward = algo::table_at(table, position_m, algo::TableSide::forward);
+  const auto reverse = algo::table_at(table, position_m, algo::TableSide::reverse);
+  const bool known = forward.inside && reverse.inside;
+  for (std::size_t k = 0; k < left.size(); ++k)
+    left[k] = known ? std::abs(forward.error[k] - reverse.error[k]) / 2 : kNaN;
+  return left;
+}
+
 Result<std::string> at(const Methods& m, const Params& params) {
   if (is_volume(params)) {
     MDOF_CHECK(refuse(params, {"direction", "position_mm"},
@@ -231,10 +244,12 @@ Result<std::string> at(const Methods& m, const Params& params) {
   write_correction(json, table, value.error);
   write_values(json, "u", table.axis, value.u);
   write_values(json, "u_interpolation", table.axis, value.u_interpolation);
+  write_values(json, "reversal_left", table.axis, reversal_left(table, from_mm(position_mm), side));
   write_covers(
       json,
       covers_text(table) +
           "; between targets, u also includes the uncertainty of the interpolation" +
+          (side == algo::TableSide::mean ? kReversalLeft : "") +
           (value.inside ? ""
                         : "; this approach was not measured at this position, so u is unknown"),
       table.not_declared);
@@ -357,10 +372,13 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .result = "the first form of the result is for an axis, the second for the volume",
        .members =
            "{axis, position_mm: number, direction: integer, ...reference, sense, error: errors, "
-           "correction: errors, correction_reason, u: errors, u_interpolation: errors, ...covers, "
+           "correction: errors, correction_reason, u: errors, u_interpolation: errors, "
+           "reversal_left: errors, ...covers, "
            "inside, simulated, doubtful, table, generation}|{axis, {linear}_mm, rotary: rotary, "
-           "correction: by_axis, u: by_axis, u_common: by_axis, u_independent: by_axis, u_covers, "
-           "not_declared, not_measured, inside, approach, simulated, doubtful, table, generation}",
+           "correction: by_axis, u: by_axis, u_common: by_axis, u_independent: by_axis, "
+           "reversal_left: by_axis, "
+           "u_covers, not_declared, not_measured, inside, approach, simulated, doubtful, table, "
+           "generation}",
        .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
        .handler = [&m](const Params& p) { return at(m, p); }});
 }

@@ -215,8 +215,9 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
   write_um(json, "u", value.u_m);
   write_um(json, "u_common", value.u_common_m);
   write_um(json, "u_independent", value.u_independent_m);
-  json.field("u_covers",
-             covers_text(table) + (value.inside ? "" : "; outside the grid, u is unknown"));
+  write_um(json, "reversal_left", table.reversal_m);
+  json.field("u_covers", covers_text(table) + (table.reversal_m != Vec3{} ? kReversalLeft : "") +
+                             (value.inside ? "" : "; outside the grid, u is unknown"));
   write_strings(json, "not_declared", table.u_not_declared);
   write_strings(json, "not_measured", table.not_measured);
   json.field("inside", value.inside)

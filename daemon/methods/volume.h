@@ -9,6 +9,10 @@ namespace mdof::daemon {
 // Largest number of nodes in a page. The limit of bytes can make a page shorter.
 inline constexpr std::int64_t kMaxNodesPage = 1000;
 
+// The end of u_covers of compensation.at if the correction is a mean of both approaches.
+inline constexpr const char* kReversalLeft =
+    "; u does not include the reversal that remains in each approach (reversal_left)";
+
 // Optional parameter of compensation.activate and compensation.deactivate.
 std::optional<std::int64_t> expected_generation_param(const rpc::Params& params);
 // Whether the parameters contain {"axis": "volume"}.

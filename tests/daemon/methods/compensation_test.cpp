@@ -161,6 +161,19 @@ TEST_F(CompensationMethods, ReturnsTheErrorsForPositionAndApproach) {
   EXPECT_GT(value_at(5, 1).number("/result/u/EYX_um"), 0);
 }
 
+TEST_F(CompensationMethods, AMeanStatesTheReversalThatItLeaves) {
+  activate();
+  const Answer forward = value_at(5, 1), reverse = value_at(5, -1), mean = value_at(5, 0);
+  const std::string error = "/result/error/EYX_um", left = "/result/reversal_left/EYX_um";
+  const double half = std::abs(forward.number(error) - reverse.number(error)) / 2;
+  EXPECT_GT(half, 0);
+  EXPECT_NEAR(mean.number(left), half, 1e-9 * half);
+  EXPECT_EQ(forward.number(left), 0);
+  EXPECT_SAID(mean.at("/result/u_covers"), "(reversal_left)");
+  EXPECT_EQ(forward.at("/result/u_covers").find("reversal_left"), std::string::npos);
+  EXPECT_EQ(value_at(25, 0).at(left), "null");
+}
+
 TEST_F(CompensationMethods, WithoutAChainTheCorrectionIsNullWithAReason) {
   activate();
   const Answer at = value_at(5, 1);

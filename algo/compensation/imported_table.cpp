@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "schema/base/number/number_text.h"
 #include "schema/iso230/targets.h"
@@ -95,12 +97,27 @@ double mean_of(const std::vector<double>& x) {
   return x.empty() ? kNaN : sum / static_cast<double>(x.size());
 }
 
+// Standard uncertainty of the mean. NaN if there is one reading, or if all readings are equal:
+// their scatter is then smaller than the resolution of the instrument, which is unknown.
 double u_of_mean(const std::vector<double>& x) {
   if (x.size() < 2) return kNaN;
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  if (*low == *high) return kNaN;
   const double mean = mean_of(x), n = static_cast<double>(x.size());
   double squares = 0;
   for (const double v : x) squares += (v - mean) * (v - mean);
   return std::sqrt(squares / (n - 1) / n);
+}
+
+// Whether u_of_mean() is unknown at a target.
+bool lacks_repeatability(const std::vector<Run>& runs) {
+  const std::vector<double> grid = targets_of(runs.front());
+  std::map<std::pair<std::size_t, int>, std::vector<double>> readings;
+  for (const Run& run : runs)
+    for (const MeasuredPoint& p : run.points)
+      readings[{target_at(grid, p.target_m), p.point.direction}].push_back(p.point.probe_m.at(0));
+  return std::any_of(readings.begin(), readings.end(),
+                     [](const auto& of) { return std::isnan(u_of_mean(of.second)); });
 }
 
 // Returns the largest declared u; NaN if a run declares no uncertainty.
@@ -184,15 +201,13 @@ Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs,
 
 Notices positioning_notices(const std::vector<Run>& runs) {
   Notices notices;
-  bool one_reading = false;
   for (const Run& run : runs) {
     const bool unknown = std::any_of(run.points.begin(), run.points.end(),
                                      [](const auto& p) { return p.point.direction == 0; });
     if (unknown)
       notices.push_back(inherited(name_of(run), notice(NoticeCode::approach_not_stated)));
-    one_reading = one_reading || run.points.size() == targets_of(run).size();
   }
-  if (runs.size() == 1 && one_reading) notices.push_back(notice(NoticeCode::single_readings));
+  if (lacks_repeatability(runs)) notices.push_back(notice(NoticeCode::single_readings));
   return notices;
 }
 

@@ -73,6 +73,18 @@ TEST(ImportedTable, SingleReadingHasNoRepeatability) {
   EXPECT_EQ(unknown->positioning.forward, unknown->positioning.reverse);
 }
 
+TEST(ImportedTable, EqualReadingsHaveNoRepeatability) {
+  mdof::Run run = imported(1, 3);
+  for (MeasuredPoint& p : run.points)
+    if (p.point.direction > 0 && p.target_m == 10e-3) p.point.probe_m[0] = 1e-7;
+  const auto table = build_positioning_table({run});
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(std::isnan(table->positioning.u_forward[1]));
+  EXPECT_GT(table->positioning.u_forward[0], 0);
+  EXPECT_GT(table->positioning.u_reverse[1], 0);
+  EXPECT_EQ(positioning_notices({run}), Notices{notice(NoticeCode::single_readings)});
+}
+
 TEST(ImportedTable, RefusesIncompatibleRuns) {
   const mdof::Run first = imported(1, 2), second = imported(2, 2);
   EXPECT_EQ(refusal({first, second}), "");

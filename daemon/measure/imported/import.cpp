@@ -69,22 +69,13 @@ MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targ
 // Deviations that are all smaller than this are probably values in mm that were read as µm.
 constexpr double kSmallest_m = 0.1e-6;
 
-// The unit of the deviations is probably wrong in two cases: a deviation is as large as the
-// smallest interval between two targets, or all deviations are smaller than 0.1 µm. The notice
-// states the case.
-Notices import_notices(const ImportedSeries& series, const ImportedError& error,
-                       const std::vector<double>& targets) {
-  double largest = 0, step = std::numeric_limits<double>::infinity();
-  for (const ImportedReading& r : series.readings)
-    largest = std::max(largest, std::abs(r.deviation));
-  for (std::size_t i = 1; i < targets.size(); ++i)
-    step = std::min(step, targets[i] - targets[i - 1]);
-  if (error.angle) return {};
-  if (largest < kSmallest_m && !series.readings.empty())
-    return {notice(NoticeCode::deviation_too_small, "", {{"deviation_um", to_um(largest)}})};
-  if (largest < step) return {};
-  return {notice(NoticeCode::deviation_too_large, "",
-                 {{"deviation_um", to_um(largest)}, {"interval_mm", to_mm(step)}})};
+Notices import_notices(const ImportedSeries& series, const ImportedError& error) {
+  std::vector<double> position_m, deviation_m;
+  for (const ImportedReading& r : series.readings) {
+    position_m.push_back(r.position_m);
+    deviation_m.push_back(r.deviation);
+  }
+  return error.angle ? Notices() : deviation_unit_notices(std::move(position_m), deviation_m);
 }
 
 // Checks each reading, and the slopes between the means of targets, with the limits for tables.
@@ -125,6 +116,21 @@ Result<std::optional<double>> standard_uncertainty(const ImportRequest& request,
 
 }  // namespace
 
+Notices deviation_unit_notices(std::vector<double> position_m,
+                               const std::vector<double>& deviation_m) {
+  if (deviation_m.empty()) return {};
+  double largest = 0, step = std::numeric_limits<double>::infinity();
+  for (const double deviation : deviation_m) largest = std::max(largest, std::abs(deviation));
+  const std::vector<double> targets = distinct_targets(std::move(position_m));
+  for (std::size_t i = 1; i < targets.size(); ++i)
+    step = std::min(step, targets[i] - targets[i - 1]);
+  if (largest < kSmallest_m)
+    return {notice(NoticeCode::deviation_too_small, "", {{"deviation_um", to_um(largest)}})};
+  if (largest < step) return {};
+  return {notice(NoticeCode::deviation_too_large, "",
+                 {{"deviation_um", to_um(largest)}, {"interval_mm", to_mm(step)}})};
+}
+
 Result<Run> imported_run(const ImportRequest& request) {
   const std::string name = request.error.empty() ? positioning_name(request.axis) : request.error;
   MDOF_TRY(const ImportedError error, imported_error(request.axis, name));
@@ -155,7 +161,7 @@ Result<Run> imported_run(const ImportRequest& request) {
                        ""};
   const std::vector<double> targets = algo::imported_targets(series.readings);
   MDOF_CHECK(check_readings(series, request, error, targets));
-  header.notices = import_notices(series, error, targets);
+  header.notices = import_notices(series, error);
   append(header.notices, series.notices);
   for (const ImportedReading& r : series.readings)
     run.points.push_back(point_of(r, targets, u_si, error));

@@ -38,6 +38,11 @@ struct ImportRequest {
 //   - the file is doubtful (gate.h).
 Result<Run> imported_run(const ImportRequest& request);
 
+// A notice if the unit of these deviations is probably wrong, because a deviation is as large as
+// the smallest interval between two targets, or because all deviations are smaller than 0.1 µm.
+Notices deviation_unit_notices(std::vector<double> position_m,
+                               const std::vector<double>& deviation_m);
+
 // The document of `mdof import --json` and run.import. The run is stored already.
 std::string import_document(const RunHeader& header, std::size_t readings);
 

@@ -12,6 +12,7 @@
 #include "algo/iso230/positioning/run_readings.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
+#include "daemon/measure/imported/import.h"
 #include "daemon/measure/imported/positioning_figures.h"
 #include "daemon/output/charts/analysis/analysis_charts.h"
 #include "daemon/output/charts/plot_files.h"
@@ -95,6 +96,12 @@ Status iso230_of_readings(const Iso230Command& command, const drivers::Positioni
   if (!figures) return in_context(csv.source, std::move(figures.error()));
   Notices notices = algo::plan_notices(*figures, from_mm(command.scale_period_mm));
   append(notices, algo::slope_notices(*figures));
+  std::vector<double> target_m, deviation_m;
+  for (const PositioningReading& reading : csv.readings) {
+    target_m.push_back(reading.target_m);
+    deviation_m.push_back(reading.deviation);
+  }
+  append(notices, daemon::deviation_unit_notices(std::move(target_m), deviation_m));
   show_notices(notices, command.all_warnings);
   MDOF_CHECK(draw_file(csv, *figures, command.plots));
   const auto U = uncertainty_of(command);

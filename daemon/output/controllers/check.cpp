@@ -15,6 +15,8 @@ namespace {
 
 constexpr int kTestIntervals = 4;  // number of test intervals between two points of the table
 constexpr double kRounding_m = 1e-12;
+// The nodes of a file have equal intervals, so its end can differ from the last measured position.
+constexpr double kSameEnd_m = 1e-6;
 
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
   if (at <= x.front()) return y.front();
@@ -173,8 +175,8 @@ void add_outside(const Series& measured, const std::vector<double>& error,
                  const Machine& machine, double zero, double& largest) {
   for (std::size_t i = 0; i < measured.position_m.size(); ++i) {
     const double x = measured.position_m[i];
-    const bool inside = x >= applied.position_m.front() - kRounding_m &&
-                        x <= applied.position_m.back() + kRounding_m;
+    const bool inside =
+        x >= applied.position_m.front() - kSameEnd_m && x <= applied.position_m.back() + kSameEnd_m;
     if (inside || !std::isfinite(error[i])) continue;
     const double c = interpolated(applied.position_m, added, x) + zero;
     largest = std::fmax(largest, std::abs(machine.error * error[i] + machine.command * c));

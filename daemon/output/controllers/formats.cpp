@@ -31,7 +31,7 @@ const std::vector<Format>& formats() {
       {.name = "json",
        .of = "any program",
        .holds = "all errors of the table with their uncertainty",
-       .limits = "none",
+       .limits = "tables of one axis; compensation.grid returns volumetric tables as JSON",
        .sense = "E = actual - nominal; correction = factor * E, if the kinematic chain of the "
                 "machine is known",
        .source = "format of mdof",

@@ -22,6 +22,9 @@ constexpr std::uint64_t kIntervalTrials = 2000;  // the error of U is then 2 %
 constexpr std::uint64_t kTrialsPerBlock = 64;    // the shifts of 64 trials fit into the cache
 // Largest U for which u is of first order, in multiples of u and of k u.
 constexpr double kMostFirstOrderFactor = 3, kMostOfFirstOrder = 1.5;
+// U / u of trials. A smaller ratio is due to few trials that are far away: a t distribution of two
+// degrees of freedom or fewer has no standard deviation.
+constexpr double kLeastFactor = 1.3;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
@@ -313,7 +316,10 @@ void state_interval(Budget& budget, const RangeTrials& range) {
   // of first order is nearly 0.
   const double factor = std::max(kMostFirstOrderFactor, kMostOfFirstOrder * budget.coverage_factor);
   budget.u_by_trials = !(factor * budget.u >= U);
-  if (budget.u_by_trials) budget.u = range.root_mean_square(std::max(0.0, budget.value - U));
+  if (budget.u_by_trials) {
+    const double u = range.root_mean_square(std::max(0.0, budget.value - U));
+    budget.u = U < kLeastFactor * u ? U / budget.coverage_factor : u;
+  }
   budget.coverage_factor = budget.U / budget.u;
   budget.U_by_trials = true;
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "algo/uncertainty/budget/budget.h"
@@ -45,6 +46,26 @@ TEST(SmallRange, HasUAndTheIntervalOfNineIndependentErrors) {
   EXPECT_NEAR(range.u / kUOfEachTarget_rad, std::hypot(2.970, 0.808), 0.06);
   EXPECT_NEAR(range.U / kUOfEachTarget_rad, 4.387, 0.13);
   EXPECT_NEAR(range.coverage_factor, 1.43, 0.06);
+}
+
+// The changes have a t distribution of one degree of freedom (Cauchy), which has no standard
+// deviation. The factor of 95 % of this distribution is 12.7.
+TEST(SmallRange, TheStandardDeviationOfFarTrialsIsNotU) {
+  constexpr int kTrials = 5000, kStep = 1733;  // the second deviation in another order
+  std::vector<double> changes;
+  const auto cauchy = [](int i) { return std::tan(M_PI * ((i + 0.5) / kTrials - 0.5)); };
+  for (int i = 0; i < kTrials; ++i) {
+    changes.push_back(cauchy(i));
+    changes.push_back(cauchy((i * kStep) % kTrials));
+  }
+  Budget range;
+  range.value = 0.1;
+  range.u = 0.01;
+  range.coverage_factor = 12.7;
+  state_interval(range, RangeTrials({0, 0.1}, std::move(changes)));
+  EXPECT_TRUE(range.u_by_trials);
+  EXPECT_GT(range.U, 10);
+  EXPECT_NEAR(range.coverage_factor, 12.7, 1e-9);
 }
 
 // Only the two ends of a large range count, so u is √2.

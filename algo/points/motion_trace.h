@@ -40,6 +40,9 @@ class MotionTrace {
     }
   }
 
+  // Direction of the last motion; 0: the axis has not yet moved.
+  int heading() const { return heading_; }
+
   // Direction from the last position of the path that is farther than `least_m`; 0: unknown.
   int by_path(double position_m, double least_m) const {
     for (auto it = path_.rbegin(); it != path_.rend(); ++it)
@@ -63,7 +66,7 @@ class MotionTrace {
   static constexpr std::size_t kPathLength = 64;
   std::deque<double> path_;  // newest last
   bool begun_ = false;
-  int heading_ = 0;  // direction of the last motion; 0: the axis has not yet moved
+  int heading_ = 0;
   // Lowest and highest position of the last motion: its start and its farthest position.
   double low_m_ = 0, high_m_ = 0;
 };

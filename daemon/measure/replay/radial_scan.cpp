@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
 
+#include "algo/compensation/between_targets.h"
 #include "algo/form/map_figures.h"
 #include "algo/form/scan_map.h"
 #include "algo/model/moving_body.h"
 #include "algo/model/restate.h"
+#include "algo/points/dwell.h"
+#include "algo/points/motion_trace.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/forward_model.h"
 #include "daemon/measure/replay/replay.h"
@@ -119,19 +124,75 @@ Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan
   return columns;
 }
 
-// Readings of the scanning probe that the errors of the axis cause, at the targets of the run.
-struct Motion {
-  std::vector<double> position_m, reading_m;
-  double u_m = 0;  // standard uncertainty of reading_m, RMS over the targets
-
-  bool holds(double at_m) const { return at_m >= position_m.front() && at_m <= position_m.back(); }
-  double at(double at_m) const {
-    const auto after = std::lower_bound(position_m.begin(), position_m.end(), at_m);
-    const auto i = static_cast<std::size_t>(after - position_m.begin());
-    if (i == 0) return reading_m.front();
-    const double part = (at_m - position_m[i - 1]) / (position_m[i] - position_m[i - 1]);
-    return reading_m[i - 1] + part * (reading_m[i] - reading_m[i - 1]);
+// Direction of the axis at the times of a run.
+class Directions {
+ public:
+  // Within a stop, the direction is the approach of its point. Elsewhere, the axis has turned if it
+  // moved back by the travel that determines the approach of a stop. Before the first motion, the
+  // direction is the approach of the first stop.
+  Directions(const std::vector<MeasuredPoint>& points, const Series& encoder_m) {
+    for (const MeasuredPoint& p : points)
+      stops_.push_back({p.point.begin_ns, p.point.end_ns, p.point.direction});
+    std::sort(stops_.begin(), stops_.end(),
+              [](const Stop& a, const Stop& b) { return a.begin_ns < b.begin_ns; });
+    algo::MotionTrace trace;
+    int direction = stops_.empty() ? 0 : stops_.front().direction;
+    turns_.emplace_back(std::numeric_limits<std::int64_t>::min(), direction);
+    for (std::size_t i = 0; i < encoder_m.value.size(); ++i) {
+      trace.follow(encoder_m.value[i], algo::DwellOptions{}.approach_m);
+      if (trace.heading() == 0 || trace.heading() == direction) continue;
+      direction = trace.heading();
+      turns_.emplace_back(encoder_m.time_ns[i], direction);
+    }
   }
+  int at(std::int64_t t) const {
+    const auto stop = std::upper_bound(
+        stops_.begin(), stops_.end(), t,
+        [](std::int64_t time_ns, const Stop& each) { return time_ns < each.begin_ns; });
+    if (stop != stops_.begin() && t <= std::prev(stop)->end_ns) return std::prev(stop)->direction;
+    return std::prev(std::upper_bound(turns_.begin(), turns_.end(), t,
+                                      [](std::int64_t time_ns, const auto& turn) {
+                                        return time_ns < turn.first;
+                                      }))
+        ->second;
+  }
+
+ private:
+  struct Stop {
+    std::int64_t begin_ns = 0, end_ns = 0;
+    int direction = 0;
+  };
+  std::vector<Stop> stops_;
+  std::vector<std::pair<std::int64_t, int>> turns_;  // time, new direction
+};
+
+// Readings of the scanning probe that the errors of the axis cause, at the targets of the run that
+// the axis approached in one direction. Empty: too few targets.
+struct Motion {
+  std::vector<double> position_m, reading_m, u_m;
+  std::vector<double> curvature;  // in each interval, of reading_m
+
+  struct Value {
+    double reading_m = 0, u_m = 0, u_between_m = 0;
+  };
+  bool holds(double at_m) const {
+    return !position_m.empty() && at_m >= position_m.front() && at_m <= position_m.back();
+  }
+  // `at_m`: holds() is true. Linear between targets, like compensation.at.
+  Value at(double at_m) const {
+    const auto after = std::lower_bound(position_m.begin() + 1, position_m.end(), at_m);
+    const auto i = static_cast<std::size_t>(after - position_m.begin());
+    const double before_m = at_m - position_m[i - 1], behind_m = position_m[i] - at_m;
+    const double part = before_m / (position_m[i] - position_m[i - 1]);
+    return {reading_m[i - 1] + part * (reading_m[i] - reading_m[i - 1]),
+            u_m[i - 1] + part * (u_m[i] - u_m[i - 1]),
+            0.5 * before_m * behind_m * curvature[i - 1]};
+  }
+};
+
+struct Motions {
+  Motion forward, reverse;
+  const Motion& of(int direction) const { return direction < 0 ? reverse : forward; }
 };
 
 // The rig with the scanning probe as its only probe. The rig has no planes, so the probe measures a
@@ -165,7 +226,10 @@ double reading_variance(const drivers::ForwardModel& model, double travel_m,
   return variance;
 }
 
-Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
+// The errors between two targets are uncertain by their curvature, which needs three targets.
+constexpr std::size_t kLeastTargets = 3;
+
+Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan, int direction) {
   MDOF_TRY(const auto model, forward_model(with_scanning_probe(rig, scan)));
   struct Sum {
     double n = 0, position_m = 0, reading_m = 0, variance = 0;
@@ -174,7 +238,7 @@ Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
   double read_m = 0;
   const Model solved = algo::model_of(run);
   for (const MeasuredPoint& p : run.points) {
-    if (!p.errors.valid) continue;
+    if (!p.errors.valid || p.point.direction != direction) continue;
     const AxisErrors of_target = algo::errors_of_target(p.errors, solved, run.header.moving());
     model(rig.sides.target_travel_m(p.point.position_m), of_target.local, {&read_m, 1});
     Sum& sum = targets[p.target];
@@ -184,27 +248,34 @@ Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
     sum.variance +=
         reading_variance(model, rig.sides.target_travel_m(p.point.position_m), p.errors);
   }
-  std::vector<std::pair<double, double>> sorted;
-  for (const auto& [target, sum] : targets)
-    sorted.emplace_back(sum.position_m / sum.n, sum.reading_m / sum.n);
-  std::sort(sorted.begin(), sorted.end());
-  if (sorted.size() < 2)
-    return bad_input("run " + std::to_string(run.header.id) +
-                     ": fewer than two targets have error values, but a scan needs the errors at "
-                     "two or more targets along the radius; measure more targets");
   Motion motion;
-  for (const auto& [target, sum] : targets)
-    motion.u_m += sum.variance / (sum.n * sum.n) / static_cast<double>(targets.size());
-  motion.u_m = std::sqrt(motion.u_m);
-  for (const auto& [position_m, reading_m] : sorted) {
-    motion.position_m.push_back(position_m);
-    motion.reading_m.push_back(reading_m);
+  if (targets.size() < kLeastTargets) return motion;
+  std::vector<Sum> sorted;
+  for (const auto& [target, sum] : targets) sorted.push_back(sum);
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Sum& a, const Sum& b) { return a.position_m / a.n < b.position_m / b.n; });
+  for (const Sum& sum : sorted) {
+    motion.position_m.push_back(sum.position_m / sum.n);
+    motion.reading_m.push_back(sum.reading_m / sum.n);
+    motion.u_m.push_back(std::sqrt(sum.variance) / sum.n);
   }
+  motion.curvature = algo::curvatures(motion.position_m, motion.reading_m, motion.u_m);
   return motion;
 }
 
-void add_points(const Columns& columns, const Motion& motion, const Rig& rig, const RigScan& scan,
-                algo::ScanPoints& points, RadialScan& out) {
+Result<Motions> motions_of(const Run& run, const Rig& rig, const RigScan& scan) {
+  Motions motions;
+  MDOF_TRY(motions.forward, motion_of(run, rig, scan, 1));
+  MDOF_TRY(motions.reverse, motion_of(run, rig, scan, -1));
+  if (!motions.forward.position_m.empty() || !motions.reverse.position_m.empty()) return motions;
+  return bad_input("run " + std::to_string(run.header.id) +
+                   ": fewer than three targets that were approached in the same direction have "
+                   "error values, but a scan needs the errors at three or more targets along the "
+                   "radius; measure more targets");
+}
+
+void add_points(const Columns& columns, const Directions& directions, const Motions& motions,
+                const Rig& rig, const RigScan& scan, algo::ScanPoints& points, RadialScan& out) {
   const double centre_m = rig.sides.target_travel_m(scan.centre_m);
   for (std::size_t i = 0; i < columns.height_m.value.size(); ++i) {
     const std::int64_t t = columns.height_m.time_ns[i];
@@ -213,8 +284,9 @@ void add_points(const Columns& columns, const Motion& motion, const Rig& rig, co
       ++out.unplaced_heights;
       continue;
     }
+    const Motion& motion = motions.of(directions.at(t));
     if (!motion.holds(encoder_m)) {
-      ++out.beyond_targets;
+      ++(motion.position_m.empty() ? out.other_direction : out.beyond_targets);
       continue;
     }
     // When the target moves towards +, the probe moves towards - relative to the axis of the
@@ -223,11 +295,49 @@ void add_points(const Columns& columns, const Motion& motion, const Rig& rig, co
     const double angle = scan.sense * angle_deg * std::numbers::pi / 180;
     points.x_m.push_back(rho_m * std::cos(angle));
     points.y_m.push_back(-rho_m * std::sin(angle));
-    points.z_m.push_back(columns.height_m.value[i] - motion.at(encoder_m));
+    points.z_m.push_back(columns.height_m.value[i] - motion.at(encoder_m).reading_m);
   }
 }
 
-Status add_run(store::Store& store, std::int64_t id, algo::ScanPoints& points, RadialScan& out) {
+double peak_to_valley_m(const Motions& motions) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const Motion* motion : {&motions.forward, &motions.reverse})
+    for (const double reading_m : motion->reading_m) {
+      least = std::min(least, reading_m);
+      most = std::max(most, reading_m);
+    }
+  return most - least;
+}
+
+// Adds the u of the subtracted errors, RMS over the pixels. A pixel was measured on both sides of
+// the axis of the spindle.
+void add_u(const Motions& motions, double centre_m, RadialScan& out) {
+  double n = 0, at_targets = 0, between = 0;
+  for (std::size_t j = 0; j < out.map.ny; ++j)
+    for (std::size_t i = 0; i < out.map.nx; ++i) {
+      if (std::isnan(out.map.at(i, j))) continue;
+      const double rho_m = std::hypot(out.map.x_m(i), out.map.y_m(j));
+      for (const double at_m : {centre_m - rho_m, centre_m + rho_m})
+        for (const Motion* motion : {&motions.forward, &motions.reverse}) {
+          if (!motion->holds(at_m)) continue;
+          const Motion::Value value = motion->at(at_m);
+          n += 1;
+          at_targets += value.u_m * value.u_m;
+          between += value.u_between_m * value.u_between_m;
+        }
+    }
+  if (n == 0) return;
+  out.u_motion_m = std::max(out.u_motion_m, std::sqrt(at_targets / n));
+  out.u_between_m = std::max(out.u_between_m, std::sqrt(between / n));
+}
+
+struct ScannedRun {
+  Motions motions;
+  double centre_m = 0;
+};
+
+Result<ScannedRun> add_run(store::Store& store, std::int64_t id, algo::ScanPoints& points,
+                           RadialScan& out) {
   MDOF_TRY(const Run run, restated_run(store, id, Reference::carriage));
   const std::string name = "run " + std::to_string(id);
   MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
@@ -237,13 +347,13 @@ Status add_run(store::Store& store, std::int64_t id, algo::ScanPoints& points, R
                      ": this run is not a scan, because its rig has no table [scan]; give a run "
                      "whose rig has [scan]");
   out.simulated = out.simulated || run.header.simulated;
-  MDOF_TRY(const Motion motion, motion_of(run, rig, *scan));
-  const auto [least, most] = std::minmax_element(motion.reading_m.begin(), motion.reading_m.end());
-  out.motion_pv_m = std::max(out.motion_pv_m, *most - *least);
-  out.u_motion_m = std::max(out.u_motion_m, motion.u_m);
+  ScannedRun scanned{{}, scan->centre_m};
+  MDOF_TRY(scanned.motions, motions_of(run, rig, *scan));
+  out.motion_pv_m = std::max(out.motion_pv_m, peak_to_valley_m(scanned.motions));
   MDOF_TRY(const Columns columns, read_columns(run.header, rig, *scan));
-  add_points(columns, motion, rig, *scan, points, out);
-  return {};
+  add_points(columns, Directions(run.points, columns.encoder_m), scanned.motions, rig, *scan,
+             points, out);
+  return scanned;
 }
 
 double default_pixel_m(const algo::ScanPoints& points) {
@@ -259,9 +369,10 @@ Result<RadialScan> radial_scan(store::Store& store, const std::vector<std::int64
                                std::optional<double> pixel_m) {
   RadialScan out;
   algo::ScanPoints points;
+  std::vector<ScannedRun> scanned;
   std::string name;
   for (const std::int64_t id : runs) {
-    MDOF_CHECK(add_run(store, id, points, out));
+    MDOF_TRY(scanned.emplace_back(), add_run(store, id, points, out));
     name += (name.empty() ? "run " : ", ") + std::to_string(id);
   }
   out.points = points.z_m.size();
@@ -271,6 +382,7 @@ Result<RadialScan> radial_scan(store::Store& store, const std::vector<std::int64
   out.map = std::move(scan->map);
   const algo::MapFigures u = algo::figures_of(scan->u);
   out.u_noise_m = std::hypot(u.rms_m, u.mean_m);
+  for (const ScannedRun& run : scanned) add_u(run.motions, run.centre_m, out);
   out.map.name = name;
   return out;
 }

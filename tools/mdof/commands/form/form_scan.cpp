@@ -18,8 +18,9 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kScanU =
-    "the noise between neighbouring heights, and u of the subtracted axis errors. u does not "
-    "contain: noise that is common to neighbouring heights; errors of the probe calibration, the "
+    "the noise between neighbouring heights, u of the subtracted axis errors at the targets, and "
+    "u of their linear interpolation between the targets. u does not contain: noise that is common "
+    "to neighbouring heights; errors of the probe calibration, the "
     "encoder, the spindle and the spindle angle; undeclared delays of the readings";
 
 struct FormScanCommand {
@@ -42,13 +43,15 @@ std::string scan_json(const daemon::RadialScan& scan, const std::vector<std::int
       .field("pixel_mm", to_mm(scan.pixel_m))
       .field("heights", static_cast<std::uint64_t>(scan.points))
       .field("heights_beyond_targets", static_cast<std::uint64_t>(scan.beyond_targets))
+      .field("heights_in_other_direction", static_cast<std::uint64_t>(scan.other_direction))
       .field("heights_without_place", static_cast<std::uint64_t>(scan.unplaced_heights))
       .field("motion_taken_out_pv_um", to_um(scan.motion_pv_m))
-      .field("u_um", to_um(std::hypot(scan.u_noise_m, scan.u_motion_m)))
+      .field("u_um", to_um(std::hypot(scan.u_noise_m, scan.u_motion_m, scan.u_between_m)))
       .key("u_parts_um")
       .begin_object()
       .field("noise", to_um(scan.u_noise_m))
       .field("motion", to_um(scan.u_motion_m))
+      .field("between_targets", to_um(scan.u_between_m))
       .end_object()
       .field("u_covers", kScanU)
       .end_object();
@@ -63,9 +66,9 @@ std::string scan_text(const daemon::RadialScan& scan) {
          " heights\n"
          "subtracted error motion of the axis at the probe: " +
          in_um(scan.motion_pv_m) + " µm PV\nu of a height " +
-         in_um(std::hypot(scan.u_noise_m, scan.u_motion_m)) + " µm (noise " +
-         in_um(scan.u_noise_m) + " µm, motion " + in_um(scan.u_motion_m) + " µm). u contains " +
-         kScanU + "\n";
+         in_um(std::hypot(scan.u_noise_m, scan.u_motion_m, scan.u_between_m)) + " µm (noise " +
+         in_um(scan.u_noise_m) + " µm, motion " + in_um(scan.u_motion_m) + " µm, between targets " +
+         in_um(scan.u_between_m) + " µm). u contains " + kScanU + "\n";
 }
 
 Status form_scan(const FormScanCommand& o) {

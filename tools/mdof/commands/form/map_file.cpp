@@ -148,6 +148,10 @@ Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
   if (scan.beyond_targets > 0)
     warn(scan.map.name + ": " + std::to_string(scan.beyond_targets) +
          " heights beyond the targets of the run are left out");
+  if (scan.other_direction > 0)
+    warn(scan.map.name + ": " + std::to_string(scan.other_direction) +
+         " heights are left out, because the axis moved in a direction in which fewer than three "
+         "targets have error values; measure the targets in both directions to use these heights");
   if (scan.unplaced_heights > 0)
     warn(scan.map.name + ": " + std::to_string(scan.unplaced_heights) +
          " heights without encoder or angle value are left out");

@@ -18,7 +18,8 @@ bool is_sdf(std::string_view bytes);
 Result<SurfaceMap> parse_sdf(std::string_view text, const std::string& source);
 
 // Zygo MetroPro .dat, formats 1 to 3: the connected phase is converted to heights. x increases with
-// the column and y with the row of the camera; the first pixel of the camera is at (0, 0).
+// the column of the camera. The first row of the file is the top of the image, so y decreases with
+// the row. The first pixel of the camera is at (0, 0), so y of the other rows is negative.
 bool is_zygo_dat(std::string_view bytes);
 Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& source);
 

@@ -1,6 +1,9 @@
 // The binary format of Zygo's MetroPro: a header, the intensities, the connected phase. Numbers are
 // big-endian. The phase is an integer, and `phase_res` gives the counts per fringe:
 // height = phase * intf_scale_factor * obliquity_factor * wavelength / counts per fringe.
+// The rows begin at the top left of the camera (MetroPro Reference Guide, "Data Format and
+// Conversion"), and SurfaceMap begins with the lowest row. H. Yamamoto's LoadMetroProData.m (LIGO)
+// and pyopticslab (ESRF) reverse the rows, too.
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -112,13 +115,14 @@ Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& sou
                      " m, above the limit of " + plain_number(kLargestPixel_m) +
                      " m; the file is damaged");
   map.x0_m = header.i16(kOrgX) * map.dx_m;
-  map.y0_m = header.i16(kOrgY) * map.dy_m;
+  map.y0_m = -(header.i16(kOrgY) + static_cast<double>(map.ny - 1)) * map.dy_m;
   MDOF_TRY(const double scale_m, height_of_a_count(header, source));
   map.z_m.resize(map.nx * map.ny);
   for (std::size_t k = 0; k < map.z_m.size(); ++k) {
     const auto phase = static_cast<std::int32_t>(header.u32(begin + 4 * k));
-    map.z_m[k] = phase >= kNoPhase ? SurfaceMap::kMissing : phase * scale_m;
-    if (std::abs(map.z_m[k]) > kFarthest_m)
+    double& z_m = map.z_m[(map.ny - 1 - k / map.nx) * map.nx + k % map.nx];
+    z_m = phase >= kNoPhase ? SurfaceMap::kMissing : phase * scale_m;
+    if (std::abs(z_m) > kFarthest_m)
       return bad_input(source +
                        ": a height is above 1000 m; the wavelength, the scale factor or the phase "
                        "is wrong, or the file is damaged");

@@ -266,11 +266,12 @@ TEST(ZygoDat, ConvertsPhaseToHeights) {
     ASSERT_TRUE(is_zygo_dat(bytes));
     const auto map = parse_zygo_dat(bytes, "z");
     ASSERT_TRUE(map) << map.error().message;
-    EXPECT_NEAR(map->at(0, 0), 1000 * 0.5 * 512e-9 / counts[res], 1e-14);
-    EXPECT_NEAR(map->at(1, 0), -2000 * 0.5 * 512e-9 / counts[res], 1e-14);
-    EXPECT_TRUE(std::isnan(map->at(0, 1)));
+    EXPECT_NEAR(map->at(0, 1), 1000 * 0.5 * 512e-9 / counts[res], 1e-14);
+    EXPECT_NEAR(map->at(1, 1), -2000 * 0.5 * 512e-9 / counts[res], 1e-14);
+    EXPECT_TRUE(std::isnan(map->at(0, 0)));
     EXPECT_NEAR(map->x0_m, 10e-3, 1e-9);
-    EXPECT_NEAR(map->y_m(1), 21e-3, 1e-9);
+    EXPECT_NEAR(map->y_m(1), -20e-3, 1e-9);
+    EXPECT_NEAR(map->y_m(0), -21e-3, 1e-9);
   }
   EXPECT_NEAR(parse_zygo_dat(zygo(1, 1, {1000, 0}), "z")->at(0, 0), -1000 * 256e-9 / 32768, 1e-15);
   std::string in_um = zygo(1, 0, {1, 2});  // 1.0f as the lateral resolution
@@ -284,6 +285,22 @@ TEST(ZygoDat, ConvertsPhaseToHeights) {
   const std::string whole = zygo(1, 0, {1, 2, 3, 4});
   for (std::size_t size = 4; size < whole.size(); ++size)
     EXPECT_FALSE(parse_zygo_dat(std::string_view(whole).substr(0, size), "z")) << size;
+}
+
+// The rows of the file begin at the top left of the image (MetroPro Reference Guide, "Data Format
+// and Conversion"; LoadMetroProData.m of LIGO reverses them for an axis y that points up). The
+// image has the pixels
+//   1 2
+//   3 4
+//   5 6
+TEST(ZygoDat, TheFirstRowIsTheTopOfTheImage) {
+  const auto map = parse_zygo_dat(zygo(0, 0, {1, 2, 3, 4, 5, 6}), "z");
+  ASSERT_TRUE(map) << map.error().message;
+  const double expected[3][2] = {{5, 6}, {3, 4}, {1, 2}};  // y increases with the row
+  for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_NEAR(map->at(i, j), expected[j][i] * 256e-9 / 4096, 1e-16) << i << " " << j;
+  EXPECT_GT(map->dy_m, 0);
 }
 
 }  // namespace

@@ -71,10 +71,24 @@ Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const Surfac
                      " are identical: the surface does not spring back after the release, so K "
                      "cannot be calculated");
   result.K = product / square;
+  // With the two maps exchanged, clamping and plastic are exchanged and elastic has the other sign,
+  // so K is -1 - K.
+  if (!(result.K > -1))
+    return bad_input(after.name + " and " + released.name + ": K is " + plain_number(result.K) +
+                     ", but must be greater than -1: the part would be bent more after the release "
+                     "than in the clamp. The maps AFTER (clamped) and RELEASED are probably "
+                     "exchanged (K is then " +
+                     plain_number(-1 - result.K) + "); check the order BEFORE AFTER RELEASED");
   SurfaceMap left = result.plastic;
   for (std::size_t k = 0; k < left.z_m.size(); ++k) left.z_m[k] -= result.K * result.elastic.z_m[k];
   result.K_unexplained_rms_m = figures_of(left).rms_m;
   return result;
+}
+
+bool springs_past(const ClampingParts& parts) {
+  constexpr double kClearly = 0.5;
+  return parts.K < 0 && parts.K_unexplained_rms_m &&
+         *parts.K_unexplained_rms_m < kClearly * figures_of(parts.plastic).rms_m;
 }
 
 namespace {

@@ -1,6 +1,8 @@
 // mdof form clamp BEFORE AFTER [RELEASED]: calculates how clamping deforms a surface, and whether
 // the deformation stays elastic.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "algo/form/clamping.h"
@@ -21,6 +23,9 @@ namespace mdof::tools {
 namespace {
 
 constexpr double kPaPerMPa = 1e6;
+// The formulas are those of a thin plate.
+constexpr double kThickestShare = 0.1;
+constexpr double kStiffest_GPa = 2000;  // diamond: 1200 GPa
 
 struct FormClampCommand {
   std::string before, after, released, out, plots;
@@ -48,11 +53,31 @@ Status check_plate(const FormClampCommand& o) {
     (is_given ? given : missing) +=
         std::string((is_given ? given : missing).empty() ? "" : ", ") + name;
   if (o.yield_MPa) given += given.empty() ? "--yield-MPa" : ", --yield-MPa";
+  if (o.young_GPa && *o.young_GPa > kStiffest_GPa)
+    return fail(ErrorCode::usage,
+                "--young-GPa is " + plain_number(*o.young_GPa) + ", but no material exceeds " +
+                    plain_number(kStiffest_GPa) +
+                    " GPa; state the modulus of elasticity in GPa (70 GPa = 70000 MPa)");
   if (!given.empty() && !missing.empty())
     return fail(ErrorCode::usage,
                 "missing option " + missing + " (needed with " + given + ")" +
                     ": mdof calculates the stress from thickness, modulus and Poisson's ratio");
   return {};
+}
+
+// The smaller side of the rectangle around the measured pixels.
+double width_m(const SurfaceMap& map) {
+  std::size_t left = map.nx, right = 0, low = map.ny, high = 0;
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i) {
+      if (std::isnan(map.at(i, j))) continue;
+      left = std::min(left, i);
+      right = std::max(right, i);
+      low = std::min(low, j);
+      high = j;
+    }
+  return std::min(static_cast<double>(right - left) * map.dx_m,
+                  static_cast<double>(high - low) * map.dy_m);
 }
 
 Result<Clamped> clamped(const FormClampCommand& o) {
@@ -65,6 +90,12 @@ Result<Clamped> clamped(const FormClampCommand& o) {
     MDOF_CHECK(check_distinct({&before, &after, &released}));
     MDOF_TRY(found.clamping, algo::clamping_by_release(before, after, released));
     found.notices = mirrored_notices(before, {&after, &released});
+    if (algo::springs_past(found.clamping))
+      found.notices.push_back(
+          notice(NoticeCode::clamp_springs_past, o.released,
+                 {{"K", found.clamping.K},
+                  {"unexplained_rms_um", to_um(*found.clamping.K_unexplained_rms_m)},
+                  {"remaining_rms_um", to_um(algo::figures_of(found.clamping.plastic).rms_m)}}));
   } else {
     MDOF_TRY(found.clamping, algo::clamping_by_K(before, after, o.K.value_or(0)));
     found.notices = mirrored_notices(before, {&after});
@@ -77,6 +108,11 @@ Result<Clamped> clamped(const FormClampCommand& o) {
   auto stress = algo::plate_stress(found.clamping.elastic, plate, from_mm(o.smooth_mm));
   if (!stress) return in_context("--smooth-mm", std::move(stress.error()));
   found.stress = *stress;
+  if (const double width = width_m(found.clamping.elastic);
+      plate.thickness_m > kThickestShare * width)
+    found.notices.push_back(
+        notice(NoticeCode::plate_too_thick, "",
+               {{"thickness_mm", *o.thickness_mm}, {"width_mm", to_mm(width)}}));
   if (o.yield_MPa) found.is_elastic = found.stress->max_Pa < *o.yield_MPa * kPaPerMPa;
   return found;
 }

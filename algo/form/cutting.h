@@ -39,7 +39,7 @@ struct CuttingResult {
   // path of that pass. Only for two or more passes. The random share of the mean error is removed
   // from the repeatable share.
   std::optional<double> repeatable_rms_m, random_rms_m;
-  // Expected RMS error of the next pass for each gain, from random errors only.
+  // Expected RMS error of the next pass for each gain, from random errors only, without smoothing.
   std::optional<double> floor_gain_one_m, floor_mean_m, floor_optimal_m;
   std::optional<bool> converges;  // whether the passes reduce the error (README.md, "Passes")
   std::size_t pixels = 0;         // pixels that all maps have

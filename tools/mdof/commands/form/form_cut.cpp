@@ -149,9 +149,9 @@ std::string cut_text(const FoundCut& cut, const FormCutCommand& o) {
       "repeatable error: RMS " + in_um(*found.repeatable_rms_m) + " µm; random error: RMS " +
       in_um(*found.random_rms_m) +
       " µm per pass\n"
-      "lowest RMS error that further passes can reach: " +
-      in_um(*found.floor_gain_one_m) + " µm (--gain 1), " + in_um(*found.floor_mean_m) +
-      " µm (--gain mean)" +
+      "lowest RMS error that further passes can reach" +
+      (o.smooth_mm > 0 ? " without --smooth-mm: " : ": ") + in_um(*found.floor_gain_one_m) +
+      " µm (--gain 1), " + in_um(*found.floor_mean_m) + " µm (--gain mean)" +
       (found.floor_optimal_m ? ", " + in_um(*found.floor_optimal_m) + " µm (--gain optimal)" : "") +
       "\n" + (*found.converges ? "the passes converge" : "THE PASSES DO NOT CONVERGE") + "\n" +
       next;

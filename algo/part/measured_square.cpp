@@ -24,9 +24,6 @@ MeasuredSquare::MeasuredSquare(const Eigen::MatrixXd& effects, const Eigen::Vect
   basis_ = eigen.eigenvectors().rightCols(rank);
   squares_ = all.tail(rank);
   value_ = (basis_.transpose() * with_value).cwiseQuotient(squares_);
-  const Eigen::VectorXd in_value = squares_.cwiseProduct(value_.cwiseAbs2());
-  increase_ = squares_.sum();
-  if (in_value.sum() > 0) increase_ -= squares_.dot(in_value) / in_value.sum();
 }
 
 // The point with a certain mean square that is nearest to `way` by the uncertainty. size: factor of

@@ -13,10 +13,10 @@ class MeasuredSquare {
   MeasuredSquare(const Eigen::MatrixXd& effects, const Eigen::VectorXd& with_value);
 
   Eigen::Index effects() const { return basis_.rows(); }
+  // The number of independent directions in which the effects change v.
+  Eigen::Index directions() const { return squares_.size(); }
   // The part of v that is a sum of effects: the factor of each effect.
   Eigen::VectorXd value() const { return basis_ * value_; }
-  // The expected increase of ⟨v²⟩ relative to ⟨m²⟩, without the part of the errors along v.
-  double expected_increase() const { return increase_; }
   // One trial for the part of m that is a sum of effects: the factor of each effect. `xi`, `turn`:
   // independent random numbers of variance 1, one for each effect.
   Eigen::VectorXd drawn_truth(const Eigen::VectorXd& xi, const Eigen::VectorXd& turn) const;
@@ -28,7 +28,6 @@ class MeasuredSquare {
   // (columns), the mean squares, and the factors of these sums in v.
   Eigen::MatrixXd basis_;
   Eigen::VectorXd squares_, value_;
-  double increase_ = 0;
 };
 
 }  // namespace mdof::algo

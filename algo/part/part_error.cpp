@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "algo/part/measured_square.h"
 #include "algo/part/true_scale.h"
@@ -127,16 +128,23 @@ class MeanSquare {
     if (rest_.dot(products_ * rest_) <= kLeastRest * products_(0, 0)) rest_.setZero();
   }
 
-  // Unknown causes contribute their expected square (README.md).
-  double expected() const {
-    double unknown = 0;
-    for (Eigen::Index k = 1 + errors_.effects(); k < products_.rows(); ++k)
-      unknown += products_(k, k);
-    return std::max(0.0, products_(0, 0) - errors_.expected_increase()) + unknown;
+  // Mean square of the measured values.
+  double of_value() const { return products_(0, 0); }
+
+  // The trials have the median of_value(), except for random differences.
+  bool has_one_direction() const { return errors_.directions() <= 1; }
+
+  // Expected mean square of the unknown causes.
+  double expected_of_unknown() const {
+    return products_.diagonal().tail(products_.rows() - 1 - errors_.effects()).sum();
   }
 
+  struct Drawn {
+    double measured = 0, all = 0;  // without and with the unknown causes
+  };
+
   // One trial for the true mean square (README.md).
-  double drawn(const Trial& trial) const {
+  Drawn drawn(const Trial& trial) const {
     Eigen::VectorXd xi(std::ssize(xi_)), turn(std::ssize(xi_));
     for (std::size_t k = 0; k < xi_.size(); ++k) {
       xi(static_cast<Eigen::Index>(k)) = trial.xi[xi_[k]];
@@ -145,8 +153,11 @@ class MeanSquare {
     const Eigen::Index measured = errors_.effects();
     Eigen::VectorXd truth = rest_;
     truth.segment(1, measured) += errors_.drawn_truth(xi.head(measured), turn.head(measured));
+    const auto square = [&] { return std::max(0.0, truth.dot(products_ * truth)); };
+    Drawn found{square(), 0};
     truth.tail(xi.size() - measured) = xi.tail(xi.size() - measured);
-    return std::max(0.0, truth.dot(products_ * truth));
+    found.all = square();
+    return found;
   }
 
  private:
@@ -179,46 +190,66 @@ Sums sums_of(const PartPath& path, const std::vector<PartCause>& causes, std::si
   return sums;
 }
 
-double sum_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double x : values) sum += x;
-  return sum;
+// NaN: all squares are 0.
+std::vector<double> shares_of(const std::vector<double>& squares) {
+  const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+  std::vector<double> shares;
+  for (const double square : squares) shares.push_back(sum > 0 ? square / sum : std::nan(""));
+  return shares;
 }
 
-// Sorts the trials. Returns the interval that contains 95 % of the trials, with as many trials
-// below as above (JCGM 101).
-Interval interval_of(std::vector<double>& trials) {
-  std::sort(trials.begin(), trials.end());
-  const std::size_t outside = trials.size() / 40;  // 2.5 % on each side
-  return {trials[std::max<std::size_t>(1, outside) - 1],
-          trials[std::min(trials.size() - outside, trials.size() - 1)]};
-}
+// The trials of one layer or cause.
+struct DrawnShare {
+  std::vector<double> measured_squares, rms_m, shares;
+  double sum_of_squares = 0;
+};
 
-void find_shares(const std::vector<MeanSquare>& sums, const Sums& all, const PartTrials& trials,
-                 std::vector<PartShare>& shares) {
-  std::vector<double> expected;
-  for (const MeanSquare& sum : sums) expected.push_back(sum.expected());
-  const double whole = sum_of(expected);
-  for (const double square : expected) {
-    const double rms_m = std::sqrt(square), share = whole > 0 ? square / whole : 0;
-    shares.push_back({rms_m, {rms_m, rms_m}, share, {share, share}});
-  }
-  if (trials.shares == 0) return;
-  std::vector<std::vector<double>> drawn_share(shares.size()), drawn_rms(shares.size());
+std::vector<DrawnShare> drawn_shares(const std::vector<MeanSquare>& sums, const Sums& all,
+                                     const PartTrials& trials) {
+  std::vector<DrawnShare> found(sums.size());
   for (std::size_t trial = 0; trial < trials.shares; ++trial) {
     const Trial random = drawn(trials.seed, trial, all.random_numbers);
     std::vector<double> squares;
-    for (const MeanSquare& sum : sums) squares.push_back(sum.drawn(random));
-    const double sum = sum_of(squares);
-    for (std::size_t k = 0; k < shares.size(); ++k) {
-      drawn_share[k].push_back(sum > 0 ? squares[k] / sum : 0);
-      drawn_rms[k].push_back(std::sqrt(squares[k]));
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      const MeanSquare::Drawn square = sums[k].drawn(random);
+      squares.push_back(square.all);
+      found[k].measured_squares.push_back(square.measured);
+      found[k].rms_m.push_back(std::sqrt(square.all));
+      found[k].sum_of_squares += square.all;
     }
+    const std::vector<double> shares = shares_of(squares);
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      if (!std::isnan(shares[k])) found[k].shares.push_back(shares[k]);
   }
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    shares[k].share_interval = interval_of(drawn_share[k]);
-    shares[k].rms_interval_m = interval_of(drawn_rms[k]);
+  return found;
+}
+
+// Without trials, the stated squares are those of the values, and the intervals have the length 0.
+std::vector<PartShare> find_shares(const std::vector<MeanSquare>& sums, const Sums& all,
+                                   const PartTrials& trials) {
+  std::vector<DrawnShare> drawn = drawn_shares(sums, all, trials);
+  std::vector<double> squares, sums_of_squares;
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    std::vector<double>& measured = drawn[k].measured_squares;
+    squares.push_back(sums[k].expected_of_unknown() +
+                      (measured.empty() || sums[k].has_one_direction() ? sums[k].of_value()
+                                                                       : median_of(measured)));
+    sums_of_squares.push_back(drawn[k].sum_of_squares);
   }
+  // If all medians are 0, the means of the trials determine the shares.
+  std::vector<double> shares = shares_of(squares);
+  if (std::all_of(squares.begin(), squares.end(), [](double square) { return square == 0; }))
+    shares = shares_of(sums_of_squares);
+  std::vector<PartShare> found;
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const double rms_m = std::sqrt(squares[k]);
+    found.push_back({rms_m, {rms_m, rms_m}, shares[k], {shares[k], shares[k]}});
+    if (!drawn[k].rms_m.empty())
+      found[k].rms_interval_m = containing(rms_m, interval_of(drawn[k].rms_m));
+    if (!drawn[k].shares.empty())
+      found[k].share_interval = containing(shares[k], interval_of(drawn[k].shares));
+  }
+  return found;
 }
 
 // Every `every`-th point of a list with `width` numbers for each point.
@@ -339,10 +370,9 @@ void find_figure(const Sums& sums, std::size_t (*within)(std::size_t points),
     lows.push_back(figure(value, lower_scale(scales, k, value_m, always_m), unknown_errors[k]));
   const double rest_m = whole_m - value_m;  // contribution of the points that the trials leave out
   const double low_m = interval_of(lows).low;
-  interval_m = {low_m > 0 ? std::max(0.0, rest_m + low_m) : 0,
-                rest_m + interval_of(propagated).high};
-  std::sort(medians.begin(), medians.end());
-  estimate_m = rest_m + medians[medians.size() / 2];
+  estimate_m = std::max(0.0, rest_m + median_of(medians));
+  interval_m = containing(estimate_m, {low_m > 0 ? std::max(0.0, rest_m + low_m) : 0,
+                                       rest_m + interval_of(propagated).high});
 }
 
 }  // namespace
@@ -351,13 +381,18 @@ PartError part_error(const PartPath& path, const std::vector<PartCause>& causes,
                      const PartTrials& trials) {
   PartError result;
   const Sums sums = sums_of(path, causes, layers);
-  find_shares(sums.layers, sums, trials, result.layers);
-  find_shares(sums.causes, sums, trials, result.causes);
+  result.layers = find_shares(sums.layers, sums, trials);
+  result.causes = find_shares(sums.causes, sums, trials);
   const std::size_t width = path.normal.empty() ? 3 : 1,
                     every = std::max<std::size_t>(1, path.at_m.size() / kPointsPerTrial);
   result.worst = worst_point(sums.all, width);
   find_figure(sums, points_within_95, trials, width, every, result.p95_m, result.p95_interval_m);
   find_figure(sums, all_points, trials, width, every, result.max_m, result.max_interval_m);
+  // Each is a median of its own. So the median of the largest error can be the smallest of them.
+  const bool has_stated_rms = layers == 1 && !has_u(sums.all.unknown);
+  result.max_m =
+      std::max({result.max_m, result.p95_m, has_stated_rms ? result.layers[0].rms_m : 0});
+  result.max_interval_m = containing(result.max_m, result.max_interval_m);
   return result;
 }
 

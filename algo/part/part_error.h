@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "algo/part/interval.h"
+
 namespace mdof::algo {
 
 // A part of the uncertainty of a cause: the effect of one standard uncertainty of a quantity that
@@ -44,16 +46,10 @@ struct PartPath {
   std::vector<Eigen::Vector3d> normal;
 };
 
-// A probabilistically symmetric coverage interval (95 %).
-struct Interval {
-  double low = 0, high = 0;
-  double U() const { return (high - low) / 2; }
-};
-
 struct PartShare {
   double rms_m = 0;  // rms error of the layer or cause
   Interval rms_interval_m;
-  double share = 0;  // share in the sum of all mean squares
+  double share = 0;  // share in the sum of all mean squares; NaN: all errors are 0
   Interval share_interval;
 };
 
@@ -73,9 +69,8 @@ struct PartTrials {
   std::size_t shares = 2000, errors = 400;
 };
 
-// Calculates U for 95 % by the Monte Carlo method with random xi and eta: 95 % of the trials differ
-// from the estimate by at most U. If a cause has a known u and an unknown value (a budget), its
-// expected mean square is the estimate.
+// Calculates intervals of 95 % by the Monte Carlo method with random xi and eta (README.md). If a
+// cause has a known u and an unknown value (a budget), its stated mean square is the expected one.
 PartError part_error(const PartPath& path, const std::vector<PartCause>& causes, std::size_t layers,
                      const PartTrials& trials = {});
 

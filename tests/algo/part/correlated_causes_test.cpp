@@ -34,15 +34,15 @@ TEST(CorrelatedCauses, UOfASumContainsTheCovariance) {
   const PartError found =
       part_error(path(), {cause(3e-6, 0.2e-6), cause(1e-6, -0.2e-6)}, 1, trials);
   EXPECT_NEAR(found.layers[0].rms_m, 4e-6, 1e-15);
-  EXPECT_NEAR(found.layers[0].rms_interval_m.U(), 0, 1e-15);
+  EXPECT_NEAR(found.layers[0].rms_interval_m.U(found.layers[0].rms_m), 0, 1e-15);
   EXPECT_NEAR(found.max_m, 4e-6, 1e-15);
-  EXPECT_NEAR(found.max_interval_m.U(), 0, 1e-15);
+  EXPECT_NEAR(found.max_interval_m.U(found.max_m), 0, 1e-15);
   for (const PartShare& share : found.causes)
-    EXPECT_NEAR(share.rms_interval_m.U(), 1.96 * 0.2e-6, 0.02e-6);
+    EXPECT_NEAR(share.rms_interval_m.U(share.rms_m), 1.96 * 0.2e-6, 0.02e-6);
   // With the same sign the sum is 4 + 0.4 eta.
   const PartError same = part_error(path(), {cause(3e-6, 0.2e-6), cause(1e-6, 0.2e-6)}, 1, trials);
-  EXPECT_NEAR(same.layers[0].rms_interval_m.U(), 1.96 * 0.4e-6, 0.04e-6);
-  EXPECT_NEAR(same.max_interval_m.U(), 1.96 * 0.4e-6, 0.04e-6);
+  EXPECT_NEAR(same.layers[0].rms_interval_m.U(same.layers[0].rms_m), 1.96 * 0.4e-6, 0.04e-6);
+  EXPECT_NEAR(same.max_interval_m.U(same.max_m), 1.96 * 0.4e-6, 0.04e-6);
 }
 
 // Causes with u and without value: the expected mean square of their sum contains the covariance.

@@ -55,14 +55,18 @@ double rms_over_places(const Errors& errors) {
   return std::sqrt(sum / kPlacesOfPath);
 }
 
-// Counts how often an interval contains the truth.
+// Counts how often an interval, and value ± U, contain the truth.
 struct Count {
-  int within = 0;
+  int within = 0, within_U = 0, outside = 0;  // outside: value outside its interval
   std::vector<double> lengths{};
-  void add(double low, double truth, double high) {
+  void add(double value, const Interval& interval, double truth, double unit = 1e6) {
     // The figures of a cause without u have rounding errors.
-    within += truth >= low - 1e-9 && truth <= high + 1e-9 ? 1 : 0;
-    lengths.push_back(high - low);
+    const double low = unit * interval.low - 1e-9, high = unit * interval.high + 1e-9;
+    within += truth >= low && truth <= high ? 1 : 0;
+    within_U += std::abs(truth - unit * value) <= unit * interval.U(value) + 1e-9 ? 1 : 0;
+    // A value outside its interval would contradict it.
+    outside += value < interval.low || value > interval.high ? 1 : 0;
+    lengths.push_back(unit * (interval.high - interval.low));
   }
   double percent() const { return 100.0 * within / static_cast<double>(lengths.size()); }
   double median_length() const {
@@ -75,7 +79,6 @@ struct Count {
 struct Counts {
   Count share, rms, p95, max;
   std::vector<double> u_um{};  // at the point of the largest error
-  int outside = 0;             // stated RMS outside its interval
 };
 
 struct SimulatedPart {
@@ -124,22 +127,26 @@ class Parts {
     const PartError found = part_error(path_, causes, layers, trials_);
     double sum = 0;
     for (const Errors& errors : of_layer) sum += rms_over_places(errors) * rms_over_places(errors);
+    double shares = 0;
     for (std::size_t k = 0; k < layers; ++k) {
       const PartShare& layer = found.layers[k];
       const double truth = rms_over_places(of_layer[k]);
-      if (sum > 0)
-        counts.share.add(layer.share_interval.low, truth * truth / sum, layer.share_interval.high);
-      counts.rms.add(1e6 * layer.rms_interval_m.low, truth, 1e6 * layer.rms_interval_m.high);
-      // A stated value outside its interval would contradict it.
-      counts.outside += layer.rms_m < layer.rms_interval_m.low - 1e-15 ||
-                        layer.rms_m > layer.rms_interval_m.high + 1e-15;
+      if (sum > 0) counts.share.add(layer.share, layer.share_interval, truth * truth / sum, 1);
+      counts.rms.add(layer.rms_m, layer.rms_interval_m, truth);
+      shares += layer.share;
+    }
+    EXPECT_NEAR(shares, 1, 1e-12) << case_.name;
+    EXPECT_LE(found.p95_m, found.max_m) << case_.name;
+    if (layers == 1) {
+      EXPECT_EQ(found.layers[0].share_interval.U(1), 0) << case_.name;
+      EXPECT_TRUE(has_budget() || found.layers[0].rms_m <= found.max_m) << case_.name;
     }
     const double u_um = u_of_largest(all);
     for (double& x : all) x = std::abs(x);
     std::sort(all.begin(), all.end());
     const std::size_t within_95 = kPlacesOfPath * 95 / 100;
-    counts.p95.add(1e6 * found.p95_interval_m.low, all[within_95], 1e6 * found.p95_interval_m.high);
-    counts.max.add(1e6 * found.max_interval_m.low, all.back(), 1e6 * found.max_interval_m.high);
+    counts.p95.add(found.p95_m, found.p95_interval_m, all[within_95]);
+    counts.max.add(found.max_m, found.max_interval_m, all.back());
     counts.u_um.push_back(u_um);
   }
 
@@ -156,6 +163,11 @@ class Parts {
       shared += planted.u_shared * form(planted.form, at);
     }
     return std::sqrt(square + shared * shared);
+  }
+
+  bool has_budget() const {
+    return std::any_of(case_.causes.begin(), case_.causes.end(),
+                       [](const Planted& planted) { return !planted.is_measured; });
   }
 
   const SimulatedPart& case_;
@@ -189,6 +201,10 @@ const std::vector<SimulatedPart> kSimulatedParts = {
      {{0, 0, 1, 1}, {0, 1, -1, 1}, {1, 2, 2, 1}, {1, 3, -1, 1}, {2, 4, 2, 1}, {2, 5, -1, 1}}},
     {"one known cause beside four that are zero",
      {{0, 0, 1, .01}, {1, 1, 0, 1}, {1, 2, 0, 1}, {1, 4, 0, 1}, {1, 5, 0, 1}}},
+    {"one layer of six causes that are zero",
+     {{0, 0, 0, 1}, {0, 1, 0, 1}, {0, 2, 0, 1}, {0, 3, 0, 1}, {0, 4, 0, 1}, {0, 5, 0, 1}}},
+    {"one layer of six causes and a budget",
+     {{0, 0, .3, 1}, {0, 1, .3, 1}, {0, 2, 0, 1}, {0, 4, 0, 1}, {0, 5, 0, 1}, {0, 3, 0, 1, false}}},
     {"one layer of six causes equal to u",
      {{0, 0, 1, 1}, {0, 1, 1, 1}, {0, 2, 1, 1}, {0, 3, 1, 1}, {0, 4, 1, 1}, {0, 5, 1, 1}}},
 };
@@ -220,8 +236,9 @@ TEST(PartCoverage, IntervalsContainTheTruth) {
       for (const Count* count : all)
         if (!count->lengths.empty()) {
           EXPECT_GE(count->percent(), least) << name;
+          EXPECT_GE(count->within_U, count->within) << name;
+          EXPECT_EQ(count->outside, 0) << name;
         }
-      EXPECT_EQ(counts.outside, 0) << name;
       of_all_cases += counts.max.percent() / (2.0 * static_cast<double>(kSimulatedParts.size()));
       // An interval that is too long contains the truth, too.
       std::sort(counts.u_um.begin(), counts.u_um.end());

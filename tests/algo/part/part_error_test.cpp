@@ -56,7 +56,7 @@ TEST(PartError, SharesMatchTheClosedForm) {
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(found.layers[k].share, mean_square(causes[k].value_m) / sum, 1e-12);
     EXPECT_NEAR(found.layers[k].rms_m, std::sqrt(mean_square(causes[k].value_m)), 1e-18);
-    EXPECT_EQ(found.layers[k].share_interval.U(), 0);
+    EXPECT_EQ(found.layers[k].share_interval.U(found.layers[k].share), 0);
   }
   // The largest error is at the end of the path, where all causes have the same sign.
   double most = 0;
@@ -102,12 +102,14 @@ TEST(PartError, UncertaintyOfOneCauseMatchesTheClosedForm) {
   for (const bool with_normals : {true, false}) {
     const PartError found =
         part_error(path_of(with_normals), causes, 1, {.seed = 3, .shares = 4000, .errors = 4000});
-    EXPECT_NEAR(found.p95_interval_m.U() / found.p95_m, 1.96 * share, 0.01);
-    EXPECT_NEAR(found.max_interval_m.U() / found.max_m, 1.96 * share, 0.01);
-    EXPECT_NEAR(found.layers[0].rms_interval_m.U() / found.layers[0].rms_m, 1.96 * share, 0.01);
-    EXPECT_NEAR(found.causes[0].rms_interval_m.U() / found.causes[0].rms_m, 1.96 * share, 0.01);
+    EXPECT_NEAR(found.p95_interval_m.U(found.p95_m) / found.p95_m, 1.96 * share, 0.01);
+    EXPECT_NEAR(found.max_interval_m.U(found.max_m) / found.max_m, 1.96 * share, 0.01);
+    EXPECT_NEAR(found.layers[0].rms_interval_m.U(found.layers[0].rms_m) / found.layers[0].rms_m,
+                1.96 * share, 0.01);
+    EXPECT_NEAR(found.causes[0].rms_interval_m.U(found.causes[0].rms_m) / found.causes[0].rms_m,
+                1.96 * share, 0.01);
     EXPECT_EQ(found.layers[0].share, 1);
-    EXPECT_NEAR(found.layers[0].share_interval.U(), 0, 1e-12);
+    EXPECT_NEAR(found.layers[0].share_interval.U(found.layers[0].share), 0, 1e-12);
     // Expected: the 191st of 200 sorted sizes.
     std::vector<double> sizes;
     for (const Eigen::Vector3d& v : causes[0].value_m)
@@ -127,7 +129,7 @@ TEST(PartError, IsNotZeroIfOnlyUIsKnown) {
   // The median of |xi| is 0.6745.
   EXPECT_NEAR(found.max_m / largest, 0.6745, 0.03);
   EXPECT_GT(found.p95_m, 0.5 * found.max_m);
-  EXPECT_GT(found.max_interval_m.U() / largest, 1.0);
+  EXPECT_GT(found.max_interval_m.U(found.max_m) / largest, 1.0);
 }
 
 // The value of the cause is unknown, so its RMS is |xi| u: below 0.0313 u in 2.5 % of all trials,
@@ -156,8 +158,9 @@ TEST(PartError, IntervalsContainOnlyPossibleValues) {
 }
 
 // Three measured causes of one layer, perpendicular to each other along the path: sizes 3, 0 and 0,
-// each with u = 1 (um RMS) and an error of 1. The measured square is 11; 2 is expected of errors
-// perpendicular to the value, and 1 along it. Two of them cannot be a part of the layer.
+// each with u = 1 (um RMS) and an error of 1. The measured square is 11. If the true square
+// is 8.956, half of all measured squares are below 11 (noncentral chi-square, 3 degrees of
+// freedom).
 TEST(PartError, ErrorsOfMeasuredValuesDoNotIncreaseTheRms) {
   const auto wave = [](int turns) {
     Field field;
@@ -170,8 +173,9 @@ TEST(PartError, ErrorsOfMeasuredValuesDoNotIncreaseTheRms) {
   std::vector<PartCause> causes;
   for (int k = 0; k < 3; ++k)
     causes.push_back({0, "c", times(wave(k + 1), k == 0 ? 3e-6 : 1e-6), times(wave(k + 1), 1e-6)});
-  const PartError found = part_error(path_of(true), causes, 1);
-  EXPECT_NEAR(found.layers[0].rms_m, std::sqrt(11. - 2) * 1e-6, 1e-11);
+  const PartError found =
+      part_error(path_of(true), causes, 1, {.seed = 1, .shares = 20'000, .errors = 0});
+  EXPECT_NEAR(found.layers[0].rms_m, std::sqrt(8.956) * 1e-6, 0.03e-6);
   EXPECT_NEAR(found.causes[0].rms_m, 3e-6, 1e-11);
   EXPECT_NEAR(found.causes[1].rms_m, 1e-6, 1e-11);
 }
@@ -188,10 +192,11 @@ TEST(PartError, UncertaintyOfAShareMatchesTheClosedForm) {
   for (const auto* shares : {&found.layers, &found.causes})
     for (std::size_t k = 0; k < 2; ++k) {
       EXPECT_NEAR((*shares)[k].share, 0.5, 1e-12);
-      EXPECT_NEAR((*shares)[k].share_interval.U(), 1.96 * share / 2, 0.001);
+      EXPECT_NEAR((*shares)[k].share_interval.U((*shares)[k].share), 1.96 * share / 2, 0.001);
     }
-  EXPECT_NEAR(found.layers[0].rms_interval_m.U(), 1.96 * share * 1e-6, 0.002e-6);
-  EXPECT_EQ(found.layers[1].rms_interval_m.U(), 0);
+  EXPECT_NEAR(found.layers[0].rms_interval_m.U(found.layers[0].rms_m), 1.96 * share * 1e-6,
+              0.002e-6);
+  EXPECT_EQ(found.layers[1].rms_interval_m.U(found.layers[1].rms_m), 0);
 }
 
 // A source acts on an angle. The error is its random number times the lever arm, so it is largest

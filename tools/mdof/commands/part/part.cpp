@@ -52,7 +52,7 @@ void clear_unknown_figures(FoundPart& found) {
     if (x == 0) x = std::nan("");
   };
   const auto forget_point = [](algo::Interval& interval) {
-    if (interval.U() == 0) interval = {std::nan(""), std::nan("")};
+    if (interval.low == interval.high) interval = {std::nan(""), std::nan("")};
   };
   forget_point(found.error.p95_interval_m);
   forget_point(found.error.max_interval_m);
@@ -81,7 +81,7 @@ algo::Interval in_unit(const algo::Interval& interval_m) {
 // Writes a value, its U and its interval. NaN: unknown.
 void write_figure(JsonWriter& json, const std::string& name, double value,
                   const algo::Interval& interval) {
-  json.field(name, value).field("U_" + name, interval.U()).key("interval_" + name);
+  json.field(name, value).field("U_" + name, interval.U(value)).key("interval_" + name);
   if (std::isnan(interval.low))
     json.null();
   else

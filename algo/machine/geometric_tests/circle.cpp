@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kFewestAngles = 8, kMostAngles = 100'000;
 constexpr double kLargestGap_rad = std::numbers::pi / 2;
 constexpr double kMostRadius_m = 10;
+constexpr double kRounding = 1e-9;  // relative to the radius
 
 // Radial deviation of a circle: radius_m + a_m cos(angle) + b_m sin(angle).
 struct Circle {
@@ -114,6 +115,32 @@ Status check_request(const Machine& machine, const CircleRequest& request) {
   return bad_input("the number of angles of a circle must be from 8 to 100,000");
 }
 
+// The command at an angle of the circle.
+Command command_at(const CircleRequest& request, double angle_rad) {
+  Command command = request.centre;
+  command[request.first] += request.radius_m * std::cos(angle_rad);
+  command[request.second] += request.radius_m * std::sin(angle_rad);
+  return command;
+}
+
+// A rotary axis between the two axes makes an ellipse from the circle of the commands, if its angle
+// is not a multiple of 90 degrees. Then two radii at right angles to each other differ.
+Status check_is_circle(const Machine& machine, const CircleRequest& request) {
+  const Eigen::Vector3d centre = nominal_tool(machine, request.centre).p;
+  for (const double angle_rad : {std::numbers::pi / 4, 3 * std::numbers::pi / 4}) {
+    const double radius_m =
+        (nominal_tool(machine, command_at(request, angle_rad)).p - centre).norm();
+    if (std::abs(radius_m - request.radius_m) > kRounding * request.radius_m)
+      return bad_input(
+          "the commands of a circle in the plane " + std::string(1, "XYZ"[request.first]) +
+          "XYZ"[request.second] + " give an ellipse, because a rotary axis of the chain " +
+          machine.chain.text +
+          " turns one of these axes against the other; set the rotary axes between them to 0 "
+          "with --centre");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<CircularFigures> circular_figures(const CircularPath& path) {
@@ -155,6 +182,7 @@ CircularPath centred(const CircularPath& path, const CircularFigures& figures) {
 
 Result<PredictedCircle> predicted_circle(const Machine& machine, const CircleRequest& request) {
   MDOF_CHECK(check_request(machine, request));
+  MDOF_CHECK(check_is_circle(machine, request));
   PredictedCircle predicted;
   CircularPath& path = predicted.path;
   const Eigen::Vector3d ball =
@@ -162,9 +190,7 @@ Result<PredictedCircle> predicted_circle(const Machine& machine, const CircleReq
   for (std::size_t i = 0; i < request.angles; ++i) {
     const double angle =
         2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(request.angles);
-    Command command = request.centre;
-    command[request.first] += request.radius_m * std::cos(angle);
-    command[request.second] += request.radius_m * std::sin(angle);
+    const Command command = command_at(request, angle);
     const auto radius = [&](double way) {
       return (actual_tool(machine, values_on(machine, request, command, angle, way)).p - ball)
           .norm();

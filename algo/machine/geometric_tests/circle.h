@@ -58,7 +58,7 @@ struct PredictedCircle {
 // place of the ball is the place of the tool at the centre of the circle. Uses the full product of
 // the frames. Each axis has the errors of the approach in its direction of motion. Errors: an axis
 // that the chain does not have; a radius of 0 or less, or above 10 m; fewer than 8 angles, or more
-// than 100,000.
+// than 100,000; a rotary axis that makes an ellipse from the circle.
 Result<PredictedCircle> predicted_circle(const Machine& machine, const CircleRequest& request);
 
 }  // namespace mdof::algo

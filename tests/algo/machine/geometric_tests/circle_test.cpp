@@ -47,6 +47,35 @@ TEST(CircularTest, PerfectMachineHasNoDeviations) {
     EXPECT_NEAR(figure, 0, 1e-12);
 }
 
+// The rotary axis A between Y and Z turns Z to Y: for A = 30 degrees, the circle of the commands is
+// an ellipse with the semi-axes R sqrt(1 + sin 30°) and R sqrt(1 - sin 30°).
+TEST(CircularTest, RefusesAnObliqueRotaryAxis) {
+  const auto parsed = parse_machine(
+      "name = \"m\"\nmachine = {chain = \"w-Y-A-b-X-Z-t\"}\n"
+      "[[axis]]\nid = \"Y\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n"
+      "[[axis]]\nid = \"A\"\ncentre_mm = [0, 0, 0]\n"
+      "[[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n"
+      "[[axis]]\nid = \"Z\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n",
+      "m.toml");
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  const auto circle = [&](double A_deg, std::size_t first, std::size_t second) {
+    CircleRequest request;
+    request.first = first;
+    request.second = second;
+    request.radius_m = kCircle_m;
+    request.centre[3] = A_deg * std::numbers::pi / 180;
+    return predicted_circle(*parsed, request);
+  };
+  const auto refused = circle(30, 1, 2);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("plane YZ give an ellipse"), std::string::npos);
+  EXPECT_FALSE(circle(-1e-4, 1, 2));
+  EXPECT_TRUE(circle(0, 1, 2));
+  EXPECT_TRUE(circle(90, 0, 1));  // X is perpendicular to Y for each A
+  EXPECT_TRUE(circle(180, 1, 2));
+  EXPECT_TRUE(circle(30, 0, 2));
+}
+
 TEST(CircularTest, SquarenessGivesAnEllipseAt45Degrees) {
   // EC0Y = a: the tool is at x - a y, so the radius is R - a R sin cos. It changes by ± a R / 2 and
   // is smallest at 45°.

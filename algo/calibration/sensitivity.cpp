@@ -194,6 +194,14 @@ void propose(const Probe& probe, const std::vector<Reading>& means, const Line& 
   if (!c.um_per_V) extend_to_range(probe, 1 / line.slope - 1, found);
 }
 
+// Why stops have no reading. A reading outside the range of the probe is not used.
+std::string unusable_text(std::size_t unusable, std::size_t stops) {
+  if (unusable == 0) return "";
+  return "; " + std::to_string(unusable) + " of " + std::to_string(stops) +
+         " stops have no usable reading, because the readings are outside the range of the probe "
+         "or missing; check the unit of the readings in the log";
+}
+
 }  // namespace
 
 Result<Axis> approaching_axis(const Rig& rig, std::size_t probe) {
@@ -225,7 +233,8 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
                     " positions over " + plain_number(to_um(way_m)) +
                     " um; measure at three or more positions that cover the part of the range that "
                     "you use (range of the probe: " +
-                    plain_number(to_um(own.range_m)) + " um)");
+                    plain_number(to_um(own.range_m)) + " um)" +
+                    unusable_text(traverse.stops.size() - all.size(), traverse.stops.size()));
   std::vector<double> x, y;
   for (const Reading& reading : all) {
     x.push_back(reading.true_m - all.front().true_m);

@@ -39,7 +39,8 @@ class Reader {
     if (!table_) return 0;
     const double x = table_->number(key, fallback);
     const bool above = limits.includes_lower ? x >= limits.above : x > limits.above;
-    if (!(above && x <= limits.up_to)) table_->reject(key, "is " + text(x) + "; " + range(limits));
+    if (!(above && x <= limits.up_to))
+      table_->reject(key, "is " + text(x) + "; " + (above ? range(limits) : lower(limits)));
     read_u(key);
     return x;
   }
@@ -81,9 +82,13 @@ class Reader {
 
  private:
   static std::string text(double x) { return plain_number(x, 6); }
+  static std::string lower(const Limits& limits) {
+    return std::string("it must be ") + (limits.includes_lower ? "at least " : "above ") +
+           text(limits.above);
+  }
+  // Other keys can limit a value more than `up_to`.
   static std::string range(const Limits& limits) {
-    std::string lower = limits.includes_lower ? "at least " : "above ";
-    return "it must be " + lower + text(limits.above) + " and at most " + text(limits.up_to);
+    return lower(limits) + " and at most " + text(limits.up_to);
   }
 
   TomlTable& root_;

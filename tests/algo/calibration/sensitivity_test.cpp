@@ -201,6 +201,8 @@ TEST(Sensitivity, RefusesImplausibleTraverses) {
   says(along_z([](double z) { return -z; }), "check the keys \"reads\" and \"measures\"");
   says(along_z([](double z) { return 2.5 * z; }), "um_per_V");
   says(along_z([](double) { return std::nan(""); }), "at 0 positions over 0 um");
+  says(along_z([](double z) { return std::abs(z) < 1e-6 ? z : std::nan(""); }),
+       "10 of 11 stops have no usable reading, because the readings are outside the range");
   says(along_z([](double z) { return std::min(z, 50e-6); }),
        "changes by 2 um in a step of 16 um, from the reading 48 um");
   EXPECT_EQ(approaching_axis(rig, kA).value(), Axis::z);

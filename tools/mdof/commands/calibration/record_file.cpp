@@ -30,6 +30,14 @@ Result<std::chrono::sys_days> day_of(const std::string& date) {
   return std::chrono::sys_days(ymd);
 }
 
+// One day is added, because the local date can be later than the date in UTC.
+Status check_not_in_future(std::chrono::sys_days day, const std::string& date) {
+  const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  if (day <= today + std::chrono::days(1)) return {};
+  return fail(ErrorCode::usage,
+              "--date " + date + " is in the future; give the date of the calibration");
+}
+
 std::string text_of(std::chrono::sys_days day) {
   const std::chrono::year_month_day ymd(day);
   char text[16];
@@ -89,6 +97,7 @@ Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
   const std::string now = started_utc.empty() ? daemon::utc_now() : started_utc;
   record.date = options.date.empty() ? now.substr(0, 10) : options.date;
   MDOF_TRY(const auto day, day_of(record.date));
+  if (!options.date.empty()) MDOF_CHECK(check_not_in_future(day, record.date));
   record.valid_until = text_of(day + std::chrono::days(options.valid_days));
   record.software = daemon::kVersion;
   return record;

@@ -33,7 +33,8 @@ enum Offset : std::size_t {
   kObliquity = 176,
   kLateral = 184,
   kPhaseRes = 218,
-  kSign = 232
+  kSign = 232,
+  kCameraHeight = 236
 };
 
 class Header {
@@ -115,7 +116,9 @@ Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& sou
                      " m, above the limit of " + plain_number(kLargestPixel_m) +
                      " m; the file is damaged");
   map.x0_m = header.i16(kOrgX) * map.dx_m;
-  map.y0_m = -(header.i16(kOrgY) + static_cast<double>(map.ny - 1)) * map.dy_m;
+  const int lowest = header.i16(kOrgY) + static_cast<int>(map.ny) - 1;
+  const int rows = header.i16(kCameraHeight);
+  map.y0_m = ((rows > lowest ? rows - 1 : 0) - lowest) * map.dy_m;
   MDOF_TRY(const double scale_m, height_of_a_count(header, source));
   map.z_m.resize(map.nx * map.ny);
   for (std::size_t k = 0; k < map.z_m.size(); ++k) {

@@ -303,5 +303,13 @@ TEST(ZygoDat, TheFirstRowIsTheTopOfTheImage) {
   EXPECT_GT(map->dy_m, 0);
 }
 
+// The rows 20 to 22 of the camera, counted from the top.
+TEST(ZygoDat, TheLowestRowOfTheCameraIsAtZero) {
+  std::string bytes = zygo(0, 0, {1, 2, 3, 4, 5, 6});
+  EXPECT_NEAR(parse_zygo_dat(bytes, "z")->y0_m, -22e-3, 1e-9);  // the height is not stated
+  bytes[237] = 100;
+  EXPECT_NEAR(parse_zygo_dat(bytes, "z")->y0_m, (99 - 22) * 1e-3, 1e-9);
+}
+
 }  // namespace
 }  // namespace mdof

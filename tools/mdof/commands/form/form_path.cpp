@@ -184,10 +184,9 @@ std::optional<algo::FeedRoughness> feed_roughness_if_closed(const FoundPath& fou
 }
 
 constexpr double kNotableOvershoot = 0.01;  // relative to the stroke on the part
-
 // Limits for notices. If a part is long and narrow, the spiral is beside the part for most of each
 // turn. There the path bridges a gap, and its stroke may be a little larger than on the part.
-constexpr double kMostlyBridged = 0.9, kLeastMeasured = 0.5, kLargerBridgedStroke = 1.1;
+constexpr double kMostlyBridged = 0.9, kLargerBridgedStroke = 1.1;
 constexpr double kLeastStroke_m = 1e-12;  // a smaller stroke is rounding
 
 Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
@@ -219,8 +218,7 @@ Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
   if (static_cast<double>(counts.bridged) > kMostlyBridged * static_cast<double>(counts.points))
     notices.push_back(notice(NoticeCode::path_mostly_bridged, o.map,
                              {{"bridged", counts.bridged}, {"points", counts.points}}));
-  else if (static_cast<double>(counts.measured) <
-           kLeastMeasured * static_cast<double>(counts.points))
+  else if (counts.extended > counts.measured)
     notices.push_back(notice(NoticeCode::path_mostly_unmeasured, o.map,
                              {{"measured", counts.measured}, {"points", counts.points}}));
   if (counts.bridged > 0 &&

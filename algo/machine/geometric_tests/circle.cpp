@@ -135,8 +135,8 @@ Status check_is_circle(const Machine& machine, const CircleRequest& request) {
           "the commands of a circle in the plane " + std::string(1, "XYZ"[request.first]) +
           "XYZ"[request.second] + " give an ellipse, because a rotary axis of the chain " +
           machine.chain.text +
-          " turns one of these axes against the other; set the rotary axes between them to 0 "
-          "with --centre");
+          " turns one of these axes against the other; set the rotary axes between them to 0 at "
+          "the centre of the circle");
   }
   return {};
 }

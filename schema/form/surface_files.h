@@ -20,7 +20,8 @@ Result<SurfaceMap> parse_sdf(std::string_view text, const std::string& source);
 // Zygo MetroPro .dat, formats 1 to 3: the connected phase is converted to heights. x increases with
 // the column of the camera. The first row of the file is the top of the image, so y decreases with
 // the row. The lowest row of the camera is at y = 0. If the file does not state the height of the
-// camera, the top row is at y = 0, so y of the other rows is negative.
+// camera, a file that begins with the top row has its lowest row at y = 0; in other files, the top
+// row of the camera is at y = 0, so y is negative.
 bool is_zygo_dat(std::string_view bytes);
 Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& source);
 

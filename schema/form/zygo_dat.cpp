@@ -116,9 +116,11 @@ Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& sou
                      " m, above the limit of " + plain_number(kLargestPixel_m) +
                      " m; the file is damaged");
   map.x0_m = header.i16(kOrgX) * map.dx_m;
-  const int lowest = header.i16(kOrgY) + static_cast<int>(map.ny) - 1;
+  const int first = header.i16(kOrgY), lowest = first + static_cast<int>(map.ny) - 1;
   const int rows = header.i16(kCameraHeight);
-  map.y0_m = ((rows > lowest ? rows - 1 : 0) - lowest) * map.dy_m;
+  const bool is_known = rows > lowest;
+  const int at_zero = is_known ? rows - 1 : first == 0 ? lowest : 0;
+  map.y0_m = (at_zero - lowest) * map.dy_m;
   MDOF_TRY(const double scale_m, height_of_a_count(header, source));
   map.z_m.resize(map.nx * map.ny);
   for (std::size_t k = 0; k < map.z_m.size(); ++k) {

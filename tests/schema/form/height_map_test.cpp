@@ -309,6 +309,9 @@ TEST(ZygoDat, TheLowestRowOfTheCameraIsAtZero) {
   EXPECT_NEAR(parse_zygo_dat(bytes, "z")->y0_m, -22e-3, 1e-8);  // the height is not stated
   bytes[237] = 100;
   EXPECT_NEAR(parse_zygo_dat(bytes, "z")->y0_m, (99 - 22) * 1e-3, 1e-8);
+  bytes[237] = 0;
+  bytes[67] = 0;  // the file begins with the top row of the camera
+  EXPECT_EQ(parse_zygo_dat(bytes, "z")->y0_m, 0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "algo/form/map_figures.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -91,6 +92,20 @@ Plane plane_of(const SurfaceMap& map) {
   plane.tilt_x = tilt(0);
   plane.tilt_y = tilt(1);
   return plane;
+}
+
+MeasuredExtent measured_extent(const SurfaceMap& map) {
+  MeasuredExtent extent{map.nx, 0, map.ny, 0};
+  for (std::size_t j = 0; j < map.ny; ++j)
+    for (std::size_t i = 0; i < map.nx; ++i) {
+      if (std::isnan(map.at(i, j))) continue;
+      extent.left = std::min(extent.left, i);
+      extent.right = std::max(extent.right, i);
+      extent.low = std::min(extent.low, j);
+      extent.high = j;
+    }
+  assert(extent.left <= extent.right);
+  return extent;
 }
 
 void remove_plane(SurfaceMap& map) {

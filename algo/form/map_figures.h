@@ -1,5 +1,5 @@
-// Peak to valley and root mean square of a map, and removal of its least-squares plane and of
-// pixels that are separate from the part. SI.
+// Peak to valley, root mean square and measured rectangle of a map, and removal of its
+// least-squares plane and of pixels that are separate from the part. SI.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,12 @@ struct MapFigures {
   std::size_t pixels = 0;  // measured pixels
 };
 MapFigures figures_of(const SurfaceMap& map);
+
+// The first and last column and row with a measured pixel. Requires a measured pixel.
+struct MeasuredExtent {
+  std::size_t left = 0, right = 0, low = 0, high = 0;
+};
+MeasuredExtent measured_extent(const SurfaceMap& map);
 
 // Least-squares plane of the measured pixels:
 //   z = piston + tilt_x (x - x_mean) + tilt_y (y - y_mean)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "algo/form/map_figures.h"
 #include "algo/linear_algebra/least_squares.h"
 
 namespace mdof::algo {
@@ -133,15 +134,7 @@ void set_range(const std::vector<double>& at_m, double pixel_m, double& from_m, 
 // Removes the outer rows and columns that have no height.
 ScanMap without_empty_edges(ScanMap scan) {
   const SurfaceMap map = scan.map, u = scan.u;
-  std::size_t left = map.nx, right = 0, low = map.ny, high = 0;
-  for (std::size_t j = 0; j < map.ny; ++j)
-    for (std::size_t i = 0; i < map.nx; ++i) {
-      if (std::isnan(map.at(i, j))) continue;
-      left = std::min(left, i);
-      right = std::max(right, i);
-      low = std::min(low, j);
-      high = j;
-    }
+  const auto [left, right, low, high] = measured_extent(map);
   for (SurfaceMap* const part : {&scan.map, &scan.u}) {
     part->x0_m = map.x_m(left);
     part->y0_m = map.y_m(low);

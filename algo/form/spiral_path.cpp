@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "algo/form/map_figures.h"
 #include "schema/base/number/number_text.h"
 #include "schema/base/random.h"
 #include "schema/units.h"
@@ -320,16 +321,9 @@ std::size_t SpiralPath::surface_undulations(double pixel_m, double share) const 
 }
 
 MapMiddle middle_of(const SurfaceMap& map) {
-  std::size_t least_i = map.nx, most_i = 0, least_j = map.ny, most_j = 0;
-  for (std::size_t j = 0; j < map.ny; ++j)
-    for (std::size_t i = 0; i < map.nx; ++i) {
-      if (std::isnan(map.at(i, j))) continue;
-      least_i = std::min(least_i, i);
-      most_i = std::max(most_i, i);
-      least_j = std::min(least_j, j);
-      most_j = j;
-    }
-  return {(map.x_m(least_i) + map.x_m(most_i)) / 2, (map.y_m(least_j) + map.y_m(most_j)) / 2};
+  const MeasuredExtent extent = measured_extent(map);
+  return {(map.x_m(extent.left) + map.x_m(extent.right)) / 2,
+          (map.y_m(extent.low) + map.y_m(extent.high)) / 2};
 }
 
 MapMiddle mean_pixel(const SurfaceMap& map) {

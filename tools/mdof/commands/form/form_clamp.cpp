@@ -67,15 +67,7 @@ Status check_plate(const FormClampCommand& o) {
 
 // The smaller side of the rectangle around the measured pixels.
 double width_m(const SurfaceMap& map) {
-  std::size_t left = map.nx, right = 0, low = map.ny, high = 0;
-  for (std::size_t j = 0; j < map.ny; ++j)
-    for (std::size_t i = 0; i < map.nx; ++i) {
-      if (std::isnan(map.at(i, j))) continue;
-      left = std::min(left, i);
-      right = std::max(right, i);
-      low = std::min(low, j);
-      high = j;
-    }
+  const auto [left, right, low, high] = algo::measured_extent(map);
   return std::min(static_cast<double>(right - left) * map.dx_m,
                   static_cast<double>(high - low) * map.dy_m);
 }

@@ -20,6 +20,11 @@ struct Limits {
 };
 constexpr double kHuge = 1e12;
 constexpr double kMostYoung_GPa = 10'000;  // diamond: 1100
+// A value in another unit (GPa, N/m^2) is outside: wax has about 10 N/mm^2, hard steel with chips
+// of 1 um about 20,000.
+constexpr Limits kCuttingForce_N_per_mm2{5, 200'000}, kRadialForce_N_per_mm2{0, 200'000, true};
+constexpr Limits kEdgeForce_N_per_mm{0, 10'000, true};  // steel: 20 to 100
+constexpr Limits kSpindle_rpm{0, 2'000'000};            // the fastest spindles: 500,000
 constexpr Limits kPositive{0, kHuge}, kNotNegative{0, kHuge, true}, kFinite{-kHuge, kHuge};
 
 class Reader {
@@ -40,7 +45,8 @@ class Reader {
     const double x = table_->number(key, fallback);
     const bool above = limits.includes_lower ? x >= limits.above : x > limits.above;
     if (!(above && x <= limits.up_to))
-      table_->reject(key, "is " + text(x) + "; " + (above ? range(limits) : lower(limits)));
+      table_->reject(key, "is " + text(x) + "; " +
+                              (above || limits.up_to < kHuge ? range(limits) : lower(limits)));
     read_u(key);
     return x;
   }
@@ -224,7 +230,7 @@ Result<DeclaredMillingPlan> parse_milling_plan(std::string_view text, const std:
 
   TomlTable& cut = read.table("cut");
   plan.is_up = read.one_of<Mode>("mode", {{true}, {false}}, {true}).is_up;
-  plan.spindle_hz = read.number("spindle_rpm", kPositive) / 60;
+  plan.spindle_hz = read.number("spindle_rpm", kSpindle_rpm) / 60;
   plan.feed_per_tooth_m = read.number("feed_per_tooth_um", kPositive) * kUm;
   plan.radial_depth_m = read.number("radial_depth_mm", kPositive) * kMm;
   plan.axial_depth_m = read.number("axial_depth_mm", kPositive) * kMm;
@@ -245,10 +251,10 @@ Result<DeclaredMillingPlan> parse_milling_plan(std::string_view text, const std:
 
   TomlTable& force = read.table("force");
   plan.force_source = force.string("source", "");
-  plan.Kt = read.number("Kt_N_per_mm2", kPositive) * kPerMm2;
-  plan.Kr = read.number("Kr_N_per_mm2", kNotNegative) * kPerMm2;
-  plan.Kte = read.number("Kte_N_per_mm", kNotNegative, 0.0) * kPerMm;
-  plan.Kre = read.number("Kre_N_per_mm", kNotNegative, 0.0) * kPerMm;
+  plan.Kt = read.number("Kt_N_per_mm2", kCuttingForce_N_per_mm2) * kPerMm2;
+  plan.Kr = read.number("Kr_N_per_mm2", kRadialForce_N_per_mm2) * kPerMm2;
+  plan.Kte = read.number("Kte_N_per_mm", kEdgeForce_N_per_mm, 0.0) * kPerMm;
+  plan.Kre = read.number("Kre_N_per_mm", kEdgeForce_N_per_mm, 0.0) * kPerMm;
 
   if (root.has("model")) {
     read.table("model");

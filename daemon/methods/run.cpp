@@ -1,5 +1,6 @@
 // The methods run.start, run.resume, run.stop, run.list, run.get and run.points.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "daemon/measure/budgets.h"
@@ -18,6 +19,7 @@
 #include "daemon/words/words.h"
 #include "schema/base/append_new.h"
 #include "schema/base/json_page.h"
+#include "schema/base/number/number_text.h"
 #include "schema/imported/series.h"
 #include "schema/plausibility/plausibility_json.h"
 #include "schema/run_json.h"
@@ -41,6 +43,7 @@ constexpr std::int64_t kMaxRunsPage = 100;
 // All points are read for the figures; this takes about 0.3 s.
 constexpr std::int64_t kMaxRunPoints = 100'000;
 constexpr std::size_t kMaxTargets = 1500;  // the reply contains all targets in one line
+constexpr double kFarthestTarget_mm = 10e3;
 
 // Reads the targets: a list of positions, or equal intervals.
 Result<std::vector<double>> read_targets(const Params& params) {
@@ -79,6 +82,9 @@ Result<RunRequest> read_run_request(const Params& params) {
                                       " targets (limit " + std::to_string(kMaxTargets) +
                                       "); give a larger interval_mm");
   for (const double target_mm : targets_mm) {
+    if (std::abs(target_mm) > kFarthestTarget_mm)
+      return fail(ErrorCode::usage, "the target at " + plain_number(target_mm) +
+                                        " mm is more than 10 m from zero; give the targets in mm");
     if (!request.targets_m.empty() && from_mm(target_mm) <= request.targets_m.back()) {
       return fail(ErrorCode::usage, "targets_mm must be in ascending order");
     }
@@ -94,8 +100,7 @@ Result<RunRequest> read_run_request(const Params& params) {
   return request;
 }
 
-// If the station has several devices: one notice for each device whose clock drift is not known
-// yet.
+// If the station has several devices: one notice for each whose clock drift is not known yet.
 Notices unsettled_clock_notices(const Station& station) {
   const auto devices = station.devices();
   Notices found;

@@ -117,6 +117,8 @@ TEST_F(RunMethods, RejectsInvalidRequestsByTheirKey) {
   add_axis();
   EXPECT_TEXT(refused_start(R"("targets_mm":[0,5,5])"), "targets_mm must be in ascending order");
   EXPECT_TEXT(refused_start(R"("targets_mm":[5,0])"), "targets_mm must be in ascending order");
+  EXPECT_TEXT(refused_start(R"("targets_mm":[0,5000,20000])"), "the target at 20000 mm");
+  EXPECT_TEXT(refused_start(R"("from_mm":-2e4,"to_mm":0,"interval_mm":5000)"), "at -20000 mm");
   EXPECT_TEXT(refused_start(R"("targets_mm":[0,"1"])"), "targets_mm");
   EXPECT_TEXT(refused_start(R"("targets_mm":[0,1],"from_mm":0)"), "give only one of the two");
   EXPECT_TEXT(refused_start(R"("from_mm":0,"to_mm":5)"), "interval_mm is missing");

@@ -61,4 +61,11 @@ struct DriverSpec {
   std::function<SourceInfo(const Driver&)> source_info = [](const Driver&) { return SourceInfo{}; };
 };
 
+// The usual DriverSpec::make: constructs Device with copies of the arguments.
+template <class Device, class... Arguments>
+std::function<Result<std::unique_ptr<Driver>>()> make_of(Arguments... arguments) {
+  return
+      [=]() -> Result<std::unique_ptr<Driver>> { return std::make_unique<Device>(arguments...); };
+}
+
 }  // namespace mdof::drivers

@@ -93,9 +93,7 @@ Result<DriverSpec> configure_csv_stream(TomlTable& table, const DriverContext& c
   MDOF_CHECK(table.finish());
   DriverSpec spec;
   spec.identity = [options] { return identity(options); };
-  spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
-    return std::make_unique<CsvStream>(name, options);
-  };
+  spec.make = make_of<CsvStream>(context.name, options);
   spec.source_info = [](const Driver& driver) {
     return SourceInfo{{}, static_cast<const CsvStream&>(driver).notices()};
   };

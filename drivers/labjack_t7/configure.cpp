@@ -119,9 +119,7 @@ Result<DriverSpec> configure_labjack_t7(TomlTable& table, const DriverContext& c
   spec.encoder = settings.encoder;
   spec.further_encoders = settings.further_encoders;
   spec.identity = [at = settings.command] { return identity_of(at); };
-  spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
-    return std::make_unique<LabjackT7>(settings);
-  };
+  spec.make = make_of<LabjackT7>(settings);
   return spec;
 }
 

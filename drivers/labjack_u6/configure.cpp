@@ -121,9 +121,7 @@ Result<DriverSpec> configure_labjack_u6(TomlTable& table, const DriverContext& c
   DriverSpec spec;
   for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
   spec.encoder = settings.encoder;
-  spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
-    return std::make_unique<LabjackU6>(settings);
-  };
+  spec.make = make_of<LabjackU6>(settings);
   return spec;
 }
 

@@ -121,9 +121,7 @@ Result<DriverSpec> configure_linux_comedi(TomlTable& table, const DriverContext&
   for (const InputSetting& input : settings.inputs) spec.channels.push_back(input.channel.id);
   spec.encoder = settings.encoder;
   spec.identity = [device = settings.device] { return identity_of_path(device); };
-  spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
-    return std::make_unique<LinuxComedi>(settings);
-  };
+  spec.make = make_of<LinuxComedi>(settings);
   return spec;
 }
 

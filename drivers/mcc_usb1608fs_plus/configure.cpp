@@ -62,9 +62,7 @@ Result<DriverSpec> configure_mcc_usb1608fs_plus(TomlTable& table, const DriverCo
   DriverSpec spec;
   for (const Input& input : settings.inputs) spec.channels.push_back(input.channel.id);
   spec.encoder = settings.encoder;
-  spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
-    return std::make_unique<MccUsb1608fsPlus>(settings);
-  };
+  spec.make = make_of<MccUsb1608fsPlus>(settings);
   return spec;
 }
 

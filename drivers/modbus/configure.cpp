@@ -112,9 +112,7 @@ Result<DriverSpec> configure_modbus(TomlTable& table, const DriverContext& conte
   spec.encoder = settings.encoder;
   spec.identity = [settings] { return identity(settings); };
   spec.shared = !settings.address.empty() && settings.profile.framing != Framing::rtu;
-  spec.make = [name = context.name, settings]() -> Result<std::unique_ptr<Driver>> {
-    return std::make_unique<ModbusDriver>(name, settings);
-  };
+  spec.make = make_of<ModbusDriver>(context.name, settings);
   return spec;
 }
 

@@ -101,9 +101,7 @@ Result<DriverSpec> configure_pokeys57u(TomlTable& table, const DriverContext& co
   DriverSpec spec;
   spec.channels = ids_of(channels);
   spec.encoder = encoder_origin(channels, counts);
-  spec.make = [settings]() -> Result<std::unique_ptr<Driver>> {
-    return std::make_unique<PoKeys57u>(settings);
-  };
+  spec.make = make_of<PoKeys57u>(settings);
   return spec;
 }
 

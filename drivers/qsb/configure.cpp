@@ -58,9 +58,7 @@ Result<DriverSpec> configure_qsb(TomlTable& table, const DriverContext& context)
   spec.identity = [at = options.address, port = options.port] {
     return at ? identity_of(*at) : identity_of_path(port);
   };
-  spec.make = [name = context.name, options]() -> Result<std::unique_ptr<Driver>> {
-    return std::make_unique<Qsb>(name, options);
-  };
+  spec.make = make_of<Qsb>(context.name, options);
   return spec;
 }
 

@@ -1,7 +1,6 @@
 #include "drivers/recording/configure.h"
 
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "drivers/csv/csv_log.h"
@@ -22,14 +21,10 @@ DriverSpec log_driver(const std::string& name, const std::string& path) {
   spec.recorded = false;
   spec.source_path = std::filesystem::absolute(path).string();
   if (is_recording(path)) {
-    spec.make = [name, path]() -> Result<std::unique_ptr<Driver>> {
-      return std::make_unique<RecordingLog>(name, path);
-    };
+    spec.make = make_of<RecordingLog>(name, path);
     spec.source_info = info_of<RecordingLog>;
   } else {
-    spec.make = [path]() -> Result<std::unique_ptr<Driver>> {
-      return std::make_unique<CsvLog>(path);
-    };
+    spec.make = make_of<CsvLog>(path);
     spec.source_info = info_of<CsvLog>;
   }
   return spec;

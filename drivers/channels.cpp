@@ -153,6 +153,18 @@ tl::unexpected<Error> no_such_input(const ChannelInput& channel,
                    "\"; the inputs of the device are " + known);
 }
 
+Status check_reads_stated(const std::vector<ChannelInput>& channels, const Rig& rig) {
+  for (const ChannelInput& channel : channels) {
+    const auto probe = rig.probe_index(channel.id);
+    if (!probe || rig.probes[*probe].calibration.reads_stated) continue;
+    return bad_input(channel.where + ": the readings of this device increase with the gap, and " +
+                     rig.source + " does not state `reads` of probe \"" + channel.id +
+                     "\"; add reads = \"gap\" to this probe (or reads = \"displacement\" if the "
+                     "device converts the gap)");
+  }
+  return {};
+}
+
 Status check_um_per_count(const ChannelInput& channel) {
   if (channel.um_per_count != 0) return {};
   return bad_input(channel.where +

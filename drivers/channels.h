@@ -74,6 +74,9 @@ std::map<std::string, EncoderOrigin> further_encoders(const std::vector<ChannelI
 // Returns the error that the device has no such input. The message lists the inputs of the device.
 tl::unexpected<Error> no_such_input(const ChannelInput& channel,
                                     const std::vector<std::string>& inputs);
+// For a device whose readings increase with the gap. Error: the rig does not state `reads` of a
+// connected probe. The default, "displacement", would change the sign of all errors.
+Status check_reads_stated(const std::vector<ChannelInput>& channels, const Rig& rig);
 // Error: um_per_count is 0, but a counting encoder needs it.
 Status check_um_per_count(const ChannelInput& channel);
 

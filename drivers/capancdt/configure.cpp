@@ -95,6 +95,7 @@ Status read_channel_table(TomlTable& table, const DriverContext& context, Option
           channel.reject("um_per_count",
                          "applies to encoders that count, not to probes; remove um_per_count");
       }));
+  MDOF_CHECK(check_reads_stated(inputs, context.rig));
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     MDOF_TRY(const int number, channel_number(inputs[i]));
     const bool corrects = rig_corrects(context.rig, inputs[i].id);
@@ -132,9 +133,7 @@ Result<DriverSpec> configure_capancdt(TomlTable& table, const DriverContext& con
     if (channel.input.id == kEncoderChannel) spec.encoder = encoder_origin({channel.input}, false);
   }
   spec.identity = [at = options.command] { return identity_of(at); };
-  spec.make = [options]() -> Result<std::unique_ptr<Driver>> {
-    return std::make_unique<capancdt::Capancdt>(options);
-  };
+  spec.make = make_of<capancdt::Capancdt>(options);
   return spec;
 }
 

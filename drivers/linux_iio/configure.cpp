@@ -51,6 +51,7 @@ Result<DriverSpec> configure_linux_iio(TomlTable& table, const DriverContext& co
              options.laws.push_back(read_law(channel));
            }));
   MDOF_CHECK(table.finish());
+  MDOF_CHECK(check_reads_stated(options.channels, context.rig));
   for (const auto& channel : options.channels) {
     const auto& inputs = ad7746_inputs();
     if (std::find(inputs.begin(), inputs.end(), channel.input) == inputs.end())

@@ -61,6 +61,7 @@ Calibration read_calibration(TomlTable& table) {
     table.reject("reads", "must be \"displacement\" or \"gap\"");
   }
   c.reads_gap = reads == "gap";
+  c.reads_stated = table.has("reads");
   if (table.has("um_per_V")) c.um_per_V = table.number("um_per_V");
   if (c.um_per_V && *c.um_per_V == 0.0) table.reject("um_per_V", "must not be zero");
   c.offset_um = table.number("offset_um", 0.0);

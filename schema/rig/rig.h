@@ -28,6 +28,7 @@ namespace mdof {
 // If raw_um is outside `valid_um`, the reading is at an end of the probe's range.
 struct Calibration {
   bool reads_gap = false;          // reads = "gap": the raw number increases with the gap
+  bool reads_stated = false;       // the rig contains the key `reads`
   std::optional<double> um_per_V;  // required if the log has values in volts
   std::string scale_record;        // id of the calibration record that contains um_per_V
   double offset_um = 0;            // raw reading when the target surface is at its nominal position

@@ -16,6 +16,7 @@ DriverContext context() {
   for (const char* id : {"A", "B", "C"}) {
     Probe probe;
     probe.id = id;
+    probe.calibration.reads_stated = true;
     context.rig.probes.push_back(probe);
   }
   return context;
@@ -50,6 +51,22 @@ TEST(CapancdtConfigure, ReadsTheRequiredKeys) {
   const DeviceInfo info = (*driver)->info();
   EXPECT_EQ(info.description, "capaNCDT at 10.0.0.7:23");
   EXPECT_EQ(info.channels, (std::vector<Channel>{{"A", Unit::um}}));
+}
+
+// By default a reading is a displacement, and a gap would then change the sign of all errors.
+TEST(CapancdtConfigure, RefusesAProbeOfUnknownSense) {
+  auto table = TomlTable::parse("address = \"box\"\n" + kChannel, "mdofd.toml");
+  ASSERT_TRUE(table);
+  DriverContext with = context();
+  with.rig.probes[1].calibration.reads_stated = false;  // not connected
+  EXPECT_TRUE(configure_driver("capancdt", *table, with));
+  with.rig.probes[0].calibration.reads_stated = false;
+  auto again = TomlTable::parse("address = \"box\"\n" + kChannel, "mdofd.toml");
+  const auto spec = configure_driver("capancdt", *again, with);
+  ASSERT_FALSE(spec);
+  EXPECT_EQ(spec.error().code, ErrorCode::bad_input);
+  for (const char* part : {"mdofd.toml:", "rig.toml", "\"A\"", "reads = \"gap\""})
+    EXPECT_NE(spec.error().message.find(part), std::string::npos) << spec.error().message;
 }
 
 TEST(CapancdtConfigure, RefusesAveragingLongerThanSettling) {

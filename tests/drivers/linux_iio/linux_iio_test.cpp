@@ -206,6 +206,7 @@ std::string configured(const std::string& toml) {
   context.name = "probes";
   context.rig.probes.resize(1);
   context.rig.probes[0].id = "A";
+  context.rig.probes[0].calibration.reads_stated = true;
   const auto spec = configure_linux_iio(*table, context);
   if (!spec) return spec.error().message;
   const auto driver = spec->make();

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 namespace mdof::daemon {
 namespace {
@@ -141,7 +142,13 @@ TEST_F(ConfigFile, ChannelsOfAnyDriverMayHaveADelay) {
 // An AD7746 samples its probes slowly, and a second device counts the encoder. The default
 // max_gap_s is accepted. A max_gap_s shorter than the sampling interval of the probes is rejected.
 TEST_F(ConfigFile, RejectsAMaxGapBelowTheSamplingInterval) {
-  std::string axis = "[[axis]]\nrig = \"rig_X.toml\"\n";
+  std::ifstream file(folder_ / "rig_X.toml");
+  std::string rig((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string probe = "[[probe]]\n", reads = "reads = \"gap\"\n";
+  for (auto at = rig.find(probe); at != std::string::npos; at = rig.find(probe, at + 1))
+    rig.insert(at + probe.size(), reads);
+  std::ofstream(folder_ / "rig_gaps.toml") << rig;
+  std::string axis = "[[axis]]\nrig = \"rig_gaps.toml\"\n";
   const auto iio = [&](const std::string& name, const std::string& first, const char* second) {
     axis += "[[axis.device]]\ndriver = \"linux_iio\"\nname = \"" + name + "\"\ndevice = \"" + name +
             "\"\nrate_hz = 10\nchannel = [{ id = \"" + first +

@@ -127,6 +127,16 @@ CLI::Option* add_reference_option(CLI::App& command, std::string& reference) {
       ->type_name("POINT");
 }
 
+void add_square_options(CLI::App& command, std::optional<double>& angle_error_urad,
+                        std::optional<double>& u_urad) {
+  command.add_option("--artefact-urad", angle_error_urad,
+                     "Angle error of the reference square [default: value in the rigs]");
+  command
+      .add_option("--u-artefact-urad", u_urad,
+                  "Standard uncertainty of the angle error of the reference square")
+      ->check(not_negative_number());
+}
+
 CLI::Validator finite_number() {
   return number_validator([](double) { return true; }, "", "");
 }

@@ -48,6 +48,10 @@ void add_language_option(CLI::App& command, std::string& language);  // "en" or 
 Status write_plots(const std::vector<charts::NamedChart>& charts, const std::string& folder);
 // Accepts the names in schema/rig/reference.h.
 CLI::Option* add_reference_option(CLI::App& command, std::string& reference);
+// --artefact-urad and --u-artefact-urad, which replace the values of the reference square in the
+// rigs.
+void add_square_options(CLI::App& command, std::optional<double>& angle_error_urad,
+                        std::optional<double>& u_urad);
 
 // Validators for numbers, used instead of the validators of CLI11, which accept nan and print the
 // largest double with 309 digits.

@@ -199,12 +199,7 @@ Action declare_budget(CLI::App& command) {
       ->check(not_negative_number())
       ->capture_default_str();
   add_reference_option(command, o->reference)->capture_default_str();
-  command.add_option("--artefact-urad", o->artefact_urad,
-                     "Angle error of the reference square [default: value in the rigs]");
-  command
-      .add_option("--u-artefact-urad", o->u_artefact_urad,
-                  "Standard uncertainty of the angle error of the reference square")
-      ->check(not_negative_number());
+  add_square_options(command, o->artefact_urad, o->u_artefact_urad);
   command.add_flag("--partial", o->partial, "Also accept partial runs");
   add_database_option(command, o->database);
   add_all_warnings_flag(command, o->all_warnings);

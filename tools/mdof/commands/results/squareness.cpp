@@ -198,12 +198,7 @@ Action declare_squareness(CLI::App& command) {
   add_run_argument(command, "RUN_B", o->words[1],
                    "Number of the run along the second axis (same square), or \"latest\"");
   add_axes_option(command, o->axes);
-  command.add_option("--artefact-urad", o->artefact_urad,
-                     "Angle error of the reference square [default: value in the rigs]");
-  command
-      .add_option("--u-artefact-urad", o->u_artefact_urad,
-                  "Standard uncertainty of the angle error of the reference square")
-      ->check(not_negative_number());
+  add_square_options(command, o->artefact_urad, o->u_artefact_urad);
   command.add_flag("--partial", o->partial, "Also accept partial runs");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);

@@ -119,6 +119,17 @@ Notices unused_scales(const Rig& rig, const std::vector<Channel>& channels) {
   return found;
 }
 
+Notices unused_channels(const Rig& rig, const std::vector<Channel>& channels) {
+  std::string ids;
+  for (const Channel& channel : channels) {
+    const bool is_auxiliary = channel.unit == Unit::deg_c || channel.unit == Unit::other;
+    if (is_auxiliary || channel.id == kEncoderChannel || rig.probe_index(channel.id)) continue;
+    ids += (ids.empty() ? "" : ", ") + channel.id;
+  }
+  if (ids.empty()) return {};
+  return {notice(NoticeCode::channels_not_in_rig, "", {{"channels", ids}})};
+}
+
 Calibrator::Calibrator(const Rig& rig)
     : encoder_um_per_V_(rig.encoder_um_per_V), rig_source_(rig.source) {
   for (const auto& probe : rig.probes) probes_.emplace(probe.id, probe);

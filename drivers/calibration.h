@@ -27,6 +27,9 @@ std::array<double, 2> displacement_window_m(const Probe& probe);
 // the probe has a unit of length. For such a probe the amplifier sets the sensitivity, but the
 // uncertainty u is taken from the calibration record.
 Notices unused_scales(const Rig& rig, const std::vector<Channel>& channels);
+// Makes one notice that names the channels of a length or voltage that are neither a probe of the
+// rig nor the encoder.
+Notices unused_channels(const Rig& rig, const std::vector<Channel>& channels);
 
 // Reentrant. Copies the data of the rig that it needs.
 class Calibrator {

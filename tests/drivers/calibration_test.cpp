@@ -57,6 +57,17 @@ TEST(Calibration, WindowLimitsAreDisplacementsInAscendingOrder) {
   expect("valid_um = [-50, 80]\n", -50, 80);
 }
 
+TEST(Calibration, ChannelsThatTheRigDoesNotDescribeAreNamed) {
+  const Rig rig = rig_with("");
+  EXPECT_TRUE(
+      unused_channels(rig, {{"A", Unit::um}, {"encoder", Unit::mm}, {"air", Unit::deg_c}}).empty());
+  const Notices found = unused_channels(
+      rig, {{"F", Unit::um}, {"A", Unit::um}, {"G", Unit::volt}, {"load", Unit::other}});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(test::shown(found[0]), "channels_not_in_rig channels=F, G");
+  EXPECT_EQ(found[0].severity, Severity::information);
+}
+
 // A laboratory's um_per_V applies to volts, and must not be used for a reading that the amplifier
 // has converted to a length. If um_per_V is in the rig and not in a record, um_per_V may be for
 // logs in volts; then there is no notice.

@@ -314,6 +314,7 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   append(run->header.notices, overdue_on_day_of(log, rig));
   append(run->header.notices, calibration_notices(rig));
   append(run->header.notices, drivers::unused_scales(rig, log.driver().info().channels));
+  append(run->header.notices, drivers::unused_channels(rig, log.driver().info().channels));
   append(run->header.notices, unusual_values(rig));
   return run;
 }

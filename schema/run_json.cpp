@@ -92,8 +92,15 @@ bool redundant(const MeasuredPoint& p) {
 
 }  // namespace
 
+bool are_scans_known(const RunHeader& h) {
+  return h.scans > 0 || std::none_of(h.notices.begin(), h.notices.end(), [](const Notice& each) {
+           return each.code == NoticeCode::interrupted;
+         });
+}
+
 bool is_lost_known(const RunHeader& h) {
-  return (h.provenance.recording_kind != "csv" && !is_imported(h)) || h.scans_lost > 0;
+  return are_scans_known(h) &&
+         ((h.provenance.recording_kind != "csv" && !is_imported(h)) || h.scans_lost > 0);
 }
 
 void write_strings(JsonWriter& json, const char* key, const std::vector<std::string>& texts) {
@@ -192,7 +199,9 @@ void write_header_members(JsonWriter& json, const RunHeader& h, NoticeWords word
       .field("note", h.note);
   json.key("supersedes");
   h.supersedes ? json.value(*h.supersedes) : json.null();
-  json.field("scans", h.scans).key("scans_lost");
+  json.key("scans");
+  are_scans_known(h) ? json.value(h.scans) : json.null();
+  json.key("scans_lost");
   is_lost_known(h) ? json.value(h.scans_lost) : json.null();
   write_temperature(json, h.temperature);
   json.key("recording")

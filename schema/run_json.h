@@ -19,8 +19,10 @@ namespace mdof {
 void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& point,
                  const ErrorsUncertainty& uncertainty);
 
+// False if the end of the run was not stored.
+bool are_scans_known(const RunHeader& header);
 // False if lost scans cannot be detected: the scans of a CSV log have no numbers, and an imported
-// run has no scans.
+// run has no scans. Also false if the number of scans is unknown.
 bool is_lost_known(const RunHeader& header);
 
 // Writes "key": ["text", ...] into an open object.

@@ -105,7 +105,8 @@ class SmallDisk(Served):
         self.assertIn("storage full", text)
         header = client.call("run.list")["runs"][0]
         self.assertEqual((header["run"], header["state"]), (run, "aborted"))
-        self.assertIn("the run was interrupted: mdofd or its computer stopped during the run", notice_lines(header))
+        self.assertEqual((header["scans"], header["scans_lost"]), (None, None))
+        self.assertIn("the end of the run was not stored: mdofd or its computer stopped during the run, or the disk was full", notice_lines(header))
         before = self.recordings()
         for method, params in (("run.start", {"axis": "X"}), ("compensation.deactivate", {"axis": "X"})):
             with self.assertRaises(RpcError) as refusal:

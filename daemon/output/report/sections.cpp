@@ -27,9 +27,9 @@ std::string or_missing(const std::string& text, Language language) {
 }
 
 std::string scans_text(const RunHeader& h, Language language) {
+  if (!are_scans_known(h)) return phrase(Phrase::end_not_stored, language);
   const std::string scans = std::to_string(h.scans);
-  if (h.provenance.recording_kind == "csv" && h.scans_lost == 0)
-    return phrase(Phrase::scans_lost_unknown, language, {scans});
+  if (!is_lost_known(h)) return phrase(Phrase::scans_lost_unknown, language, {scans});
   return phrase(Phrase::scans_lost, language, {scans, std::to_string(h.scans_lost)});
 }
 

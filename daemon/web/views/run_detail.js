@@ -26,7 +26,8 @@ function head(run) {
     ["Points", String(run.points_total)], ["Reference point", run.reference + (run.reference_mm ? ` (${run.reference_mm.map((x) => fixed(x, 3)).join(", ")}) mm` : "")],
     ["Temperature", isNumber(t?.mean) ? `${fixed(t.mean, 2)} °C` : null],
     ["Moving body, and direction of its motion when the encoder counts up", `${run.moves}, ${run.travel}`],
-    ["Lost scans", isNumber(run.scans_lost) ? `${run.scans_lost} of ${run.scans}` : `not known (${run.scans} scans recorded)`], ["Model", run.model],
+    ["Lost scans", isNumber(run.scans_lost) ? `${run.scans_lost} of ${run.scans}`
+      : isNumber(run.scans) ? `not known (${run.scans} scans recorded)` : "not known (the end of the run was not stored)"], ["Model", run.model],
     ["Recording", run.recording.path], ["SHA-256 of the recording", run.recording.sha256]]);
 }
 

@@ -52,7 +52,7 @@ TEST(Shape, IsConvertedToAJsonSchema) {
       json_schema("{active, scans_lost?}"),
       R"({"type":"object","properties":{"active":{"type":"boolean","description":"true: the table is active"},)"
       R"("scans_lost":{"type":["integer","null"],"description":"number of scans that are missing; null: )"
-      R"(the scans of the log are not numbered"}},"required":["active"],"additionalProperties":false})");
+      R"(the scans of the log are not numbered, or the end of the run was not stored"}},"required":["active"],"additionalProperties":false})");
   EXPECT_EQ(json_schema("{}"), R"({"type":"object","additionalProperties":false})");
   EXPECT_EQ(json_schema("[[number|null]]"),
             R"({"type":"array","items":{"type":"array","items":{"type":["number","null"]}}})");

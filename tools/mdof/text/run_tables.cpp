@@ -46,8 +46,10 @@ std::string datum_of(const Options& options) {
   return options ? datum_text(options->datum) : "";
 }
 
-std::string lost_of(const RunHeader& h) {
-  return "lost: " + (is_lost_known(h) ? std::to_string(h.scans_lost) : "unknown");
+std::string scans_of(const RunHeader& h) {
+  if (!are_scans_known(h)) return "unknown (the end of the run was not stored)";
+  return std::to_string(h.scans) +
+         ", lost: " + (is_lost_known(h) ? std::to_string(h.scans_lost) : "unknown");
 }
 
 std::string flags_of(const MeasuredPoint& p) {
@@ -134,7 +136,7 @@ std::string head_text(const RunHeader& h, const std::string& result_sha256, std:
   if (h.supersedes) out += labelled("supersedes", "run " + std::to_string(*h.supersedes), width);
   out += labelled(from.recording_kind, from.recording_path, width);
   if (!from.recording_sha256.empty()) out += labelled("sha256", from.recording_sha256, width);
-  out += labelled("scans", std::to_string(h.scans) + ", " + lost_of(h), width);
+  out += labelled("scans", scans_of(h), width);
   if (const auto datum = datum_of(options); !datum.empty()) out += labelled("datum", datum, width);
   if (h.temperature) out += labelled("at", temperature_text(*h.temperature), width);
   out += labelled("software", from.software_version, width);

@@ -73,6 +73,13 @@ struct ExportOptions {
   };
   std::vector<Joint> joints;
   bool inch = false;
+  // Home position and soft limits of a joint in the ini file of LinuxCNC, for notes.
+  struct Travel {
+    char axis = 'X';
+    double home_m = 0;
+    std::optional<double> from_m, to_m;
+  };
+  std::vector<Travel> travels;
   // LinuxCNC only: MAX_ACCELERATION and SERVO_PERIOD of a joint that gets the table of `axis`.
   struct Ramp {
     char axis = 'X';

@@ -1,6 +1,7 @@
 #include "tools/mdof/linuxcnc/joint_settings.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "schema/base/number/number.h"
 #include "schema/units.h"
@@ -19,6 +20,18 @@ Result<double> positive_value(const LinuxCncIni& ini, const std::string& section
   if (!text.empty() && parse_double(text.data(), end, x) == end && x > 0) return x;
   return bad_input(ini.file.string() + ": [" + section + "]" + key + " = \"" + text +
                    "\" must be a number above 0");
+}
+
+// nullopt: the ini file does not contain the key.
+Result<std::optional<double>> position_m(const LinuxCncIni& ini, const std::string& section,
+                                         const char* key, double unit_m) {
+  const std::string text = ini.value(section, key);
+  if (text.empty()) return std::optional<double>();
+  double x = 0;
+  const char* const end = text.data() + text.size();
+  if (parse_double(text.data(), end, x) == end) return std::optional<double>(x * unit_m);
+  return bad_input(ini.file.string() + ": [" + section + "]" + key + " = \"" + text +
+                   "\" must be a number");
 }
 
 // Whether a value is missing or 0.
@@ -82,6 +95,7 @@ Result<JointSettings> read_joint_settings(const std::string& file, const Joints&
     MDOF_TRY(const double period_ns, positive_value(ini, "EMCMOT", "SERVO_PERIOD"));
     period_s = period_ns * 1e-9;
   }
+  const double unit_m = inch ? kInch_m : 1e-3;
   JointSettings settings;
   MDOF_TRY(settings.joints, joints_of(ini, given));
   for (const auto& [axis, number] : settings.joints) {
@@ -90,10 +104,17 @@ Result<JointSettings> read_joint_settings(const std::string& file, const Joints&
                                    [&](const IniEntry& e) { return e.section == section; });
     if (!there) continue;
     MDOF_TRY(const double most, positive_value(ini, section, "MAX_ACCELERATION"));
-    settings.ramps.push_back({axis, most * (inch ? kInch_m : 1e-3), period_s});
-    const std::string backlash = ini.value(section, "BACKLASH");
-    if (!is_zero(backlash))
-      settings.backlash.push_back({axis, "[" + section + "]BACKLASH = " + backlash});
+    settings.ramps.push_back({axis, most * unit_m, period_s});
+    for (const char* key : {"BACKLASH", "COMP_FILE"}) {
+      const std::string value = ini.value(section, key);
+      if (!is_zero(value))
+        settings.corrections.push_back(
+            {axis, key == std::string("COMP_FILE"), "[" + section + "]" + key + " = " + value});
+    }
+    MDOF_TRY(const auto home_m, position_m(ini, section, "HOME", unit_m));
+    MDOF_TRY(const auto from_m, position_m(ini, section, "MIN_LIMIT", unit_m));
+    MDOF_TRY(const auto to_m, position_m(ini, section, "MAX_LIMIT", unit_m));
+    settings.travels.push_back({axis, home_m.value_or(0), from_m, to_m});
   }
   return settings;
 }

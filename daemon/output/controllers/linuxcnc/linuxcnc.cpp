@@ -42,21 +42,44 @@ std::vector<int> joints_of(char axis, const ExportOptions& options) {
   return numbers;
 }
 
-// The constant that must be subtracted to make the trim 0 at home. If home is unknown, the constant
-// is 0, and a note states the trim at the position 0.
+const ExportOptions::Travel* travel_of(char axis, const ExportOptions& options) {
+  for (const ExportOptions::Travel& travel : options.travels)
+    if (travel.axis == axis) return &travel;
+  return nullptr;
+}
+
+// The constant that must be subtracted to make the trim 0 at home. If home is not given, the
+// constant is 0, and a note states the trim at HOME of the ini file (default: 0).
 double zero_of(const Series& s, const ExportOptions& options, Export& out) {
-  const std::optional<double> home_m = options.home_m(s.along);
-  const double there = s.factor * mean_error_at(s, home_m.value_or(0.0));
-  const std::string um = plain_number(to_um(there)) + " um";
-  if (home_m) {
+  if (const std::optional<double> home_m = options.home_m(s.along)) {
+    const double there = s.factor * mean_error_at(s, *home_m);
     out.notes.push_back(zeroed_at_home_note(s, "trim", there, *home_m));
     return there;
   }
+  const auto* const travel = travel_of(s.along, options);
+  const double home_m = travel ? travel->home_m : 0;
+  const double there = s.factor * mean_error_at(s, home_m);
+  const std::string um = plain_number(to_um(there)) + " um";
   if (std::abs(there) > 1e-9)
-    out.notes.push_back(s.error + ": the trim at 0 mm is " + um +
+    out.notes.push_back(s.error + ": the trim at " + plain_number(to_mm(home_m)) + " mm is " + um +
                         ", so the first motion after homing jumps by " + um + "; " +
                         words::remedy(Remedy::give_home));
   return 0;
+}
+
+// Beyond its ends, a table has no measured values.
+void note_travel_beyond(const Series& s, const ExportOptions& options, Export& out) {
+  const auto* const travel = travel_of(s.along, options);
+  if (!travel || !travel->from_m || !travel->to_m) return;
+  const double from_m = s.position_m.front(), to_m = s.position_m.back();
+  if (*travel->from_m >= from_m && *travel->to_m <= to_m) return;
+  const auto range = [](double from, double to) {
+    return plain_number(to_mm(from)) + " to " + plain_number(to_mm(to)) + " mm";
+  };
+  out.notes.push_back(s.error + ": the soft limits permit " +
+                      range(*travel->from_m, *travel->to_m) + ", but the table contains " +
+                      range(from_m, to_m) +
+                      ". Outside, LinuxCNC uses the value at the nearest end of the table");
 }
 
 std::string ini_of(const CompensationTable& table, const ExportOptions& options) {
@@ -96,6 +119,7 @@ Status add_joint(const CompensationTable& table, const ExportOptions& options, E
                     letter(table.axis) + "=1");
   MDOF_TRY(const Series s, fitted(*along, table.id, kMostRows, options, out));
   note_unapplied_reversals(s, options, out);
+  note_travel_beyond(s, options, out);
   out.files.push_back({std::string(1, letter(table.axis)) + ".comp",
                        rows_text(s, zero_of(s, options, out), options.inch)});
   ini += ini_of(table, options);

@@ -79,23 +79,28 @@ Status judge_sign(const controllers::Format& format, const ExportRequest& reques
   return {};
 }
 
-Status judge_backlash(const std::vector<JointSettings::Backlash>& backlash,
-                      const std::vector<CompensationTable>& tables, const ExportRequest& request,
-                      std::vector<std::string>& marks) {
-  for (const auto& [axis, text] : backlash) {
-    if (std::none_of(tables.begin(), tables.end(),
-                     [axis = axis](const auto& table) { return letter(table.axis) == axis; }))
-      continue;
+Status judge_present(const std::vector<JointSettings::Correction>& corrections,
+                     const std::vector<CompensationTable>& tables, const ExportRequest& request,
+                     std::vector<std::string>& marks) {
+  for (const auto& [axis, is_file, text] : corrections) {
+    const auto table = std::find_if(tables.begin(), tables.end(), [axis = axis](const auto& each) {
+      return letter(each.axis) == axis;
+    });
+    // A table that was added to an applied table contains both and may replace its file.
+    if (table == tables.end() || (is_file && table->added_to)) continue;
+    const std::string without = is_file ? "without a COMP_FILE" : "with BACKLASH = 0";
     const std::string why =
         request.ini + ": " + text +
-        ", but LinuxCNC ignores BACKLASH of a joint with a COMP_FILE. The table "
-        "is correct only if the axis was measured with BACKLASH = 0";
+        (is_file ? ", and the exported file replaces this file"
+                 : ", but LinuxCNC ignores BACKLASH of a joint with a COMP_FILE") +
+        ". The table is correct only if the axis was measured " + without;
     if (!request.consent.despite_warnings)
-      return fail(ErrorCode::conflict, why +
-                                           "; measure with BACKLASH = 0 and set BACKLASH = 0 in "
-                                           "this file. If the axis was measured in this way, give "
-                                           "--despite-warnings");
-    marks.push_back("BACKLASH: " + why);
+      return fail(ErrorCode::conflict,
+                  why +
+                      (is_file ? "; remove COMP_FILE from this file and measure again"
+                               : "; measure with BACKLASH = 0 and set BACKLASH = 0 in this file") +
+                      ". If the axis was measured in this way, give --despite-warnings");
+    marks.push_back(std::string(is_file ? "COMP_FILE: " : "BACKLASH: ") + why);
   }
   return {};
 }

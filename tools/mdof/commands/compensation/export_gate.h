@@ -28,10 +28,11 @@ Status judge_table(store::Store& store, const CompensationTable& table,
 // A format whose sign is not confirmed.
 Status judge_sign(const controllers::Format& format, const ExportRequest& request,
                   std::vector<std::string>& marks);
-// LinuxCNC ignores BACKLASH of a joint with a COMP_FILE. If BACKLASH was also in use during the
-// measurement, the table does not contain the reversal error that BACKLASH corrected.
-Status judge_backlash(const std::vector<JointSettings::Backlash>& backlash,
-                      const std::vector<CompensationTable>& tables, const ExportRequest& request,
-                      std::vector<std::string>& marks);
+// Corrections that the ini file of LinuxCNC already has. If they were in use during the
+// measurement, the table does not contain the errors that they corrected, but LinuxCNC no longer
+// applies them.
+Status judge_present(const std::vector<JointSettings::Correction>& corrections,
+                     const std::vector<CompensationTable>& tables, const ExportRequest& request,
+                     std::vector<std::string>& marks);
 
 }  // namespace mdof::tools

@@ -67,9 +67,10 @@ void add_export_options(CLI::App& command, ExportRequest& request, const std::st
                       "reversal errors that LinuxCNC does not correct")
           ->check(positive_number());
   command
-      .add_option("--ini", request.ini,
-                  "linuxcnc: INI file of LinuxCNC, from which mdof reads the joints (KINEMATICS), "
-                  "MAX_ACCELERATION, BACKLASH, SERVO_PERIOD and LINEAR_UNITS")
+      .add_option(
+          "--ini", request.ini,
+          "linuxcnc: INI file of LinuxCNC, from which mdof reads the joints (KINEMATICS), "
+          "MAX_ACCELERATION, SERVO_PERIOD, LINEAR_UNITS, HOME, soft limits, BACKLASH and COMP_FILE")
       ->type_name("FILE")
       ->excludes(acceleration);
   command

@@ -106,9 +106,9 @@ Status read_joint_options(const ExportRequest& request, ExportedTables& out) {
 }
 
 // Reads MAX_ACCELERATION from the option or from the ini file. If the user stated neither,
-// MAX_ACCELERATION remains unknown. `backlash`: as JointSettings::backlash.
+// MAX_ACCELERATION remains unknown. `present`: as JointSettings::corrections.
 Status read_ramp_options(const ExportRequest& request, ExportedTables& out,
-                         std::vector<JointSettings::Backlash>& backlash) {
+                         std::vector<JointSettings::Correction>& present) {
   const bool given = request.max_acceleration_mm_s2.has_value();
   if (!given && request.ini.empty()) return {};
   if (!out.format->takes_joints)
@@ -124,7 +124,8 @@ Status read_ramp_options(const ExportRequest& request, ExportedTables& out,
            read_joint_settings(request.ini, out.options.joints, out.options.inch));
   out.options.joints = std::move(settings.joints);
   out.options.ramps = std::move(settings.ramps);
-  backlash = std::move(settings.backlash);
+  out.options.travels = std::move(settings.travels);
+  present = std::move(settings.corrections);
   return {};
 }
 
@@ -201,7 +202,7 @@ std::string volume_formats() {
 
 Status export_axes(store::Store& store, const ExportRequest& request,
                    const algo::TableLimits& limits,
-                   const std::vector<JointSettings::Backlash>& backlash, ExportedTables& out) {
+                   const std::vector<JointSettings::Correction>& present, ExportedTables& out) {
   std::vector<CompensationTable> tables;
   for (const std::int64_t id : request.tables) {
     MDOF_TRY(const bool volume, store.is_volumetric(id));
@@ -220,7 +221,7 @@ Status export_axes(store::Store& store, const ExportRequest& request,
         out.options.marks.push_back("CUT RANGE: " + text);
     tables.push_back(std::move(table));
   }
-  MDOF_CHECK(judge_backlash(backlash, tables, request, out.options.marks));
+  MDOF_CHECK(judge_present(present, tables, request, out.options.marks));
   std::string axes;
   for (const CompensationTable& table : tables) axes += letter(table.axis);
   if (out.format->takes_home) MDOF_CHECK(assign_home_axes(axes, out.options.homes));
@@ -347,8 +348,8 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   mark_limits(request, limits, out.options.marks);
   MDOF_TRY(out.options.homes, home_positions(request.home_mm));
   MDOF_CHECK(read_joint_options(request, out));
-  std::vector<JointSettings::Backlash> backlash;
-  MDOF_CHECK(read_ramp_options(request, out, backlash));
+  std::vector<JointSettings::Correction> present;
+  MDOF_CHECK(read_ramp_options(request, out, present));
   MDOF_CHECK(take_siemens_limits(request, out));
   MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
   MDOF_TRY(store::Store store, open_to_read(request.database));
@@ -357,7 +358,7 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   } else {
     MDOF_TRY(const bool volume, exports_volume(store, *out.format, request));
     MDOF_CHECK(volume ? export_volume(store, request, limits, out)
-                      : export_axes(store, request, limits, backlash, out));
+                      : export_axes(store, request, limits, present, out));
   }
   return out;
 }

@@ -156,36 +156,41 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
 
 namespace {
 
-struct FoundSetUp {
-  SquarenessRuns of;
-  algo::SquareSetUp set_up;
-};
-
 // Calculates the squareness of one set-up under the assumption that the square has no angle error.
-Result<FoundSetUp> square_set_up(store::Store& store, SquarenessRequest request) {
-  request.given = {0.0, 0.0};
-  MDOF_TRY(SquarenessRuns of, squareness_runs(store, request));
+Result<algo::SquareSetUp> square_set_up(const SquarenessRuns& of) {
   MDOF_TRY(Budget budget,
            algo::squareness_budget(of.rig_a, of.a, of.rig_b, of.b, of.fitted.artefact));
-  const int corner = of.fitted.artefact.corner;
-  return FoundSetUp{std::move(of), {corner, std::move(budget)}};
+  return algo::SquareSetUp{of.fitted.artefact.corner, std::move(budget)};
+}
+
+// The slopes of a curved axis over two travels differ, and the difference would count as the angle
+// of the square.
+Status cut_to_common_travel(Run& one, Run& other) {
+  MDOF_TRY(algo::CommonTravel common, algo::over_common_travel(one, other));
+  one = std::move(common.a);
+  other = std::move(common.b);
+  return {};
 }
 
 }  // namespace
 
-Result<FoundSquareReversal> square_reversal(store::Store& store, const SquarenessRequest& first,
-                                            const SquarenessRequest& second) {
-  MDOF_TRY(FoundSetUp a, square_set_up(store, first));
-  MDOF_TRY(FoundSetUp b, square_set_up(store, second));
-  const algo::Runs runs{&a.of.a, &a.of.b, &b.of.a, &b.of.b};
-  // square_set_up() has already checked whether each run is complete.
+Result<FoundSquareReversal> square_reversal(store::Store& store, SquarenessRequest first,
+                                            SquarenessRequest second) {
+  first.given = second.given = {0.0, 0.0};
+  MDOF_TRY(SquarenessRuns a, squareness_runs(store, first));
+  MDOF_TRY(SquarenessRuns b, squareness_runs(store, second));
+  const algo::Runs runs{&a.a, &a.b, &b.a, &b.b};
+  // squareness_runs() has already checked whether each run is complete.
   MDOF_CHECK(algo::check_usable(runs, true, "a separation"));
-  MDOF_TRY(const SquareReversal found, algo::square_reversal(a.set_up, b.set_up));
-  FoundSquareReversal out{found, std::move(a.set_up.budget.not_declared),
-                          algo::inherited_notices(runs), a.of.fitted.simulated};
-  append_new(out.not_declared, std::move(b.set_up.budget.not_declared));
-  append(out.notices,
-         algo::square_notices(found, {&a.of.rig_a, &a.of.rig_b, &b.of.rig_a, &b.of.rig_b}));
+  MDOF_CHECK(cut_to_common_travel(a.a, b.a));
+  MDOF_CHECK(cut_to_common_travel(a.b, b.b));
+  MDOF_TRY(algo::SquareSetUp one, square_set_up(a));
+  MDOF_TRY(algo::SquareSetUp other, square_set_up(b));
+  MDOF_TRY(const SquareReversal found, algo::square_reversal(one, other));
+  FoundSquareReversal out{found, std::move(one.budget.not_declared), algo::inherited_notices(runs),
+                          a.fitted.simulated};
+  append_new(out.not_declared, std::move(other.budget.not_declared));
+  append(out.notices, algo::square_notices(found, {&a.rig_a, &a.rig_b, &b.rig_a, &b.rig_b}));
   return out;
 }
 
@@ -195,7 +200,8 @@ Result<FoundParallelism> find_parallelism(store::Store& store, const Parallelism
   MDOF_TRY(Parallelism found, algo::parallelism(a, b, request.partial));
   MDOF_TRY(const Rig rig_a, rig_of(a.header));
   MDOF_TRY(const Rig rig_b, rig_of(b.header));
-  MDOF_TRY(auto budgets, algo::parallelism_budgets(rig_a, a, rig_b, b));
+  MDOF_TRY(const algo::CommonTravel common, algo::over_common_travel(a, b));
+  MDOF_TRY(auto budgets, algo::parallelism_budgets(rig_a, common.a, rig_b, common.b));
   for (std::size_t i = 0; i < found.planes.size(); ++i)
     found.planes[i].budget = std::move(budgets[i]);
   return FoundParallelism{std::move(found), algo::inherited_notices({&a, &b})};

@@ -68,16 +68,17 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
 
 // Squareness from two set-ups of the same square. The square is turned over between the two
 // set-ups. The result does not use the angle of the square that the rigs declare, but a notice
-// states a contradiction to this angle. Nothing is stored. Errors: those of algo::square_reversal()
-// and of squareness_runs() for each set-up; runs with readings in common.
+// states a contradiction to this angle. Each axis is evaluated over the travel that both set-ups
+// cover. Nothing is stored. Errors: those of algo::square_reversal(), of squareness_runs() for each
+// set-up and of algo::over_common_travel() for each axis; runs with readings in common.
 struct FoundSquareReversal {
   SquareReversal found;
   std::vector<std::string> not_declared;  // keys of the uncertainties that the rigs do not declare
   Notices notices;                        // of the runs, and algo::square_notices()
   bool simulated = false;
 };
-Result<FoundSquareReversal> square_reversal(store::Store& store, const SquarenessRequest& first,
-                                            const SquarenessRequest& second);
+Result<FoundSquareReversal> square_reversal(store::Store& store, SquarenessRequest first,
+                                            SquarenessRequest second);
 
 struct ParallelismRequest {
   std::int64_t run_a = 0, run_b = 0;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "algo/iso230/positioning/run_readings.h"
@@ -44,16 +45,14 @@ mdof::Run make_motion_run(const MotionByHand& motion) {
   return run;
 }
 
-// Slopes of the deviations 0, 0, 3, 1 per step: end points 1/3; least squares (0.5 * 3 + 1.5 * 1)/5
-// = 0.6; minimum zone 0.5, along the line from (1, 0) to (3, 1).
+// The motions have the positions from 10 to 30 mm in common. There the deviations of A are 0, 3, 1
+// and 0, -6, -2; the slopes of its end points, its least-squares line and its minimum zone are 1/2
+// and -1 per step. Those of B are 0, 2, 0 and 0, 0, 0: all slopes are 0.
 const std::vector<double> kPositionsA_m = {0, 0.01, 0.02, 0.03},
                           kPositionsB_m = {0.01, 0.02, 0.03, 0.04};
 MotionByHand motion_a() {
   return {11, Axis::x, kPositionsA_m, {0, 0, 3, 1}, {0, 0, -6, -2}};
 }
-// Slopes per step of the deviations 0, 2, 0, 0: end points 0, least squares -0.2, minimum zone 0.
-// Slopes per step of the deviations 0, 0, 0, 4: end points 4/3, least squares 1.2, minimum zone
-// 4/3.
 MotionByHand motion_b() {
   return {12, Axis::x, kPositionsB_m, {0, 2, 0, 0}, {0, 0, 0, 4}};
 }
@@ -75,13 +74,13 @@ TEST(ParallelismByHand, IsTheSlopeOfBMinusTheSlopeOfA) {
   EXPECT_NEAR(found->to_m, 0.03, 1e-15);
   ASSERT_EQ(found->planes.size(), 2u);
   EXPECT_EQ(found->planes[0].error, "EYX");
-  expect_line(found->planes[0].end_point, 100 / 3.0, 0);
-  expect_line(found->planes[0].least_squares, 60, -20);
+  expect_line(found->planes[0].end_point, 50, 0);
+  expect_line(found->planes[0].least_squares, 50, 0);
   expect_line(found->planes[0].minimum_zone, 50, 0);
   EXPECT_EQ(found->planes[1].error, "EZX");
-  expect_line(found->planes[1].end_point, -200 / 3.0, 400 / 3.0);
-  expect_line(found->planes[1].least_squares, -120, 120);
-  expect_line(found->planes[1].minimum_zone, -100, 400 / 3.0);
+  expect_line(found->planes[1].end_point, -100, 0);
+  expect_line(found->planes[1].least_squares, -100, 0);
+  expect_line(found->planes[1].minimum_zone, -100, 0);
 }
 
 // The body moves against the encoder, in the negative direction of M. All slopes change their sign.
@@ -97,8 +96,8 @@ TEST(ParallelismByHand, IsOverTheTravelOfTheMovingBody) {
   EXPECT_NEAR(found->to_m, -0.01, 1e-15);
   EXPECT_EQ(found->planes[0].error, "EXY");
   EXPECT_EQ(found->planes[1].error, "EZY");
-  expect_line(found->planes[0].least_squares, -60, 20);
-  expect_line(found->planes[1].least_squares, 120, -120);
+  expect_line(found->planes[0].least_squares, -50, 0);
+  expect_line(found->planes[1].least_squares, 100, 0);
 }
 
 // The reference point of parallelism is the fixture. If the errors of a run refer to the origin of
@@ -112,7 +111,36 @@ TEST(ParallelismByHand, RefersToTheFixture) {
   ASSERT_TRUE(found) << found.error().message;
   // The origin of the fixture is at -d in the frame C of the carriage (d: travel). There EYX is
   // smaller by the yaw times d.
-  expect_line(found->planes[0].least_squares, 50, -20);
+  expect_line(found->planes[0].least_squares, 40, 0);
+}
+
+// The same curved motion over 0 to 50 mm and over 20 to 70 mm is parallel to itself. Its lines over
+// the whole travels differ by 150 urad.
+TEST(ParallelismByHand, OfACurvedMotionIsOverTheCommonTravel) {
+  const auto over = [](std::int64_t id, double first_m, double shift_m) {
+    MotionByHand motion;
+    motion.id = id;
+    for (int i = 0; i <= 10; ++i) {
+      const double x_m = first_m + i * 5e-3 + shift_m;
+      motion.x_m.push_back(x_m);
+      motion.first.push_back(3 * std::sin(x_m / 8e-3));
+      motion.second.push_back(40 * x_m * 1e3);
+    }
+    return make_motion_run(motion);
+  };
+  const auto found = parallelism(over(1, 0, 0), over(2, 20e-3, 0));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->planes[0].least_squares.angle_rad, 0, 1e-12);
+  EXPECT_NEAR(found->planes[0].end_point.angle_rad, 0, 1e-12);
+  EXPECT_NEAR(found->planes[1].least_squares.slope_b_rad, 40e-3, 1e-12);
+  // The first target of run 1 is 0.4 mm before the first target of run 2: it remains in the fit.
+  const auto common = over_common_travel(over(1, 0, 0), over(2, 0, 0.4e-3));
+  ASSERT_TRUE(common) << common.error().message;
+  EXPECT_EQ(common->a.points.size(), 22u);
+  const auto farther = over_common_travel(over(1, 0, 0), over(2, 0, 0.6e-3));
+  ASSERT_TRUE(farther) << farther.error().message;
+  EXPECT_EQ(farther->a.points.size(), 20u);
+  EXPECT_EQ(farther->b.points.size(), 20u);
 }
 
 // Positions in steps of 1/128 m have no rounding errors. The common travel must be at least half of
@@ -153,7 +181,7 @@ TEST(ParallelismByHand, RefusesIncompatibleMotions) {
   EXPECT_NE(two_axes.error().message.find("run 11 measures axis X and run 12 measures axis Y"),
             std::string::npos);
   MotionByHand two = motion_b();
-  two.x_m.resize(2);
+  two.x_m = {0.01, 0.03};
   const auto few = parallelism(make_motion_run(motion_a()), make_motion_run(two));
   ASSERT_FALSE(few);
   EXPECT_EQ(few.error().message.find("run 12"), 0u) << few.error().message;

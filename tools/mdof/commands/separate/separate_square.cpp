@@ -31,7 +31,8 @@ struct SquareCommand {
 std::string covers_of(const SquareReversal& s) {
   return s.noise_only ? "noise and repeatability only"
                       : "noise, and the uncertainties that the rig files declare; mdof treats "
-                        "these uncertainties as common to both set-ups";
+                        "these uncertainties as common to both set-ups and takes their largest "
+                        "possible effect";
 }
 
 std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& run,
@@ -70,8 +71,7 @@ std::string text_of(const SquareReversal& s, bool simulated) {
          angle(s.square_rad) + " µrad (key artefact_angle_error_urad of a rig)\n" +
          wrapped("± is the standard uncertainty u. It contains " + covers_of(s) +
                      ". Slopes refer to the fixture. The angle of the square is assumed to be "
-                     "equal in both set-ups. For the angle of the square, u contains the largest "
-                     "possible effect of the uncertainties that the rig files declare.",
+                     "equal in both set-ups.",
                  terminal_columns()) +
          "\n";
 }

@@ -72,10 +72,12 @@ ComparedFigure compared(const Budget& before, const Budget& after) {
   }
   algo::complete(change);
   if (before.value * after.value < 0) add_shared(change, before.u, after.u);
-  // Noise of the means makes a range too large on average. Only the calculation by trials includes
-  // this bias, so U is at least the value from both U by trials.
+  // Only the calculation by trials includes the bias that noise causes in a range, and the few
+  // degrees of freedom. So U is between the root sum of squares of both U (normal distributions)
+  // and their sum (Student's t with one degree of freedom), and a factor of t does not enlarge it
+  // again.
   if (before.U_by_trials || after.U_by_trials) {
-    change.U = std::max(change.U, std::hypot(before.U, after.U));
+    change.U = std::clamp(change.U, std::hypot(before.U, after.U), before.U + after.U);
     change.U_by_trials = true;
     if (change.u > 0) change.coverage_factor = change.U / change.u;
   }

@@ -98,6 +98,7 @@ Result<LogStops> read_stops(const std::string& path, Axis axis, const Rig& rig) 
   found.sha256 = log.sha256();
   found.started_utc = log.started_utc();
   found.notices = log.notices();
+  append(found.notices, dwell.notices(found.stops));
   return found;
 }
 

@@ -116,19 +116,45 @@ Result<algo::PartCause> form_cause(LoadedPart& part, const PartLayer& layer,
   return cause;
 }
 
+// For each point, the last point before it (step -1) or the first point after it (step 1) that is
+// at another place in the XY plane; if there is none, the point itself.
+std::vector<Eigen::Vector3d> neighbours(const std::vector<Eigen::Vector3d>& at_m, int step) {
+  std::vector<Eigen::Vector3d> found = at_m;
+  const auto n = static_cast<std::ptrdiff_t>(at_m.size());
+  for (std::ptrdiff_t i = 1; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(step < 0 ? i : n - 1 - i);
+    const std::size_t beside = step < 0 ? k - 1 : k + 1;
+    const bool is_same = at_m[k].head<2>() == at_m[beside].head<2>();
+    // All points before the first different place have no neighbour.
+    if (!is_same)
+      found[k] = at_m[beside];
+    else if (found[beside].head<2>() != at_m[beside].head<2>())
+      found[k] = found[beside];
+  }
+  return found;
+}
+
 // Unit vectors from the wall to the tool in the XY plane, at each point of the path. They are the
 // normals of the path file, if it contains normals. Otherwise they are perpendicular to the path:
-// in a down cut with the spindle clockwise (M3), the tool is left of the edge of the wall.
-Field wall_normals(const algo::PartPath& path, bool is_up) {
+// in a down cut with the spindle clockwise (M3), the tool is left of the edge of the wall. A point
+// at which the path turns back has the direction after it.
+Result<Field> wall_normals(const algo::PartPath& path, bool is_up) {
+  const auto before = neighbours(path.at_m, -1), after = neighbours(path.at_m, 1);
   Field normals;
-  const std::size_t n = path.at_m.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const Eigen::Vector3d way = path.at_m[std::min(k + 1, n - 1)] - path.at_m[k > 0 ? k - 1 : 0];
+  for (std::size_t k = 0; k < path.at_m.size(); ++k) {
+    Eigen::Vector3d way = after[k] - before[k];
+    if (way.head<2>().isZero(0)) way = after[k] - path.at_m[k];
     Eigen::Vector3d normal(-way(1), way(0), 0);
     if (is_up) normal = -normal;
     if (!path.normal.empty()) normal = {path.normal[k](0), path.normal[k](1), 0};
     normals.push_back(normal.stableNormalized());  // a zero vector stays zero
   }
+  if (path.normal.empty() && std::all_of(normals.begin(), normals.end(),
+                                         [](const auto& normal) { return normal.isZero(0); }))
+    return bad_input(
+        "the path does not move in the XY plane, so the side of the milled wall is unknown; add "
+        "the "
+        "columns nx,ny,nz to the path");
   return normals;
 }
 
@@ -143,7 +169,7 @@ Result<std::vector<algo::PartCause>> milling_causes(LoadedPart& part, const std:
   MDOF_TRY(const DeclaredMillingPlan declared, parse_milling_plan(text, file));
   MDOF_TRY(const algo::MillingResult result, algo::milling(declared.plan));
   MDOF_TRY(const algo::WearOffset offset, algo::wear_offset(declared));
-  const Field normals = wall_normals(part.path, declared.plan.is_up);
+  MDOF_TRY(const Field normals, wall_normals(part.path, declared.plan.is_up));
   std::vector<algo::PartCause> causes = {
       algo::new_cause("tool deflection", part.path.at_m.size()),
       algo::new_cause("deflection over the depth", part.path.at_m.size())};

@@ -68,7 +68,7 @@ Result<QueryThread::Work> machine_at(Methods&, const Params& params) {
     Machine measured = machine;
     MDOF_TRY(const StoredErrors stored, read_stored_errors(store, measured));
     MDOF_TRY(std::string json, error_at(measured, at));
-    return with_notices(std::move(json), stored.notices, words::text);
+    return with_notices(std::move(json), all_notices(stored), words::text);
   };
 }
 

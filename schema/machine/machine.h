@@ -12,6 +12,7 @@
 
 #include "schema/axis.h"
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/chain.h"
 #include "schema/uncertainty/noise_only.h"
 
@@ -157,6 +158,7 @@ struct Machine {
   bool simulated = false;
   std::vector<ErrorSource> sources;
   StoredRows squareness;  // at most one for each pair of axes, or the latest
+  Notices notices;        // about the errors that were read from the database
 
   const MachineFrame* find(std::string_view id) const;
   bool names_stored_rows() const;  // true: the database is necessary

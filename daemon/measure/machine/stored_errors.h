@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/store/store.h"
+#include "schema/base/append_new.h"
 #include "schema/base/result.h"
 #include "schema/machine/machine.h"
 #include "schema/notice/notice.h"
@@ -37,6 +38,12 @@ struct StoredErrors {
 //   - the description states the same error a second time;
 //   - a table contains its straightness slope, and a squareness contains the same slope.
 Result<StoredErrors> read_stored_errors(store::Store& store, Machine& machine);
+// `notices`, followed by those of `doubtful` that are not among them.
+inline Notices all_notices(const StoredErrors& stored) {
+  Notices all = stored.notices;
+  append_new(all, stored.doubtful);
+  return all;
+}
 
 // Finds the squareness with this id. Without an id, finds the newest squareness of the axes
 // `latest_of`. Error: not_found.

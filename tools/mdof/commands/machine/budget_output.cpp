@@ -295,6 +295,7 @@ std::string machine_budget_json(const Machine& machine, const BudgetRequest& req
   if (found.allocation) write_allocation(json, model, *found.allocation);
   if (request.target_um && !found.allocation) json.key("allocation").null();
   write_measured(json, found);
+  write_stored_notices(json, machine);
   json.end_object();
   return json.take();
 }

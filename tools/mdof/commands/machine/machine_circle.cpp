@@ -194,6 +194,7 @@ std::string circle_json(const MachineCircleCommand& o, const FoundCircles& found
   } else {
     json.null();
   }
+  if (found.machine) write_stored_notices(json, *found.machine);
   json.end_object();
   return json.take();
 }

@@ -100,7 +100,9 @@ std::string diagonals_json(const Machine& machine, const std::vector<algo::Diago
           .field("largest_difference_um", to_um(measured[i].largest_difference_m));
     json.end_object();
   }
-  json.end_array().end_object();
+  json.end_array();
+  write_stored_notices(json, machine);
+  json.end_object();
   return json.take();
 }
 

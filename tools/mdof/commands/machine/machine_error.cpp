@@ -85,6 +85,7 @@ std::string error_json(const Machine& machine, const FoundError& found,
     write_compensating(json, machine, *found.compensating);
   else
     json.key("compensation").null();
+  write_stored_notices(json, machine);
   json.end_object();
   return json.take();
 }

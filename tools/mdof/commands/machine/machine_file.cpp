@@ -7,7 +7,9 @@
 
 #include "daemon/measure/machine/machine_files.h"
 #include "daemon/measure/machine/stored_errors.h"
+#include "daemon/words/words.h"
 #include "schema/base/files.h"
+#include "schema/notice/notice_json.h"
 #include "schema/units.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
@@ -50,7 +52,8 @@ Status add_stored_errors(Machine& machine, const std::string& database) {
   if (!machine.names_stored_rows()) return {};
   MDOF_TRY(store::Store store, open_to_read(database));
   MDOF_TRY(const auto stored, daemon::read_stored_errors(store, machine));
-  show_notices(stored.notices, true);
+  machine.notices = daemon::all_notices(stored);
+  show_notices(machine.notices, true);
   return {};
 }
 
@@ -133,6 +136,10 @@ void write_command(JsonWriter& json, const char* key, const Machine& machine,
       json.field(frame.id + "_" + position_unit(frame),
                  written_position(frame, algo::command_of(frame, command)));
   json.end_object();
+}
+
+void write_stored_notices(JsonWriter& json, const Machine& machine) {
+  write_notices(json, "notices", machine.notices, words::text);
 }
 
 void warn_outside_tables(const std::vector<std::string>& names) {

@@ -27,7 +27,7 @@ struct DescribedMachine {
 };
 Result<DescribedMachine> described_with_text(const std::string& file);
 // If MACHINE.toml names errors in the database, opens the database, adds these errors to `machine`,
-// and prints their notices. `database`: the argument of --db.
+// prints their notices and stores them in `machine`. `database`: the argument of --db.
 Status add_stored_errors(Machine& machine, const std::string& database);
 // Calls described_machine() and add_stored_errors().
 Result<Machine> load_machine(const std::string& file, const std::string& database);
@@ -48,6 +48,9 @@ void write_components(JsonWriter& json, const char* key, const algo::Vector6& er
 // Writes {"X_mm": ..., "C_deg": ...} for the axes of the chain.
 void write_command(JsonWriter& json, const char* key, const Machine& machine,
                    const algo::Command& command);
+
+// Writes "notices": the notices about the errors from the database.
+void write_stored_notices(JsonWriter& json, const Machine& machine);
 
 void warn_outside_tables(const std::vector<std::string>& names);
 std::string missing_text(const std::vector<std::string>& not_measured,

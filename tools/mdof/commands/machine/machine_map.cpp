@@ -179,7 +179,9 @@ std::string map_json(const Machine& machine, const MachineMapCommand& o,
     write_grid(json, found.map);
     json.end_object();
   }
-  json.end_array().end_object();
+  json.end_array();
+  write_stored_notices(json, machine);
+  json.end_object();
   return json.take();
 }
 

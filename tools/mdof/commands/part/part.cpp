@@ -9,6 +9,7 @@
 
 #include "algo/part/part_error.h"
 #include "daemon/words/words.h"
+#include "schema/base/append_new.h"
 #include "schema/notice/notice_json.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
@@ -164,7 +165,9 @@ std::string part_json(const FoundPart& found) {
         .end_object();
   json.end_array();
   json.field("points_off_form_map", static_cast<std::uint64_t>(part.points_off_form_map));
-  write_notices(json, "notices", part.notices, words::text);
+  Notices notices = part.machine.notices;
+  append_new(notices, part.notices);
+  write_notices(json, "notices", notices, words::text);
   json.end_object();
   return json.take();
 }

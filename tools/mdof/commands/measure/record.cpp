@@ -81,6 +81,9 @@ std::string progress_line(const auto& event) {
   if (all > points)
     line +=
         " (other points, without error values or not requested: " + std::to_string(all - points) +
+        (of && all >= *of ? "; the run ends when all requested points have error values, or with "
+                            "Ctrl-C"
+                          : "") +
         ")";
   const double awaited_mm = number(event, "awaited_mm");
   return points == of || std::isnan(awaited_mm) ? line
@@ -96,7 +99,8 @@ std::optional<std::int64_t> handle_event(std::string_view notification, std::int
   if (text(event, "axis") != axis) return std::nullopt;
   if (const auto trouble = read_trouble(notification)) warn_wrapped(trouble->line);
   const std::string type = text(event, "type");
-  if (type == "progress" && integer(event, "run") == run) say(progress_line(event));
+  if (type == "progress" && integer(event, "run") == run)
+    say(wrapped(progress_line(event), terminal_columns(), 2));
   return type == "ended" ? integer(event, "run") : std::nullopt;
 }
 
@@ -111,6 +115,8 @@ Status ask_to_stop(rpc::Client& client, std::int64_t run) {
 
 // Waits until the run has ended. Returns the number of the run that has the result.
 Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordCommand& command) {
+  // A second signal must not end this command before mdofd has received run.stop.
+  std::optional<Interrupt> interrupt(Interrupt::Further::is_ignored);
   const auto begin = steady_clock::now();
   std::optional<steady_clock::time_point> stopped;
   for (;;) {
@@ -123,6 +129,9 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
     if (!stopped && (over || Interrupt::requested())) {
       MDOF_CHECK(ask_to_stop(client, run));
       stopped = now;
+      say("mdofd ends run " + std::to_string(run) +
+          " and evaluates it; a further Ctrl-C ends only this command");
+      interrupt.reset();
     }
     if (stopped && now - *stopped > kEndPatience)
       return io_error("run " + std::to_string(run) +
@@ -179,7 +188,6 @@ Status record(RecordCommand command) {
         : warn_wrapped(words::line(each));
   say("run " + std::to_string(run) + " of axis " + command.axis +
       " is in progress; Ctrl-C ends the run and evaluates it");
-  const Interrupt interrupt;
   MDOF_TRY(const std::int64_t id, follow(client, run, command));
   if (id != run)
     say("run " + std::to_string(id) + " contains the result and replaces run " +

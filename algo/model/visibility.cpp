@@ -70,6 +70,8 @@ Visibility visibility(const Fixture& fixture, const std::vector<bool>& use) {
 
 std::string describe_unseen(const Fixture& fixture, const std::vector<bool>& use,
                             const Visibility& seen) {
+  if (std::none_of(use.begin(), use.end(), [](bool used) { return used; }))
+    return "no probe has a usable reading; five probes are needed";
   std::string text = "probes";
   for (std::size_t i = 0; i < fixture.probes.size(); ++i) {
     if (use[i]) text += " " + fixture.probes[i].id;

@@ -34,7 +34,8 @@ Status check_state(const Run& run, bool take_partial, const std::string& what) {
     return bad_input(is + ", but mdof needs complete runs for " + what +
                          "; the notices of the run state what is missing",
                      Remedy::take_partial_runs);
-  return bad_input(is + ", but mdof needs complete runs for " + what);
+  return bad_input(is + ", but mdof needs complete runs for " + what,
+                   state == RunState::aborted ? Remedy::resume_or_replay : Remedy::none);
 }
 
 bool continues_from(const Run& run, const Run& other) {

@@ -77,6 +77,8 @@ TEST(Visibility, DescribesTheProbesAndUnseenErrors) {
   EXPECT_EQ(text({"EYX", "EZX", "ECX"})
                 .find("probes B D E cannot separate EYX, EZX and ECX (their readings"),
             0u);
+  EXPECT_EQ(describe_unseen(fixture, std::vector<bool>(5, false), {5, 0, {"EYX"}}),
+            "no probe has a usable reading; five probes are needed");
 }
 
 }  // namespace

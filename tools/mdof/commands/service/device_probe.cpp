@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "schema/base/json_writer.h"
+#include "schema/sample.h"
 #include "tools/mdof/checks/device_probe.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/service/opened_devices.h"
@@ -18,6 +19,18 @@ struct ProbeCommand {
   bool json = false;
 };
 
+// Error: more than half of the readings of a channel are not usable. Suspect readings are no error:
+// an encoder has only such readings until its datum is set.
+Status check_readings(const DeviceFinding& finding) {
+  for (const ChannelFinding& c : finding.channels)
+    if (2 * c.unusable > finding.scans && c.worst != to_string(Quality::suspect))
+      return fail(ErrorCode::check, finding.name + ": channel \"" + c.id +
+                                        "\": " + std::to_string(c.unusable) + " of " +
+                                        std::to_string(finding.scans) +
+                                        " readings are not usable; check probe, rig and input");
+  return {};
+}
+
 // Probes all devices in turn; a failed device does not stop the others.
 Status probe(const ProbeCommand& command) {
   MDOF_TRY(const auto devices, chosen_devices(command.choice, "device probe"));
@@ -30,6 +43,7 @@ Status probe(const ProbeCommand& command) {
     json.raw(finding_json(finding));
     if (!command.json) MDOF_CHECK(write_out(finding_text(finding)));
     if (!finding.error.empty()) worst = io_error(finding.name + ": " + finding.error);
+    if (worst) worst = check_readings(finding);
   }
   json.end_array().end_object();
   if (command.json) MDOF_CHECK(write_line(json.text()));

@@ -274,5 +274,18 @@ TEST(Sensitivity, AcceptsSensitivitiesFromHalfToTwo) {
   EXPECT_FALSE(is_taken(2.02));
 }
 
+// The probe is inclined by a cosine of 0.8 to the normal of the plane, along which the axis moves:
+// a travel z causes the displacement z/0.8 along the probe.
+TEST(Sensitivity, RefersToTheDisplacementAlongAnObliqueProbe) {
+  Rig rig = test::rig_x();
+  rig.probes[kA].direction = {0, 0.6, 0.8};
+  rig.probes[kA].nominal_direction = Vec3{0, 0, 1};
+  const auto found =
+      fit_sensitivity(rig, kA, along_z([](double z) { return 1.01 * z / 0.8; })).value();
+  EXPECT_NEAR(found.sensitivity_1, 1.01, 1e-12);
+  EXPECT_NEAR(found.linearity_m, 0, 1e-15);
+  EXPECT_EQ(approaching_axis(rig, kA).value(), Axis::z);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -126,5 +126,17 @@ TEST(BuildTable, StatesTheReferencePointAndTheRuns) {
   EXPECT_EQ(build_table({run_by_hand(1)}, options)->stated, kAtFixture);
 }
 
+// Three numbers of targets at one position are no table.
+TEST(BuildTable, RefusesTargetsAtOnePosition) {
+  mdof::Run run = run_by_hand(1);
+  std::erase_if(run.points, [](const MeasuredPoint& p) { return p.target > 3; });
+  EXPECT_EQ(refusal({run}), "");
+  for (MeasuredPoint& p : run.points) p.target_m = p.point.position_m = 20e-3;
+  const std::string said = refusal({run});
+  EXPECT_NE(said.find("run 1 has 3 targets with calculated errors, but a compensation table needs"),
+            std::string::npos)
+      << said;
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -86,6 +86,13 @@ TEST(DriftSentences, NameTheProbesAboveTheLimit) {
   EXPECT_EQ(test::shown(over_limit(drift, rig)),
             "drift_over_limit B rate_um_per_h=6 limit_um_per_h=4\n");
   EXPECT_EQ(test::shown(over_limit(drift, test::rig_x())), "");
+  drift.length_s = 0.5;  // a short log: 0.3 µm in half a second
+  EXPECT_EQ(test::shown(over_limit(drift, rig)).substr(0, 19), "drift_over_limit A ");
+  ASSERT_EQ(over_limit(drift, rig).size(), 2u);
+  EXPECT_NEAR(test::number(over_limit(drift, rig)[1], "rate_um_per_h"), 2160, 1e-9);
+  drift.length_s = 0;
+  EXPECT_EQ(test::shown(over_limit(drift, rig)), "");
+  drift.length_s = 180;
   drift.probes[1].order = 0;
   EXPECT_EQ(test::shown(over_limit(drift, rig)), "");
 }

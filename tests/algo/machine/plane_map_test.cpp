@@ -119,5 +119,39 @@ TEST(PlaneMap, NamesErrorsThatActAtAnyCorner) {
   EXPECT_NEAR(map->points[0].u[1], 1e-7, 1e-20);
 }
 
+// Without angles, the errors and covariances of positions remain, and those of angles are 0.
+TEST(PlaneMap, WithoutAnglesKeepsThePositions) {
+  test::RandomMachines random(12);
+  Machine whole = random.machine("XYZ", 50e-6, 1e-3, 0.3);
+  declare_u(whole, random);
+  const Machine without = without_angles(whole);
+  ASSERT_EQ(without.frames.size(), whole.frames.size());
+  for (std::size_t i = 0; i < whole.frames.size(); ++i) {
+    const MachineFrame &of = whole.frames[i], &found = without.frames[i];
+    for (std::size_t k = 0; k < kBodyErrors; ++k) {
+      const bool is_angle = k >= 3;
+      EXPECT_EQ(found.error[k].forward, is_angle ? std::vector<double>{0} : of.error[k].forward);
+      EXPECT_EQ(found.error[k].u, is_angle ? std::vector<double>{0} : of.error[k].u);
+      EXPECT_EQ(found.error[k].position, is_angle ? std::vector<double>{} : of.error[k].position);
+      EXPECT_TRUE(!is_angle ||
+                  (found.error[k].reverse.empty() && found.error[k].curvature.empty()));
+      EXPECT_EQ(found.location[k].value, of.location[k].value);
+      for (std::size_t l = 0; l < kBodyErrors; ++l)
+        for (std::size_t at = 0; at < of.covariance.noise.size(); ++at) {
+          const bool has_angle = is_angle || l >= 3;
+          EXPECT_EQ(found.covariance.noise[at][k][l],
+                    has_angle ? 0 : of.covariance.noise[at][k][l]);
+          EXPECT_EQ(found.covariance.declared[at][k][l],
+                    has_angle ? 0 : of.covariance.declared[at][k][l]);
+        }
+      ASSERT_EQ(found.covariance.shared.size(), 3u);
+      for (std::size_t p = 0; p < 3; ++p)
+        for (std::size_t at = 0; at < 2; ++at)
+          EXPECT_EQ(found.covariance.shared[p].at[at][k],
+                    is_angle ? 0 : of.covariance.shared[p].at[at][k]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/algo/calibration/tilted_target.h"
 #include "tests/algo/rigs.h"
 
@@ -139,6 +141,32 @@ TEST(HeightAt, IsBilinearAndConstantOutside) {
       EXPECT_NEAR(height_at(column, at, across), height, 1e-15) << at;
     }
   EXPECT_EQ(height_at({}, 1, 1), 0);
+}
+
+// The normals of two planes have cosines of 0.8 and 0.7 to the direction of probe A, which is too
+// similar. The third plane is parallel to the probe.
+TEST(Fixture, FindsTheTwoNearestPlanesInAnyOrder) {
+  TargetPlane nearest, second, other;
+  nearest.id = "near";
+  nearest.normal = {0, 0.6, 0.8};
+  second.id = "second";
+  second.normal = {0, -0.714, 0.7};
+  other.id = "other";
+  other.normal = {1, 0, 0};
+  for (const std::vector<TargetPlane>& planes : {std::vector{nearest, other, second},
+                                                 {nearest, second, other},
+                                                 {other, nearest, second},
+                                                 {second, nearest, other},
+                                                 {other, second, nearest},
+                                                 {second, other, nearest}}) {
+    Rig rig = test::rig_x();
+    rig.planes = planes;
+    const auto fixture = make_fixture(rig);
+    ASSERT_FALSE(fixture);
+    EXPECT_TRUE(
+        says(fixture.error().message, {"\"A\"", "fits two planes, \"near\" and \"second\""}))
+        << planes[0].id << planes[1].id;
+  }
 }
 
 }  // namespace

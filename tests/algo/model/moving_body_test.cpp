@@ -106,5 +106,25 @@ TEST(MovingBody, ExactModelTurnsTheShiftAndKeepsTheAngles) {
     EXPECT_EQ(errors_of_moving_body(target, model, {Axis::x, {}}).local, target.local);
 }
 
+// Large angles: the rotation of the fixture is the inverse of that of the target, to rounding.
+TEST(MovingBody, LargeAnglesAreThoseOfTheInverseRotation) {
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    const Eigen::Matrix3d L = columns(axis);
+    for (const Eigen::Vector3d& abc :
+         {Eigen::Vector3d(0.2, -0.15, 0.1), Eigen::Vector3d(-0.1, 0.2, 0.15)}) {
+      AxisErrors target;
+      target.valid = true;
+      const Eigen::Vector3d of_target = L.transpose() * abc;
+      target.local = {0, 0, of_target.x(), of_target.y(), of_target.z()};
+      const MovingAxis fixture{axis, {.fixture_moves = true}};
+      const Errors5 found = errors_of_moving_body(target, Model::rigid, fixture).local;
+      const Eigen::Vector3d expected = L.transpose() * angles_of(turned(abc).transpose());
+      EXPECT_NEAR(-found[kEx], expected.x(), 1e-15);
+      EXPECT_NEAR(-found[kEy], expected.y(), 1e-15);
+      EXPECT_NEAR(-found[kEz], expected.z(), 1e-15);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

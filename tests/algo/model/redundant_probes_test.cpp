@@ -75,5 +75,23 @@ TEST(RedundantProbes, CovarianceHasTheUOfEachProbeInUse) {
           C(i, j) / std::sqrt(C(i, i) * C(j, j)), 1e-5);
 }
 
+// Six probes, of which one is lost. The next probe has u = 0, so that the weights of the five
+// probes are equal, and the solution is exact.
+TEST(RedundantProbes, FiveOfSixProbesWithAnUnknownUAreExact) {
+  const Solver solver = Solver::create(test::rig_x_redundant(6), Model::rigid).value();
+  const Eigen::VectorXd r = rigid_readings(solver.fixture(), kTravelOfSeven_m, kErrorsOfSeven);
+  for (std::size_t lost = 0; lost < 5; ++lost) {
+    std::vector<double> readings(r.data(), r.data() + r.size()), u_m(6, 1e-9);
+    readings[lost] = kLostOfSeven;
+    u_m[lost + 1] = 0;
+    const AxisErrors found = solver.solve(kTravelOfSeven_m, readings, u_m);
+    if (lost == 3 || lost == 4) {  // without D or E, the yaw is not seen
+      EXPECT_FALSE(found.valid);
+      continue;
+    }
+    expect_change_of_seven(found, Eigen::VectorXd::Zero(5));
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

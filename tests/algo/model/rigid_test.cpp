@@ -31,5 +31,22 @@ TEST(RigidModel, ResidualIsTheRmsOfTheProbesInUse) {
   for (const Eigen::Index k : {1, 2, 3, 4}) EXPECT_NEAR(fitted(k), exact(k), 1e-11) << k;
 }
 
+// The readings are those of the linear model for three large angles, so that the first step of the
+// solution finds these angles and no displacement. The terms of second order (30 µm) require more
+// steps.
+TEST(RigidModel, ConvergesIfOnlyTheAnglesChange) {
+  const Fixture fixture = make_fixture(test::rig_x()).value();
+  const Errors5 linear{0, 0, 0.05, -0.04, 0.06};
+  Eigen::VectorXd e(5);
+  for (std::size_t k = 0; k < 5; ++k) e(static_cast<Eigen::Index>(k)) = linear[k];
+  const Eigen::VectorXd wanted =
+      rigid_readings(fixture, 7e-3, {}) + rigid_jacobian(fixture, 7e-3, {}) * e;
+  EXPECT_GT((rigid_readings(fixture, 7e-3, linear) - wanted).norm(), 1e-5);
+  const AxisErrors found =
+      solve_rigid(fixture, 7e-3, {wanted.data(), wanted.data() + wanted.size()}, {1, 1, 1, 1, 1});
+  ASSERT_TRUE(found.valid) << found.reason;
+  EXPECT_LT((rigid_readings(fixture, 7e-3, found.local) - wanted).norm(), 1e-14);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -76,5 +76,11 @@ TEST(JumpSearch, FindsNothingInAMotionWithoutJump) {
   EXPECT_EQ(glitch.find("encoder_jump"), std::string::npos) << glitch;
 }
 
+// Without a jump, the positions are not shifted.
+TEST(JumpSearch, NoJumpShiftsNoTargets) {
+  const std::string said = notices_of(passes(0, 1), 700);
+  EXPECT_EQ(said.find("targets_shifted"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -9,6 +9,7 @@
 #include "algo/points/frame_rows.h"
 #include "tests/algo/stepping_axis.h"
 #include "tests/algo/stepping_log.h"
+#include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
@@ -309,6 +310,30 @@ TEST(DwellTimes, BreakTakesEffectAtItsTime) {
     EXPECT_EQ(told[1][i].end_ns, told[0][i].end_ns) << i;
     EXPECT_EQ(told[1][i].direction, told[0][i].direction) << i;
     EXPECT_EQ(to_string(told[1][i].flags), to_string(told[0][i].flags)) << i;
+  }
+}
+
+// At 20 scans per second, a stop of less than 20 scans is shorter than what is always found. The
+// notice states the scans per second.
+TEST(DwellTimes, ReportsThatShortStopsMayBeMissed) {
+  for (const double dwell_s : {0.9, 3.0}) {
+    SteppingAxis axis;
+    axis.rate_hz = 20;
+    axis.dwell_s = dwell_s;
+    axis.speed_m_s = 4e-3;
+    for (int i = 0; i < 12; ++i) axis.stop(2e-3 * (i + 1));
+    DwellDetector detector({}, {"A"}, {200e-6});
+    std::vector<Point> points;
+    detector.push(axis.frames, points);
+    detector.flush(points);
+    const Notices all = detector.notices(points);
+    EXPECT_EQ(test::has(all, NoticeCode::stops_may_be_missed), dwell_s < 1) << points.size();
+    for (const Notice& each : all)
+      if (each.code == NoticeCode::stops_may_be_missed) {
+        EXPECT_NEAR(test::number(each, "rate_hz"), 20, 1e-9);
+        EXPECT_NEAR(test::number(each, "needed_s"), 1, 1e-9);
+        EXPECT_EQ(test::number(each, "points"), static_cast<double>(points.size()));
+      }
   }
 }
 

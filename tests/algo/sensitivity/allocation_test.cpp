@@ -239,5 +239,14 @@ TEST(Comparison, StandardErrorHoldsForPairedTrials) {
   EXPECT_NEAR(squares / 30, 1, 0.8);
 }
 
+// All trials of a whole number of tasks, of one more and of one less are counted.
+TEST(Allocation, CountsEachTrial) {
+  StudyPlan plan = plan_of(drift("A", 6) + allocation("\"probe.A.drift_nm\"", 1e6));
+  for (const std::uint64_t trials : {127u, 128u, 129u, 255u, 256u, 257u}) {
+    plan.allocations.at(0).trials = trials;
+    EXPECT_EQ(allocate_first(plan).reached, 1) << trials;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

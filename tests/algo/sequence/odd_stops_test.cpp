@@ -297,5 +297,35 @@ TEST(OddStopsOfALog, KeepsAllPlacesWithOneVisitEach) {
   EXPECT_TRUE(left_out_reasons({{0, 1}, {10, 1}, {30, 1}, {20, -1}}).empty());
 }
 
+// The log begins at the first target, which is then visited `forward` times from below and
+// `reverse` times from above; the others are visited twice from each side.
+int assumed_target_of(int forward, int reverse) {
+  std::vector<double> targets_m;
+  std::vector<MeasuredPoint> points;
+  const auto stop_at = [&](int target, int direction) {
+    MeasuredPoint p;
+    p.target = target;
+    p.point.position_m = targets_m[static_cast<std::size_t>(target) - 1];
+    p.point.direction = direction;
+    points.push_back(p);
+  };
+  for (int i = 0; i < 6; ++i) targets_m.push_back(10e-3 * i);
+  stop_at(1, 1);
+  add_flag(points.front().point, Flag::approach_assumed);
+  for (int pass = 0; pass < 2; ++pass) {
+    if (pass < forward) stop_at(1, 1);
+    for (int t = 2; t <= 6; ++t) stop_at(t, 1);
+    for (int t = 6; t >= 2; --t) stop_at(t, -1);
+    if (pass < reverse) stop_at(1, -1);
+  }
+  return leave_out_odd_stops(points, targets_m).assumed_target;
+}
+
+TEST(OddStopsOfALog, FirstTargetIsAssumedIfItHasOneApproach) {
+  EXPECT_EQ(assumed_target_of(2, 2), 0);
+  EXPECT_EQ(assumed_target_of(1, 2), 0);
+  EXPECT_EQ(assumed_target_of(0, 2), 1);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -13,9 +13,9 @@
 namespace mdof::algo {
 namespace {
 
-using Places = std::vector<double>;
+using StopPlaces = std::vector<double>;
 
-std::vector<Point> stops_at(const Places& positions_m) {
+std::vector<Point> stops_at(const StopPlaces& positions_m) {
   std::vector<Point> points;
   for (const double x : positions_m) {
     Point p;
@@ -39,50 +39,52 @@ MeasuredPoint stop_of(int target, double position_m, int direction, double trave
 }
 
 TEST(TargetsOfStops, AreEmptyWithoutStops) {
-  EXPECT_EQ(stop_targets({}), Places{});
-  EXPECT_EQ(stop_targets(stops_at({3e-3})), Places{3e-3});
+  EXPECT_EQ(stop_targets({}), StopPlaces{});
+  EXPECT_EQ(stop_targets(stops_at({3e-3})), StopPlaces{3e-3});
 }
 
 // The stops of a target may scatter by at most 50 um.
 TEST(TargetsOfStops, ScatterByAtMostFiftyMicrometres) {
-  EXPECT_EQ(stop_targets(stops_at({0, 50e-6, 10e-3})), (Places{0, 10e-3}));
-  EXPECT_EQ(stop_targets(stops_at({0, 51e-6, 10e-3})), (Places{0, 51e-6, 10e-3}));
+  EXPECT_EQ(stop_targets(stops_at({0, 50e-6, 10e-3})), (StopPlaces{0, 10e-3}));
+  EXPECT_EQ(stop_targets(stops_at({0, 51e-6, 10e-3})), (StopPlaces{0, 51e-6, 10e-3}));
 }
 
 // The distance to the next target is at least ten times the scatter of the stops. The test uses
 // multiples of 2^-18 m, which have no rounding errors.
 TEST(TargetsOfStops, AreTenTimesAsFarApartAsTheirStops) {
   const double part_m = 0x1p-18;  // 3.8 um
-  EXPECT_EQ(stop_targets(stops_at({0, part_m, 11 * part_m})), (Places{0, 11 * part_m}));
+  EXPECT_EQ(stop_targets(stops_at({0, part_m, 11 * part_m})), (StopPlaces{0, 11 * part_m}));
   EXPECT_EQ(stop_targets(stops_at({0, part_m, 10.9 * part_m})).size(), 3u);
 }
 
 // Ratios of successive gaps: the first gap is 20 times the smallest scatter (2 um), the second gap
 // is 11 times the first. The first ratio is larger and is used.
 TEST(TargetsOfStops, FirstGapDecidesIfItsRatioIsLarger) {
-  EXPECT_EQ(stop_targets(stops_at({0, 1e-7, 40.1e-6, 480.1e-6})), (Places{0, 40.1e-6, 480.1e-6}));
+  EXPECT_EQ(stop_targets(stops_at({0, 1e-7, 40.1e-6, 480.1e-6})),
+            (StopPlaces{0, 40.1e-6, 480.1e-6}));
 }
 
 // The larger ratio is used: steps of 4, 40 and 5956 um have the ratios 10 and 149. A step of 60 um
 // is too large for scatter, so the ratio after it is not used.
 TEST(TargetsOfStops, LargestGapRatioDecides) {
   EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 64e-6, 6e-3})).size(), 3u);
-  EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 44e-6, 6e-3})), (Places{0, 6e-3}));
+  EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 44e-6, 6e-3})), (StopPlaces{0, 6e-3}));
 }
 
 TEST(TargetsOfStops, StopsWithinTwoMicrometresAreOne) {
-  EXPECT_EQ(stop_targets(stops_at({2e-6, 0, 1e-6, 3e-6})), Places{2e-6});
-  EXPECT_EQ(stop_targets(stops_at({0, 1e-9, 0.5e-6, 2e-6})), Places{0});
+  EXPECT_EQ(stop_targets(stops_at({2e-6, 0, 1e-6, 3e-6})), StopPlaces{2e-6});
+  EXPECT_EQ(stop_targets(stops_at({0, 1e-9, 0.5e-6, 2e-6})), StopPlaces{0});
   EXPECT_EQ(stop_targets(stops_at({0, 2.1e-6})).size(), 2u);
 }
 
 // The position of a target is its first stop, not the lowest and not the last.
 TEST(TargetsOfStops, AreAtTheFirstStop) {
-  EXPECT_EQ(stop_targets(stops_at({5.001e-3, 1e-6, 5e-3, 0, 5.002e-3})), (Places{1e-6, 5.001e-3}));
+  EXPECT_EQ(stop_targets(stops_at({5.001e-3, 1e-6, 5e-3, 0, 5.002e-3})),
+            (StopPlaces{1e-6, 5.001e-3}));
 }
 
 TEST(NearestTarget, IsTheNearerNeighbour) {
-  const Places targets_m = {0, 1, 3};
+  const StopPlaces targets_m = {0, 1, 3};
   EXPECT_EQ(nearest_target(targets_m, -5), 0u);
   EXPECT_EQ(nearest_target(targets_m, 0.4), 0u);
   EXPECT_EQ(nearest_target(targets_m, 0.5), 0u);  // two targets are equally far: the lower one

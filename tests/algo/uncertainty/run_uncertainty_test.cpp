@@ -198,5 +198,43 @@ TEST(RunUncertainty, IsEmptyWithoutPoints) {
   EXPECT_TRUE(run_uncertainty(rig, without_points()).points.empty());
 }
 
+// A removed drift acts on EYX only. It includes the slow noise of EYX, so that the random variance
+// of EYX is the noise of the stop; the other errors keep the scatter of the visits.
+TEST(RunUncertainty, RemovedDriftReplacesTheScatterOfItsError) {
+  const Rig rig = rig_x_with("", "");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.u_reading_m = 10e-9;
+  synthetic.added = [&](std::size_t k, double, double, double time_s) {
+    const int pass = static_cast<int>((time_s - 5) / 90);
+    return k < 3 ? (pass % 3 - 1) * 100e-9 : (pass % 2 == 0 ? 1 : -1) * (pass / 2 - 1) * 100e-9;
+  };
+  const auto run = synthetic.measure();
+  const auto before = PointUncertainties(run).stated();
+  Contributor drift;
+  drift.name = {ContributorKind::removed_drift};
+  drift.declared.u = 1;
+  std::vector<PointShifts> parts(2, PointShifts(run.points.size()));
+  for (PointShifts& part : parts)
+    for (Errors5& shift : part) shift[kDy] = 30e-9;
+  PointUncertainties points(run);
+  points.add(drift, parts);
+  const auto after = points.stated();
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    const double noise =
+        std::sqrt(named_from_local(Axis::x, run.points[j].errors.covariance)[6 * kEYX]);
+    EXPECT_GT(before[j].u_random[kEYX], 2 * noise);
+    EXPECT_NEAR(after[j].u_random[kEYX], noise, 1e-15);
+    EXPECT_NEAR(after[j].u[kEYX], std::hypot(noise, 30e-9, 30e-9), 1e-15);
+    for (const auto k : {kEZX, kEAX, kEBX, kECX}) EXPECT_EQ(after[j].u[k], before[j].u[k]);
+  }
+  // A contributor without an effect, and another contributor, leave the scatter.
+  PointUncertainties none(run), other(run);
+  none.add(drift, {PointShifts(run.points.size())});
+  drift.name = {ContributorKind::simplified_model};
+  other.add(drift, parts);
+  EXPECT_EQ(none.stated()[5].u_random, before[5].u_random);
+  EXPECT_EQ(other.stated()[5].u_random, before[5].u_random);
+}
+
 }  // namespace
 }  // namespace mdof::algo

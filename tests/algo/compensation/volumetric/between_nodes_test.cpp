@@ -149,5 +149,20 @@ TEST(BetweenNodes, UHoldsTheTruth) {
   }
 }
 
+// u of EXY is 1 nm at y = 0 and 1 µm elsewhere, u of EXX increases from 1 nm to 1 µm in its first
+// cell. Between two nodes of the first row u is then exact, so that the interpolation of EXX is not
+// hidden by u between the nodes of the other rows.
+TEST(BetweenNodes, TheFirstNodeCounts) {
+  Machine m = known_machine(4);
+  error_of(m, 'X', 0).u = {1e-9, 1e-6, 1e-6, 1e-6};
+  error_of(m, 'Y', 0).u = {1e-9, 1e-6, 1e-6, 1e-6};
+  error_of(m, 'X', 0).curvature = {0.03, 0, 0};
+  const auto t = build_volumetric(m, plane(kTargets_m));
+  ASSERT_TRUE(t) << t.error().message;
+  const double curved = between_targets(5e-3, 0.03);
+  EXPECT_NEAR(t->u_between_m[0][0][0], curved, 2e-9);
+  EXPECT_NEAR(volumetric_at(*t, {5e-3, 0, 0}).u_m[0], std::hypot(0.5e-6, curved), 2e-9);
+}
+
 }  // namespace
 }  // namespace mdof::algo

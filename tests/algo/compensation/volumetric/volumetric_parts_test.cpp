@@ -198,8 +198,8 @@ double u_with_common_noise(const VolumetricTable& table, const Vec3& part, std::
 // Two nodes; three places that are drawn anew in each simulation, inside the cell, on a face and on
 // an edge; and the centre of the cell, where the linear interpolation deviates most.
 constexpr double kMiddle_m = kPartsTravel_m / 2;
-using Places = std::array<Vec3, 6>;
-Places random_places(std::mt19937_64& source) {
+using SixPlaces = std::array<Vec3, 6>;
+SixPlaces random_places(std::mt19937_64& source) {
   std::uniform_real_distribution<double> along(0, kPartsTravel_m);
   return {{{0, 0, 0},
            {kPartsTravel_m, kPartsTravel_m, kPartsTravel_m},
@@ -227,7 +227,7 @@ void count_coverage(const Simulated& s, int simulations, std::mt19937_64& source
   for (int n = 0; n < simulations; ++n) {
     const auto table = build_volumetric(simulated_measurement(s, source, true, true), request);
     ASSERT_TRUE(table) << table.error().message;
-    const Places places = random_places(source);
+    const SixPlaces places = random_places(source);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const VolumetricValue value = volumetric_at(*table, places[i]);
       const Vec3 truth = true_correction(s.machine, places[i]);

@@ -225,5 +225,39 @@ TEST(CircularTest, MatchesManualCalculationOfHarmonics) {
   EXPECT_TRUE(std::isnan(one_way->F_ccw_m[0]));
 }
 
+// One of 16 deviations is 1, at any angle. The least-squares circle has the radius 1/16 and its
+// centre is 2/16 towards this angle: 13/16 remains there, and -1/16 - cos(22.5°)/8 at its
+// neighbours.
+TEST(CircularTest, CountsEachAngle) {
+  const double low = -1.0 / 16 - std::cos(std::numbers::pi / 8) / 8;
+  for (std::size_t spike = 0; spike < 16; ++spike)
+    for (const bool is_ccw : {true, false}) {
+      CircularPath path;
+      for (int i = 0; i < 16; ++i) path.angle_rad.push_back(2 * std::numbers::pi * i / 16);
+      path.ccw_m.assign(16, 0);
+      path.cw_m.assign(16, 0);
+      (is_ccw ? path.ccw_m : path.cw_m)[spike] = 1;
+      const auto both = circular_figures(path);
+      ASSERT_TRUE(both);
+      EXPECT_NEAR(both->H_m, 1, 1e-12);
+      EXPECT_NEAR(is_ccw ? both->G_ccw_m : both->G_cw_m, 13.0 / 16 - low, 1e-12);
+      EXPECT_NEAR(is_ccw ? both->G_cw_m : both->G_ccw_m, 0, 1e-12);
+      EXPECT_NEAR(both->D_m, 1.0 / 32, 1e-12);
+      EXPECT_NEAR(both->centre_m[0], std::cos(path.angle_rad[spike]) / 16, 1e-12);
+      EXPECT_NEAR(both->centre_m[1], std::sin(path.angle_rad[spike]) / 16, 1e-12);
+      // About the common centre, 1/16 towards the spike, and without the radius.
+      const auto& F = is_ccw ? both->F_ccw_m : both->F_cw_m;
+      EXPECT_NEAR(F[0], 15.0 / 16, 1e-12);
+      EXPECT_NEAR(F[1], -std::cos(std::numbers::pi / 8) / 16, 1e-12);
+      // The other direction has 1/16 opposite to the spike, and -1/16 at it.
+      EXPECT_NEAR(both->Gb_m, 15.0 / 16 + 1.0 / 16, 1e-12);
+      EXPECT_NEAR((is_ccw ? both->F_cw_m : both->F_ccw_m)[0], 1.0 / 16, 1e-12);
+      EXPECT_NEAR((is_ccw ? both->F_cw_m : both->F_ccw_m)[1], -1.0 / 16, 1e-12);
+      const CircularPath about = centred(path, *both);
+      EXPECT_NEAR((is_ccw ? about.ccw_m : about.cw_m)[spike], 15.0 / 16, 1e-12);
+      EXPECT_NEAR((is_ccw ? about.cw_m : about.ccw_m)[spike], -1.0 / 16, 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -98,5 +98,17 @@ TEST(PlaceWatch, ReportsNumberAndFirstScan) {
   EXPECT_NE(test::shown(watch.notices(500 * kMs)).find("is_lost=0"), std::string::npos);
 }
 
+TEST(PlaceWatch, ReportsASingleScan) {
+  PlaceWatch missing(100), stray(100);
+  missing.begin_at(0, 0);
+  EXPECT_EQ(placed(missing, {{1, 0.001}, {2, kNaN}, {3, 0.002}}), "+-+");
+  EXPECT_EQ(test::shown(missing.notices(0)), "position_missing scans=1 first_s=0.002\n");
+  stray.begin_at(0, 0);
+  EXPECT_EQ(placed(stray, {{1, 0.001}, {2, 5.001}, {3, 0.002}}), "+-+");
+  EXPECT_EQ(test::shown(stray.notices(0)),
+            "position_unreachable scans=1 jump_mm=5000 position_mm=1 first_s=0.002 "
+            "max_speed_mm_s=100000 is_lost=0\n");
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -74,5 +74,19 @@ TEST(ModelContributor, IsOneStandardUncertainty) {
   EXPECT_EQ(found->parts()[0].size(), run.points.size());
 }
 
+// A point without errors has no shift; the shifts of the other points remain.
+TEST(ModelContributor, PointsWithoutErrorsAreNotShifted) {
+  const Rig rig = rig_x_with("", "");
+  auto run = tilting(rig, Model::simplified);
+  const auto whole = model_contributor(rig, run, Model::simplified)->parts();
+  run.points[6].errors.valid = false;
+  const auto some = model_contributor(rig, run, Model::simplified)->parts();
+  ASSERT_EQ(some.size(), 1u);
+  ASSERT_EQ(some[0].size(), run.points.size());
+  EXPECT_NE(whole[0][6], Errors5{});
+  for (std::size_t j = 0; j < run.points.size(); ++j)
+    EXPECT_EQ(some[0][j], j == 6 ? Errors5{} : whole[0][j]) << j;
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -303,6 +304,46 @@ TEST(CalibratedDirections, ReplaceTheDirectionsOfTheRig) {
     const Eigen::MatrixXd recorded = covariance("");
     EXPECT_GT(recorded.norm(), 0) << id;
     EXPECT_EQ((covariance("u_direction_mrad = 5") - recorded).norm(), 0) << id;
+  }
+}
+
+// The fixture was installed with a turn and an offset about and along each axis of the machine.
+// Expected: half the difference of the readings of two fixtures that are moved as a whole and
+// zeroed at the travel 0.
+TEST(InstallationCovariance, MatchesAMovedFixture) {
+  constexpr double d = 30e-3;
+  const double angle_mrad[] = {0.5, 0.7, 0.9}, offset_mm[] = {0.02, 0.03, 0.05};
+  const Errors5 carriage = {20e-6, -10e-6, 1e-3, 6e-3, -4e-3};
+  for (int which = 0; which < 6; ++which) {
+    const auto axis = which % 3;
+    const bool is_turn = which < 3;
+    std::string values[3] = {"0", "0", "0"};
+    values[axis] = std::to_string(is_turn ? angle_mrad[axis] : offset_mm[axis]);
+    const Rig rig = test::rig_x_with("", "",
+                                     std::string("[installation]\n") +
+                                         (is_turn ? "u_angle_mrad" : "u_offset_mm") + " = [" +
+                                         values[0] + ", " + values[1] + ", " + values[2] + "]\n");
+    const Solver solver = Solver::create(rig, Model::rigid).value();
+    const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
+    const auto zeroed = [&](double sign) {
+      Fixture moved = solver.fixture();
+      for (FixtureProbe& probe : moved.probes) {
+        if (is_turn) {
+          const Eigen::AngleAxisd turn(sign * 1e-3 * angle_mrad[axis], unit);
+          probe.p_MP = turn * probe.p_MP;
+          probe.u_M = turn * probe.u_M;
+        } else {
+          probe.p_MP += sign * 1e-3 * offset_mm[axis] * unit;
+        }
+      }
+      return Eigen::VectorXd(rigid_readings(moved, d, carriage) -
+                             rigid_readings(moved, 0, Errors5{}));
+    };
+    const Eigen::VectorXd by = (zeroed(1) - zeroed(-1)) / 2;
+    const Eigen::MatrixXd found =
+        declared_covariance(rig, solver, d, carriage, std::vector<double>(5, 0.0), 0);
+    EXPECT_GT(by.norm(), 1e-9) << which;
+    EXPECT_LT((found - by * by.transpose()).norm(), 1e-3 * by.squaredNorm()) << which;
   }
 }
 

@@ -282,5 +282,26 @@ TEST(Repeatability, UncertaintyMatchesAnExhaustiveSearch) {
     }
 }
 
+// D reads EYX at each visit. An error e of its gain increases each visit, and thus R, by e times
+// its value: U(R) = 1.96 u(e) R. The noise is added by its own trials.
+TEST(PositioningByHand, UOfTheRepeatabilityIsThatOfAGain) {
+  const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 50000");
+  const double off_m[] = {-3e-6, 1e-6, 2e-6};  // of each run: s = √7 µm
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
+  synthetic.added = [&](std::size_t k, double, double, double time_s) {
+    return k < 3 ? 0 : off_m[static_cast<int>((time_s - 5) / 180)];
+  };
+  const auto U = [&](double noise_m) {
+    synthetic.u_reading_m = noise_m;
+    return run_positioning_uncertainty(rig, synthetic.measure(), 0, true).value();
+  };
+  const double expected = 1.96 * 0.05 * 4 * std::sqrt(7.0) * 1e-6;
+  const auto exact = U(0);
+  for (const double found : {exact.R, exact.R_forward, exact.R_reverse})
+    EXPECT_NEAR(found / expected, 1, 0.1);
+  // The noise of one visit: U of R increases, but by less than that of all visits together.
+  EXPECT_GT(U(1e-6).R_forward, 1.5 * exact.R_forward);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -68,6 +68,7 @@ TEST(RepeatabilityByHand, IsTheScatterWithoutThePasses) {
   for (std::size_t k = 0; k < 5; ++k) {
     const auto by = static_cast<double>(k + 1);
     EXPECT_TRUE(found.by_scatter[k]);
+    EXPECT_NEAR(found.u_visit[k], by * std::sqrt(variance), 1e-9);
     for (const Errors5& u : found.u) EXPECT_NEAR(u[k], by * std::sqrt(variance / 4), 1e-9);
     // The means of the two runs deviate by ±(3 + 5)/2 from their mean: a variance of 32 with one
     // degree of freedom. The contribution of the scatter to a mean of six visits is subtracted. The
@@ -338,6 +339,32 @@ TEST(IndependentParts, AreCombinedWithTheirShifts) {
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_EQ(parts[0], (std::vector<Errors5>{{1, 2, 3.5, 4, 5}, {10, 2, 0, 0, 0}}));
   EXPECT_EQ(parts[1], (std::vector<Errors5>{{0, 0, -2, 0, 0}, {0, -8, 0, 0, 0}}));
+}
+
+// Target 4 has one visit, so its residual is unknown. The residuals of the other visits are those
+// of two_runs_by_hand(), and each of their visits has a quarter of the weight.
+TEST(RepeatabilityByHand, ASingleVisitHasNoResidualForTheCorrelation) {
+  auto points = two_runs_by_hand();
+  points.insert(points.begin() + 3, visit_by_hand(4, 1, 1, {7, 8, 9, 10, 11}));
+  std::vector<NoisyVisit> visits;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    MeasuredPoint& p = points[i];
+    p.point.begin_ns = p.point.end_ns = static_cast<std::int64_t>(1'000'000'000 * i);
+    const std::size_t target = static_cast<std::size_t>(p.target) - 1;
+    const std::size_t way = p.point.direction > 0 ? 0 : 1;
+    const bool single = p.target == 4;
+    visits.push_back({target, static_cast<std::size_t>(2 * p.run) + way, static_cast<double>(i),
+                      single ? 1 : 0.25,
+                      single ? std::nan("") : (p.run == 1 ? 1 : -1) * kOff[way][target]});
+  }
+  const Repeatability found = repeatability_by_hand(points);
+  EXPECT_NEAR(found.freedom, 4, 1e-12);
+  const std::vector<double> weights = {1, -2, 3, 0.5};
+  const auto expected = CorrelatedNoise(visits, 4).of(weights);
+  ASSERT_TRUE(found.correlated[0]);
+  EXPECT_NEAR(found.correlated[0]->of(weights).square, expected.square, 1e-9);
+  EXPECT_NEAR(found.correlated[0]->of(weights).freedom, expected.freedom, 1e-9);
+  EXPECT_GT(std::abs(expected.square - 1), 1e-3);
 }
 
 }  // namespace

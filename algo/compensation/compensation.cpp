@@ -343,6 +343,7 @@ TableValue table_at(const CompensationTable& table, double position_m, TableSide
   const auto declared = [&](std::size_t k) {
     if (!table.has_declared()) return 0.0;
     const auto& u = table.u_declared[k];
+    if (place.share == 0.0) return u[place.below];
     const double above = u[std::min(place.below + 1, u.size() - 1)];
     return place.share == 1.0 ? above : u[place.below] + (above - u[place.below]) * place.share;
   };

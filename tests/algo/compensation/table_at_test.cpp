@@ -176,11 +176,12 @@ TEST(TableAt, UIsSufficientForAnyCorrelation) {
     }
 }
 
-// At a target, u is that of the target, also if the target before has no declared u.
-TEST(TableAt, UAtTheLastTargetDoesNotDependOnTheTargetBefore) {
+// At a target, u is that of the target, also if the target beside it has no declared u.
+TEST(TableAt, UAtATargetDoesNotDependOnTheTargetsBeside) {
   CompensationTable table = table_with_u();
   table.u_declared[1] = {5e-9, kNaN, 7e-9};
   EXPECT_NEAR(table_at(table, 40e-3, TableSide::forward).u[1], std::hypot(7e-9, 3e-9), 1e-21);
+  EXPECT_NEAR(table_at(table, 0, TableSide::forward).u[1], std::hypot(5e-9, 8e-9), 1e-21);
   EXPECT_TRUE(std::isnan(table_at(table, 20e-3, TableSide::forward).u[1]));
 }
 

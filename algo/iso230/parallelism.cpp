@@ -64,7 +64,7 @@ Motion motion_of(const Run& measured) {
 
 Result<ReferenceLines> lines_of(const Run& run, const Motion& motion, std::size_t named) {
   auto lines = reference_lines(motion.travel_m, column(motion.means, named));
-  if (!lines) return in_context("run " + std::to_string(run.header.id), std::move(lines.error()));
+  if (!lines) return in_context(run_text(run), std::move(lines.error()));
   return lines;
 }
 
@@ -93,19 +93,13 @@ Result<CommonTravel> over_common_travel(const Run& a, const Run& b) {
 }
 
 Result<Parallelism> parallelism(const Run& run_a, const Run& run_b, bool take_partial) {
-  if (run_a.header.axis != run_b.header.axis)
-    return bad_input("run " + std::to_string(run_a.header.id) + " measures axis " +
-                         letter(run_a.header.axis) + " and run " + std::to_string(run_b.header.id) +
-                         " measures axis " + letter(run_b.header.axis) +
-                         ", but parallelism compares two motions along one axis",
-                     Remedy::compare_two_axes);
   MDOF_CHECK(check_usable({&run_a, &run_b}, take_partial, "parallelism"));
+  MDOF_TRY(const CommonTravel common, over_common_travel(run_a, run_b));
   Parallelism found;
   found.run_a = run_a.header.id;
   found.run_b = run_b.header.id;
   found.axis = run_a.header.axis;
   found.simulated = run_a.header.simulated || run_b.header.simulated;
-  MDOF_TRY(const CommonTravel common, over_common_travel(run_a, run_b));
   found.from_m = common.from_m;
   found.to_m = common.to_m;
   const Motion motion_a = motion_of(common.a), motion_b = motion_of(common.b);

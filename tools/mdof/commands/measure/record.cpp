@@ -130,7 +130,7 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
       MDOF_CHECK(ask_to_stop(client, run));
       stopped = now;
       say("mdofd ends run " + std::to_string(run) +
-          " and evaluates it; a further Ctrl-C ends only this command");
+          " and evaluates it; Ctrl-C now ends only this command");
       interrupt.reset();
     }
     if (stopped && now - *stopped > kEndPatience)

@@ -125,7 +125,7 @@ std::vector<Eigen::Vector3d> neighbours(const std::vector<Eigen::Vector3d>& at_m
     const auto k = static_cast<std::size_t>(step < 0 ? i : n - 1 - i);
     const std::size_t beside = step < 0 ? k - 1 : k + 1;
     const bool is_same = at_m[k].head<2>() == at_m[beside].head<2>();
-    // All points before the first different place have no neighbour.
+    // Points at one place have the same neighbour.
     if (!is_same)
       found[k] = at_m[beside];
     else if (found[beside].head<2>() != at_m[beside].head<2>())

@@ -83,11 +83,9 @@ Status judge_present(const std::vector<JointSettings::Correction>& corrections,
                      const std::vector<CompensationTable>& tables, const ExportRequest& request,
                      std::vector<std::string>& marks) {
   for (const auto& [axis, is_file, text] : corrections) {
-    const auto table = std::find_if(tables.begin(), tables.end(), [axis = axis](const auto& each) {
-      return letter(each.axis) == axis;
-    });
-    // A table that was added to an applied table contains both and may replace its file.
-    if (table == tables.end() || (is_file && table->added_to)) continue;
+    if (std::none_of(tables.begin(), tables.end(),
+                     [axis = axis](const auto& table) { return letter(table.axis) == axis; }))
+      continue;
     const std::string without = is_file ? "without a COMP_FILE" : "with BACKLASH = 0";
     const std::string why =
         request.ini + ": " + text +
